@@ -52,7 +52,7 @@ void holdStandardStreams() {
   }
 }
 
-// Whether everything printed was written.
+// Returns whether everything printed was written; sets `why` if not.
 bool flushOutput(std::string& why) {
   errno = 0;
   const bool flushed = std::fflush(stdout) == 0;

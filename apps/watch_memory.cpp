@@ -13,7 +13,7 @@
 #endif
 #endif
 #ifdef __linux__
-#include <features.h>  // says whether it is glibc
+#include <features.h>  // defines __GLIBC__ for glibc
 #endif
 
 #if defined(__GLIBC__) && !defined(COASTMESH_OTHER_MALLOC)
@@ -39,8 +39,8 @@ void* __libc_memalign(std::size_t alignment, std::size_t size) noexcept;
 
 namespace {
 
-// The next definition of a function, looked up at the first call. `own` is the C library's, for what looking up itself
-// asks for, before the answer is known.
+// The next definition of a function, looked up at the first call. `own` is the C library's, for requests of the lookup
+// itself.
 template <typename Function>
 class Next {
  public:

@@ -46,7 +46,7 @@ struct CheckUsage {
 // A defect as it is reported, whichever check found it.
 struct DefectRow {
   std::string kind;
-  std::string target;  // the model that minds; empty for any
+  std::string target;  // the model that it matters to; empty: any
   Point place;
   std::int64_t triangle = -1;
   std::int64_t node = -1;
@@ -91,8 +91,8 @@ DefectRow rowOf(const TargetDefect& defect, const std::string& target) {
   return row;
 }
 
-// Where triangles meet and do not hang together. Nodes are among what is looked for for a model; both shores of a weir
-// may be at one place.
+// Where triangles meet without being connected: overlaps and, `with_nodes`, repeated and hanging nodes, which
+// `checkTarget` reports for models. Nodes of weirs are exempt: both sides may coincide.
 std::vector<DefectRow> meetingRows(const Grid& grid, bool with_nodes) {
   std::vector<DefectRow> rows;
   std::vector<EdgeConflict> conflicts;
@@ -158,8 +158,8 @@ VectorLayer layerOf(const std::vector<DefectRow>& defects) {
   return layer;
 }
 
-// A file of a format for models is checked as they would read it. Other files have longitudes that jump at 180, which
-// are put into one turn when they are converted: for the check they are too. The grid is as before in the end.
+// Formats of models are checked as models read them. In other formats longitudes may jump at 180°: conversion unwraps
+// them into one turn, and so does this check. The grid is restored at the end.
 std::vector<DefectRow> targetRows(Grid& grid, const std::vector<Target>& targets, const CheckUsage& usage,
                                   const Interrupt& interrupt) {
   std::vector<DefectRow> rows;
@@ -214,7 +214,7 @@ int runCheck(const CheckUsage& usage, Run& run) {
   if (targets.empty() && usage.target_check.time_step_s > 0.0)
     for (const TargetDefect& defect : checkTimeStep(grid, usage.target_check.time_step_s))
       rows.push_back(rowOf(defect, {}));
-  // Advice of all models after all refusals.
+  // Advice for all models comes after all defects.
   std::ranges::stable_partition(rows, isDefect);
   if (layer != nullptr) {
     layer->make([&](const std::string& path) { writeVectorLayers(path, grid.crs, {layerOf(rows)}); });

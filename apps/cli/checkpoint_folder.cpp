@@ -24,12 +24,12 @@
 
 namespace coastmesh {
 
-// Found by the calls of `pass`.
+// Found by argument-dependent lookup from `pass`.
 auto partsOf(auto& stamp) requires std::is_same_v<std::remove_cvref_t<decltype(stamp)>, FileStamp> {
   auto& [path, bytes, changed_ns] = stamp;
   return std::tie(path, bytes, changed_ns);
 }
-// All but the version, which comes first.
+// All members but the version, which comes first.
 auto partsOf(auto& header) requires std::is_same_v<std::remove_cvref_t<decltype(header)>, CheckpointHeader> {
   auto& [version, options, shard, shards, files, input_digest, groups] = header;
   return std::tie(options, shard, shards, files, input_digest, groups);
@@ -46,7 +46,7 @@ constexpr const char *kLock = "coastmesh.lock", *kRun = "run", *kGroups = "group
   throw OutputError("'" + path.string() + "' cannot be written: " + std::strerror(error));
 }
 
-// Bytes on their way to a file, and their hash.
+// Buffers and hashes bytes that are written to a file.
 class Output {
  public:
   Output(int file, std::uint64_t at, const fs::path& path) : file_(file), at_(at), path_(path) {}
@@ -55,7 +55,7 @@ class Output {
     hash_.add(bytes);
     write(bytes);
   }
-  // The hash of all that was put comes last.
+  // Appends the hash of all bytes that were put.
   void end() {
     const std::uint64_t hash = hash_.value();
     write({reinterpret_cast<const char*>(&hash), sizeof hash});
@@ -98,7 +98,7 @@ class Output {
   ByteHash hash_;
 };
 
-// A file's bytes, for as long as this lives; empty where there is no such file.
+// Maps a file into memory during its lifetime; empty if the file does not exist.
 class MappedFile {
  public:
   explicit MappedFile(const fs::path& path) {
@@ -132,7 +132,7 @@ class MappedFile {
   std::size_t size_ = 0;
 };
 
-// Bytes less the hash that they end with; none where that is another.
+// The bytes without the hash at their end; nullopt if that does not match.
 std::optional<std::string_view> sound(std::string_view bytes) {
   std::uint64_t hash = 0;
   if (bytes.size() < sizeof hash) return std::nullopt;
@@ -150,7 +150,7 @@ std::vector<std::string> namesIn(const fs::path& folder, std::error_code& error)
   return names;
 }
 
-// What stands before a group in the file of groups.
+// Precedes each group in the file of groups.
 struct GroupMark {
   std::uint64_t group = 0, size = 0;
 };
@@ -177,7 +177,7 @@ CheckpointFolder::CheckpointFolder(const std::string& folder, CheckpointHeader h
                       "' cannot be made: " + (error ? error.message() : std::strerror(ENOENT)));
   }
   const std::vector<std::string> names = namesIn(folder_, error);
-  // Another run may have removed it just now.
+  // Another run may just have removed it.
   if (error && error != std::errc::no_such_file_or_directory)
     throw OutputError("the folder '" + folder + "' cannot be listed: " + error.message());
   if (!names.empty() && std::ranges::find(names, kLock) == names.end())
@@ -214,7 +214,7 @@ CheckpointFolder::~CheckpointFolder() {
   }
 }
 
-// A process that was killed holds its lock until all its memory is given back.
+// A killed process keeps its lock until all its memory is released, hence the retries.
 void CheckpointFolder::lock() {
   constexpr int kTries = 200;
   constexpr auto kWait = std::chrono::milliseconds(50);
@@ -223,7 +223,7 @@ void CheckpointFolder::lock() {
     lock_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (lock_ < 0 && errno != ENOENT) failToKeep(path, errno);
     if (lock_ < 0) {
-      // The run that had the folder is done and has removed it: this one begins anew.
+      // The previous run has finished and removed the folder: make it again.
       std::error_code error;
       made_ = fs::create_directory(folder_, error) || made_;
       if (error) failToKeep(folder_, error.value());
@@ -232,7 +232,7 @@ void CheckpointFolder::lock() {
     const int error = ::flock(lock_, LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
     struct stat ours {
     }, there{};
-    // Who had the lock may have removed the file when it was done.
+    // The previous owner may have removed the file when it finished.
     if (error == 0 && ::fstat(lock_, &ours) == 0 && ::stat(path.c_str(), &there) == 0 && ours.st_ino == there.st_ino)
       return;
     ::close(std::exchange(lock_, -1));
@@ -246,7 +246,7 @@ std::string CheckpointFolder::remedy() const { return ": remove the folder '" + 
 
 void CheckpointFolder::requireSameRun(const CheckpointHeader& kept) const {
   const std::string start = "--checkpoint " + folder_.string() + ": was begun ";
-  // The first option that is not the same, of either run.
+  // Names the first option that differs.
   const auto& [a, b] = std::tie(header_.options, kept.options);
   for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {
     if (i < a.size() && i < b.size() && a[i] == b[i]) continue;
@@ -266,7 +266,7 @@ void CheckpointFolder::begin(std::uint64_t input_digest, std::size_t groups) {
   if (begun_ && std::tie(header_.input_digest, header_.groups) != std::tuple(input_digest, std::uint64_t{groups}))
     throw InputError("the input has changed since '" + folder_.string() + "' was begun" + remedy());
   if (!begun_) {
-    // What a run left that ended while its files were being removed.
+    // A run may have ended while it removed its files.
     removeKept();
     header_.input_digest = input_digest;
     header_.groups = groups;
@@ -295,7 +295,7 @@ void CheckpointFolder::readGroups() {
     places_[mark.group] = {groups_end_ + kMarkBytes, mark.size};
     groups_end_ += kMarkBytes + mark.size + kHashBytes;
   }
-  // A group on which the run ended is not whole, and is made again.
+  // The group during which the run ended is incomplete; it is meshed again.
   if (groups_end_ < all.size() && ::ftruncate(groups_, static_cast<off_t>(groups_end_)) != 0) failToKeep(path, errno);
 }
 
@@ -324,7 +324,7 @@ void CheckpointFolder::keep(std::size_t group, const GroupResult& result) {
   output.put({reinterpret_cast<const char*>(&mark.group), sizeof mark.group});
   output.put({reinterpret_cast<const char*>(&mark.size), sizeof mark.size});
   putBytesOf(result, [&output](std::string_view bytes) { output.put(bytes); });
-  requireMemoryHeld();  // what was made without may be wrong
+  requireMemoryHeld();  // results of failed allocations may be wrong
   output.end();
   bytes_kept_ += output.at() - groups_end_;
   groups_end_ = output.at();
@@ -366,7 +366,7 @@ void CheckpointFolder::keepWhole(const std::string& name,
   ::close(file);
   if (::rename(unfinished.c_str(), path.c_str()) != 0) failToKeep(path, errno);
   const int folder = ::open(folder_.c_str(), O_RDONLY | O_CLOEXEC);
-  if (folder < 0) return;  // one that may be written to, but not listed
+  if (folder < 0) return;  // writable, but not readable
   ::fsync(folder);
   ::close(folder);
 }
@@ -384,7 +384,7 @@ CheckpointUse CheckpointFolder::use() const { return {groups_taken_, regions_gon
 
 void CheckpointFolder::removeKept() const {
   std::error_code ignored;
-  // First what says that there is something to go on from.
+  // First the file without which no run resumes.
   fs::remove(folder_ / kRun, ignored);
   for (const std::string& name : namesIn(folder_, ignored))
     if (name == kGroups || name.starts_with(kRounds) || name.ends_with(kUnfinished))

@@ -15,7 +15,7 @@
 
 namespace coastmesh {
 
-// A file that a run reads, by what changes where somebody writes to it. Of what is no regular file, the path alone.
+// The state of a file that a run reads; it changes when the file is written. Only the path if it is no regular file.
 struct FileStamp {
   std::string path;
   std::uint64_t bytes = 0;
@@ -25,7 +25,7 @@ struct FileStamp {
 };
 FileStamp stampOf(const std::string& path);
 
-// What a run has to have in common with the one that it goes on from.
+// What a run must have in common with the one that it resumes.
 struct CheckpointHeader {
   std::string version;
   GivenOptions options;
@@ -35,33 +35,32 @@ struct CheckpointHeader {
   std::uint64_t groups = 0;
 };
 
-// The folder of --checkpoint: each group that is done, and of those that are not the mesh after their last round. What
-// is kept there is whole or is not there, however the process ends. One run at a time has it.
+// The folder of --checkpoint: finished groups, and of unfinished ones the mesh after their last round. Each is saved
+// completely or not at all, however the process ends. Locked by one run at a time.
 class CheckpointFolder {
  public:
-  // Makes the folder where it is not there; else it has to be empty, or of a run with the same header, as far as that
-  // is known before the input is read. Throws OptionError, InputError for a file that has changed or what is damaged,
-  // and OutputError, as all below.
+  // Makes the folder if it does not exist; otherwise it must be empty, or of a run with the same header as far as that
+  // is known before the input is read. Throws OptionError, InputError if a file has changed or what was saved is
+  // damaged, and OutputError, as do all functions below.
   CheckpointFolder(const std::string& folder, CheckpointHeader header);
-  // Leaves what is kept.
+  // Keeps what was saved; if nothing was begun, removes what the constructor made.
   ~CheckpointFolder();
   CheckpointFolder(const CheckpointFolder&) = delete;
   CheckpointFolder& operator=(const CheckpointFolder&) = delete;
 
-  // Once the input is read.
+  // To be called once the input is read.
   void begin(std::uint64_t input_digest, std::size_t groups);
-  // The rest from several threads.
+  // The functions below may be called from several threads.
   bool has(std::size_t group) const { return places_.contains(group); }  // from an earlier run
   GroupResult take(std::size_t group);
-  // Unless it was there already, or lacks memory: then another run may do it.
+  // Does nothing if the group was taken from an earlier run, or if it lacks memory: another run may mesh it.
   void keep(std::size_t group, const GroupResult& result);
   RegionCheckpoint rounds(std::size_t group);
   CheckpointUse use() const;
-  // What to do where what is kept cannot be used, as the end of a sentence.
+  // What to do if the saved files cannot be used, as the end of a sentence.
   std::string remedy() const;
 
-  // The run is done: nothing is kept any more, and the folder goes where nothing else is in it. What cannot be removed
-  // stays.
+  // The run is done: removes what was saved, and the folder if nothing else is in it. Ignores errors.
   void finish() { remove(true); }
 
  private:
@@ -79,12 +78,12 @@ class CheckpointFolder {
 
   std::filesystem::path folder_;
   CheckpointHeader header_;
-  bool made_ = false;   // the folder, by this run
-  bool begun_ = false;  // there is something to go on from
+  bool made_ = false;   // this run made the folder
+  bool begun_ = false;  // there is a run to resume
   int lock_ = -1, groups_ = -1;
   std::uint64_t groups_end_ = 0;
   std::unordered_map<std::size_t, Place> places_;  // in the file of groups
-  std::mutex mutex_;                               // for what is appended to that
+  std::mutex mutex_;                               // guards appending to that file
   std::atomic<std::uint64_t> groups_taken_ = 0, regions_gone_on_ = 0, rounds_kept_ = 0, bytes_kept_ = 0;
 };
 

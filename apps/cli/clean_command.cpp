@@ -61,8 +61,8 @@ void cleanGroup(const JobInput& input, std::size_t group, const ItemLoop& loop, 
   }
 }
 
-// A vertex on the antimeridian has the longitude of the side that its edges lead to; -180 where they lead to both,
-// whichever ring was read first, so that a cleaned file that is cleaned again comes out the same.
+// Gives a vertex on the antimeridian the longitude of the side that its edges lead to, or -180 if they lead to both.
+// The order of rings has no effect, so that cleaning a cleaned file again gives the same file.
 void putOnOneSide(Domain& domain) {
   std::vector<char> west(domain.input_points.size(), 0), east = west;
   for (const Segment& s : domain.pslg.segments) {
@@ -98,7 +98,7 @@ CleanedInput cleanAll(const JobInput& input, Interrupt& interrupt) {
   return cleaned;
 }
 
-// What the input says of the segments of the boundary, by domain; empty where nothing is said.
+// Boundary types that the input gives to segments, by domain; empty if it has no types.
 BoundaryTypes boundaryTypes(const CleanUsage& usage, const JobInput& input, const CleanedInput& cleaned) {
   BoundaryTypes types;
   if (usage.input.boundary_column.empty() && input.boundaries().empty()) return types;
@@ -122,7 +122,7 @@ BoundaryTypes boundaryTypes(const CleanUsage& usage, const JobInput& input, cons
   return types;
 }
 
-// All groups in one graph. A .poly knows no projection, so they have to share a plane.
+// All groups in one graph. A .poly has no projection, so the groups must share a plane.
 Pslg joinedPslg(const CleanedInput& cleaned, const CleanUsage& usage, const Crs& crs) {
   const bool one_plane = cleaned.domains.size() == 1 || usage.input.crs != "auto" || crs.isPlane();
   if (!one_plane) {

@@ -42,14 +42,14 @@ bool lexLessPair(const Point& a, const Point& b, const Point& c, const Point& d)
   return a == c ? lexLess(b, d) : lexLess(a, c);
 }
 
-// An edge of the graph from its lesser end on.
+// An edge of the graph, from its lexicographically smaller end.
 struct PslgEdge {
   Point a, b;
   VertexId first, last;
   const char* kind;
   std::size_t domain;
   RegionId left, right;
-  std::size_t line;  // feature, or none
+  std::size_t line;  // feature, or kNoFeature
   std::string boundary{};
 };
 
@@ -74,7 +74,7 @@ std::vector<PslgEdge> sortedEdges(const std::vector<Domain>& domains, const Boun
   return edges;
 }
 
-// Numbers of features: areas once in each domain, in the domains' order, then lines, then regions.
+// Numbers of features: areas once per domain, in the order of domains, then lines, then regions.
 class Numbers {
  public:
   Numbers(const std::vector<PslgEdge>& edges, const Coastline& coastline) {
@@ -108,7 +108,7 @@ class Numbers {
   std::vector<std::size_t> features_;
 };
 
-// -1 outside and where nothing is said.
+// -1 outside, or if the feature has no number.
 std::int64_t fidOf(RegionId region, const Coastline& coastline) {
   return region < 0 ? -1 : coastline.features[static_cast<std::size_t>(region)].fid;
 }
@@ -153,7 +153,7 @@ VectorLayer attributeLayer(const Numbers& numbers, const Coastline& coastline) {
     ++id;
     const Feature& feature = coastline.features[f];
     for (const auto& [name, value] : feature.attributes) {
-      // Of a ring made of several lines, no more than its name is that of the first.
+      // A ring joined from several lines has the attributes of the first; only its name is kept.
       if (feature.from_lines && !isNameAttribute(name)) continue;
       layer.shapes.push_back({{}, {id, name, value}});
     }
@@ -161,7 +161,7 @@ VectorLayer attributeLayer(const Numbers& numbers, const Coastline& coastline) {
   return layer;
 }
 
-// As they were given: their borders within the domains are edges of the graph.
+// Regions as given; their borders inside the domains are edges of the graph.
 VectorLayer regionLayer(const Numbers& numbers, const Coastline& coastline) {
   VectorLayer layer{kRegionLayer, VectorLayer::Kind::Polygons, {{"feature_id", std::int64_t{}}}, {}};
   for (std::size_t i = 0; i < numbers.features().size(); ++i) {
@@ -173,7 +173,7 @@ VectorLayer regionLayer(const Numbers& numbers, const Coastline& coastline) {
   return layer;
 }
 
-// Vertices asked for that no edge has.
+// Requested vertices that are on no edge.
 VectorLayer vertexLayer(const std::vector<Domain>& domains) {
   VectorLayer layer{
       kVertexLayer, VectorLayer::Kind::Points, {{"region", std::int64_t{}}, {"number", std::int64_t{}}}, {}};
@@ -203,7 +203,7 @@ VectorLayer editLayer(std::span<const Edit> edits, const std::function<std::stri
   };
   std::vector<EarlierEdit> before = read.edits, now, all;
   for (const Edit& edit : edits) {
-    // These change nothing: what there is of them in a cleaned file was reported when it was cleaned.
+    // These change nothing; those in a cleaned file were reported when it was cleaned.
     if (read.cleaned && (edit.kind == EditKind::TouchingRing || edit.kind == EditKind::MisplacedRing)) continue;
     now.push_back({std::string(toString(edit.kind)), edit.place, edit.fid, source_of(edit.feature)});
   }

@@ -12,17 +12,16 @@
 
 namespace coastmesh {
 
-// By domain and segment: what the boundary is there, as `kindOfText` takes it. Empty, or empty texts, where nothing is
-// known.
+// Boundary type of each segment, by domain, as `kindOfText` takes it. Empty, or empty texts, if unknown.
 using BoundaryTypes = std::vector<std::vector<std::string>>;
 
-// What was changed, now or when the file was cleaned before, as points: the same edit found again counts once.
-// `source_of` says where a feature of the coastline was read.
+// The edits, of this cleaning and of an earlier one of the file, as points; an edit that is found again counts once.
+// `source_of` returns the source of a feature of the coastline.
 VectorLayer editLayer(std::span<const Edit> edits, const std::function<std::string(std::uint32_t)>& source_of,
                       const ReadReport& read);
 
-// Cleaned domains as layers that `readCleaned` makes the same domains of, with all that is known of their features: see
-// gis/read/cleaned_layers.hpp. Edges come in the order of their places.
+// Cleaned domains as layers from which `readCleaned` makes the same domains, with all that is known of their features:
+// see gis/read/cleaned_layers.hpp. Edges are sorted by place.
 std::vector<VectorLayer> cleanedLayers(const std::vector<Domain>& domains, const CleanReport& report,
                                        const Coastline& coastline, const ReadReport& read, const BoundaryTypes& types);
 

@@ -11,19 +11,19 @@ namespace coastmesh {
 
 class Cluster;
 
-// What a run of a command is given besides its options.
+// The context in which a command runs.
 struct Run {
   Interrupt& interrupt;
-  Cluster* cluster;                   // the other ranks of the run; null where there are none
+  Cluster* cluster;                   // the other ranks of the run; null if there are none
   std::vector<std::string> inputs;    // all files that the run reads
   std::vector<std::string> warnings;  // printed already; for the report
-  const OptionTable& options;         // all that was given
+  const OptionTable& options;         // all that were given
 
   void warn(const std::string& text);  // prints a line on standard error, and notes it
 };
 
-// A verb of the program: its options, bound to variables of its own, and what it does. `run` returns an exit code and
-// throws what main turns into messages and codes.
+// A command of the program: its options, bound to its own variables, and its action. `run` returns an exit code; main
+// turns its exceptions into messages and codes.
 struct Command {
   CommandLine line;
   std::function<int(Run&)> run;

@@ -2,10 +2,10 @@
 
 namespace coastmesh {
 
-// What the program's caller can count on; never to change.
+// Callers of the program rely on these: never change them.
 enum ExitCode : int {
   kExitDone = 0,
-  kExitShort = 1,        // done, but short of what was asked
+  kExitShort = 1,        // done, but a requirement is missed
   kExitUsage = 2,        // wrong usage
   kExitInput = 3,        // input unreadable or unusable
   kExitOutput = 4,       // output could not be written

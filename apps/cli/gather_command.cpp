@@ -14,8 +14,8 @@ struct GatherUsage {
   MeshRunUsage whole;
 };
 
-// The run that the shards are of, with their meshes in place of its own: whatever comes after meshing is done here, and
-// what shards lacked memory for.
+// Runs the job of the shards, taking their meshes instead of meshing. Later stages run here; so does the meshing of
+// groups for which a shard lacked memory.
 int runGather(GatherUsage& usage, Run& run) {
   const GatheredShards gathered(usage.shards);
   OptionTable job = meshJobOptions(usage.whole.mesh);

@@ -23,7 +23,7 @@ struct InfoUsage {
   SurfaceChoice surface;
 };
 
-// Endings of GIS layers, which may hold a mesh or a coastline: only a look inside can tell.
+// False for endings of mesh formats, except GIS layers, which may hold either: their content decides.
 bool mayHoldCoastline(const std::string& path) {
   const std::string ending = std::filesystem::path(path).extension().string();
   for (const GridFormat& format : gridFormats()) {

@@ -37,8 +37,7 @@ sigset_t setOf(const std::vector<int>& signals) {
 }
 
 Interrupt::Interrupt(Notes notes) : notes_(std::move(notes)), signals_(stopSignals()) {
-  // Whoever reads our output may go away first, and a file may come to its limit: such a write then fails as any other
-  // does.
+  // If the reader of the output ends, or a file reaches its size limit, the write fails like any other.
   signal(SIGPIPE, SIG_IGN);
   signal(SIGXFSZ, SIG_IGN);
   if (signals_.empty()) return;
@@ -78,7 +77,7 @@ void Interrupt::release(const std::filesystem::path& folder) noexcept {
   guarded_.erase(at);
 }
 
-// Whoever holds the lock may be the one that cannot go on.
+// Does not wait: the owner of the lock may be the thread that cannot continue.
 void Interrupt::removeGuarded() noexcept {
   const std::unique_lock lock(mutex_, std::try_to_lock);
   emptyGuarded();
@@ -88,7 +87,7 @@ void Interrupt::close() {
   const std::lock_guard lock(mutex_);
   if (requested_) throw Cancelled();
   closed_ = true;
-  // What is replaced is kept in these folders until all is in place.
+  // From here on these folders hold replaced files, needed until all outputs are in place.
   if (notes_)
     for (const auto& [given, folder] : guarded_) notes_(folder, false);
 }
@@ -118,8 +117,8 @@ void Interrupt::watch() {
   }
 }
 
-// The caller holds `mutex_`, so no folder comes under guard any more. A thread that is still writing may put another
-// file into a folder that is being emptied: hence the tries. Once a folder is gone nothing can be made in it.
+// With `mutex_` locked, no folder is added. A thread that is still writing may create files in a folder that is being
+// removed, hence the retries; once the folder is gone, nothing can be created in it.
 void Interrupt::emptyGuarded() noexcept {
   for (const auto& [given, folder] : guarded_) {
     for (int i = 0; i < kRemovalTries && !removeFolder(folder.c_str()); ++i) {

@@ -13,19 +13,18 @@
 
 namespace coastmesh {
 
-// What stops the program: of SIGINT, SIGTERM and SIGHUP those that are not ignored now. Whoever started the program may
-// have them ignored, as nohup does with SIGHUP; that has to stay so.
+// The signals that stop the program: SIGINT, SIGTERM and SIGHUP, without those that are ignored now. The caller of the
+// program may have had them ignored, as nohup does with SIGHUP; they must stay ignored.
 std::vector<int> stopSignals();
 sigset_t setOf(const std::vector<int>& signals);
 
-// SIGINT, SIGTERM and SIGHUP, turned into a question that the long stages ask. Where a library call does not come back
-// within kPatience, a watcher thread removes the folders under guard and ends the process itself, so that an
-// interrupted program is gone within a second and leaves nothing behind. To be made once, in main, before any other
-// thread.
+// Turns SIGINT, SIGTERM and SIGHUP into a flag that long stages check. If a library call does not return within
+// kPatience, a watcher thread removes the guarded folders and ends the process, so that an interrupted program ends
+// within a second and leaves no file. To be created once, in main, before any other thread.
 class Interrupt {
  public:
-  // What is told which folders come under guard (true) and which are released (false), for whoever removes them where
-  // this process does not come to that. May be empty.
+  // Called when a folder comes under guard (true) or is released (false), so that another process can remove folders if
+  // this one cannot. May be empty.
   using Notes = std::function<void(const std::filesystem::path& folder, bool guarded)>;
   explicit Interrupt(Notes notes = {});
   ~Interrupt();
@@ -33,21 +32,21 @@ class Interrupt {
   Interrupt& operator=(const Interrupt&) = delete;
 
   bool requested() const { return requested_.load(std::memory_order_relaxed); }
-  // Also after the point of no return: whoever only waits for others then need not.
+  // Also true for a signal after `close()`: there is no need to wait for other processes then.
   bool signalled() const { return requested() || missed_.load(std::memory_order_relaxed); }
-  // Throws Cancelled where a signal came.
+  // Throws Cancelled if a signal came.
   void check() const;
 
-  // `folder` holds nothing but files that are not finished; it goes if the watcher has to end the process.
+  // `folder` holds only unfinished files; it is removed if the watcher has to end the process.
   void guard(const std::filesystem::path& folder);
   void release(const std::filesystem::path& folder) noexcept;
-  // At an end that nothing can be done about any more: removes the folders under guard.
+  // For an end that cannot be prevented: removes the guarded folders.
   void removeGuarded() noexcept;
 
-  // The point of no return, before finished files are moved to their places: a signal that comes later changes nothing.
-  // Throws Cancelled where one came before.
+  // The point of no return, before finished files are moved into place: later signals have no effect. Throws Cancelled
+  // if one came before.
   void close();
-  // Where the run goes on after that: from here on a signal counts again, and so does one that came in between.
+  // For runs that continue after that: signals take effect again, including one that came in between.
   void reopen();
 
  private:
@@ -62,10 +61,10 @@ class Interrupt {
   bool ended_ = false;
   bool closed_ = false;
   std::atomic<bool> missed_{false};                                 // a signal came while closed
-  std::map<std::filesystem::path, std::filesystem::path> guarded_;  // as given, and from the root
+  std::map<std::filesystem::path, std::filesystem::path> guarded_;  // as given, and absolute
   Notes notes_;
   std::vector<int> signals_;  // those that stop the program
-  std::thread watcher_;       // none where nothing does
+  std::thread watcher_;       // not started if there are none
 };
 
 }  // namespace coastmesh

@@ -37,7 +37,7 @@ void passOn(int signal_number) {
   errno = before;
 }
 
-// Complete notes; what is left of `text` is the beginning of one.
+// Applies the complete notes in `text` and leaves the beginning of the next one.
 void takeNotes(std::string& text, std::set<std::string>& folders) {
   std::size_t end = 0;
   while ((end = text.find('\0')) != std::string::npos) {
@@ -68,8 +68,8 @@ void nameAs([[maybe_unused]] const char* name) {
 #endif
 }
 
-// A sweeper that no signal to the run or its group reaches, and that holds no file by which the run's end is detected.
-// It removes the folders once the child has ended, for any reason.
+// Forks a sweeper, which removes the guarded folders once the child has ended, for any reason. No signal to the run or
+// its group reaches it, and it holds no file by which the run's end is detected.
 pid_t makeSweeper(int from_child, int to_sweeper) {
   const pid_t sweeper = fork();
   if (sweeper != 0) return sweeper;
@@ -103,8 +103,8 @@ void awaitReaderOfErrors() {
   usleep(kPassedOn);
 }
 
-// The library of messages may crash a rank that reads from one that was killed just now. The launcher ends the run once
-// it sees the first rank end: let that be the killed one, whose end is the cause.
+// MPI may crash a rank that reads from one that was just killed. The launcher ends the run when it sees the first rank
+// end: let that be the killed one, whose end is the cause.
 void awaitReportOfOthers() { sleep(1); }
 
 [[noreturn]] void keep(pid_t child, pid_t sweeper, const Keeper::Lost& lost) {
@@ -132,7 +132,7 @@ Keeper::Keeper(const Lost& lost) {
   if (pipe(pipe_ends.data()) != 0) return;
   const auto [from_child, to_sweeper] = pipe_ends;
   const pid_t parent = getpid();
-  // Until the child is known no signal may end only the parent.
+  // Until the child is known, no signal may end only the parent.
   const std::vector<int> stopping = stopSignals();
   const sigset_t signals = setOf(stopping);
   sigset_t before;
@@ -173,7 +173,7 @@ void Keeper::note(const std::filesystem::path& folder, bool guarded) const noexc
   if (to_sweeper_ < 0) return;
   std::string_view path = folder.native();
   const char kind = guarded ? kGuarded : kReleased;
-  // If nothing reads it, nothing cleans up.
+  // If this fails, the sweeper is gone.
   [[maybe_unused]] ssize_t written = write(to_sweeper_, &kind, 1);
   written = write(to_sweeper_, path.data(), path.size());
   written = write(to_sweeper_, "", 1);

@@ -4,25 +4,24 @@
 
 namespace coastmesh {
 
-// Processes that outlive the one that does the work. A parent: where its child is killed, the exit code is that of an
-// interrupted run, in place of none; signals to end go on to the child, and where the parent is killed the child is
-// interrupted. And a sweeper, who removes the child's folders under guard when it is gone, even where parent and child
-// are killed together.
+// Processes that outlive the working one. The parent passes on stop signals to the child, and ends with the exit code
+// of an interrupted run if the child is killed; if the parent is killed, the child is interrupted. The sweeper removes
+// the child's guarded folders when it is gone, even if parent and child are killed together.
 class Keeper {
  public:
-  // What is done where the child was killed: `tell` is called with the exit code.
+  // For a child that was killed: `tell` is called with the exit code.
   struct Lost {
-    int rank = 0;  // what messages call the child
+    int rank = 0;  // of the child, for messages
     void (*tell)(int exit_code);
   };
-  // Forks, and returns in the child alone: the parent ends with the child's exit code. To be called before there are
-  // threads. Where no child can be made, this process goes on alone.
+  // Forks, and returns only in the child; the parent ends with the child's exit code. To be called before threads are
+  // started. If no child can be made, this process continues alone.
   explicit Keeper(const Lost& lost);
   ~Keeper();
   Keeper(const Keeper&) = delete;
   Keeper& operator=(const Keeper&) = delete;
 
-  // Tells the sweeper of a folder, by its path from the root.
+  // Reports a guarded or released folder to the sweeper. REQUIRES: an absolute path.
   void note(const std::filesystem::path& folder, bool guarded) const noexcept;
 
  private:

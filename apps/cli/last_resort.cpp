@@ -27,7 +27,7 @@ std::optional<int> g_finished;
 std::atomic<bool> g_thread_lacked = false;
 
 constexpr int kCrashes[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
-constexpr unsigned kSecondsToRemove = 10;  // what crashed may have left a lock closed
+constexpr unsigned kSecondsToRemove = 10;  // the crashed thread may hold a lock
 
 // Nothing here allocates memory.
 void tell(const char* text) { [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text, std::strlen(text)); }
@@ -91,7 +91,7 @@ const char* whatLacks() {
   } catch (const std::system_error& error) {
     return error.code() == std::errc::resource_unavailable_try_again ? kNoThread : nullptr;
   } catch (const std::runtime_error& error) {
-    // oneTBB has no type of its own for it: "pthread_create has failed: ...".
+    // oneTBB throws no type of its own for it: "pthread_create has failed: ...".
     constexpr const char* kOfTbb = "pthread_create";
     return std::strncmp(error.what(), kOfTbb, std::strlen(kOfTbb)) == 0 ? kNoThread : nullptr;
   } catch (...) {
@@ -99,9 +99,9 @@ const char* whatLacks() {
   }
 }
 
-// A stack overflow leaves no room for this handler.
+// Handlers get a stack of their own: after a stack overflow there is no room for them on the other.
 void catchCrashes() {
-  static bool caught = false;  // in main at the latest, before there are threads
+  static bool caught = false;  // set in main at the latest, before there are threads
   if (std::exchange(caught, true)) return;
   std::set_terminate(endAtOnce);
   static char stack[1 << 16];

@@ -4,36 +4,36 @@
 
 namespace coastmesh {
 
-// Where an error cannot be thrown (memory lacks while another error is on its way, or in a library that ends the
-// process then), and where the process crashes: what is half written goes, one line says so, and so does the exit code.
-// Where a limit allows one, a crash leaves its core file all the same. One at a time.
+// Handles errors that cannot be thrown (an allocation fails while another error is thrown, or in a library that then
+// ends the process) and crashes: removes unfinished outputs, prints one line, and ends with the matching exit code. If
+// a limit allows it, a crash still leaves its core file. One instance at a time.
 class LastResort {
  public:
-  explicit LastResort(Interrupt& interrupt);  // which has to stay as long
+  explicit LastResort(Interrupt& interrupt);  // must outlive this
   ~LastResort();
   LastResort(const LastResort&) = delete;
   LastResort& operator=(const LastResort&) = delete;
 };
 
-// All is done, and the process is about to end with this code: memory that lacks after that changes nothing.
+// All is done and the process is about to end with this code: later failures of allocations have no effect.
 void finishedWith(int code);
 
-// What LastResort does about terminate and crashes, from now on: for memory that lacks before main, in constructors of
-// libraries. Asks for none itself.
+// Installs the handlers of LastResort for terminate and crashes; also called if an allocation fails before main, in
+// constructors of libraries. Allocates nothing itself.
 void catchCrashes();
 
-// What the system lacks by the exception that is being handled, in words for the user; null if it is another error.
+// What the system lacks according to the exception that is being handled, as a message; null for any other exception.
 const char* whatLacks();
 
 // A thread could not be started: a crash after that is its consequence. Called by `watch_memory`, from any thread.
 void noteThreadLacked() noexcept;
 
-// To be called before the line that says why the process ends, which several threads may come to at once: all but the
-// first wait here for the end, and go on only where it does not come.
+// To be called before printing why the process ends, which several threads may do at once. All but the first wait here
+// for the end, and return only if it does not come within ten seconds.
 void beFirstToTell();
 
-// Somebody calls exit(), which only a library does: ends the process as main would have where that is done, and as one
-// that lacked memory where it did. Returns otherwise.
+// Called by exit(), which only libraries call. Ends the process with main's exit code if main is done, and for lack of
+// memory if an allocation failed. Returns otherwise.
 void exitIsCalled();
 
 inline constexpr const char* kNoMemory =

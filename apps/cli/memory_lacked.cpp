@@ -7,7 +7,7 @@ namespace coastmesh {
 
 namespace {
 
-// Set before any constructor runs.
+// Initialised before any constructor runs.
 constinit std::atomic<bool> g_lacked{false}, g_lacked_for_outputs{false}, g_in_place{false};
 
 }  // namespace

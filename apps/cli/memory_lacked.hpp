@@ -2,23 +2,23 @@
 
 namespace coastmesh {
 
-// Libraries in C may go on without memory that they were not given, and without the data that it was for (so GDAL's
-// GeoJSON reader loses points). Hence a run in which any allocation failed, whoever asked, makes no output and is no
-// success, even where a library did well without. What no process can have, more than PTRDIFF_MAX bytes, does not
-// count: such a request fails on every machine alike.
+// Libraries in C may carry on after a failed allocation, without the data that it was for: GDAL's GeoJSON reader loses
+// points. Hence a run in which any allocation failed writes no output and does not succeed, even if a library coped.
+// Requests for more than PTRDIFF_MAX bytes do not count: they fail on every machine.
 
-// Called by `watch_memory`, for each allocation that fails; may be called from within malloc and from any thread.
+// Called by `watch_memory` for each failed allocation; may be called from within malloc and from any thread.
 void noteMemoryLacked() noexcept;
 
 bool memoryLacked() noexcept;
 
-// Throws std::bad_alloc where memory lacked: before anything is moved into place, and before success is told.
+// Throws std::bad_alloc if an allocation failed. To be called before outputs are moved into place and before success is
+// reported.
 void requireMemoryHeld();
 
-// The outputs are in place: what memory lacks after that can harm none of them.
+// The outputs are in place: allocations that fail from now on cannot harm them.
 void outputsAreInPlace() noexcept;
 
-// Whether it lacked before that, or there were none.
+// True if an allocation failed before that, or at any time if there are no outputs.
 bool memoryLackedForOutputs() noexcept;
 
 }  // namespace coastmesh

@@ -10,7 +10,7 @@ namespace coastmesh {
 // A mesh file named on the command line.
 struct MeshFile {
   std::string path;
-  std::string crs;  // taken where the file does not say its own; empty then means a plane
+  std::string crs;  // used if the file has none; empty: a plane
 };
 
 // Declares the argument `name` and the option --assume-crs.
@@ -19,7 +19,7 @@ void declareMeshFile(OptionTable& table, const std::string& name, const std::str
 // Throws InputError, also for a mesh without triangles.
 Grid readMeshFile(const MeshFile& file, Run& run);
 
-// Warns that --assume-crs has no effect, where it was given.
+// Warns that --assume-crs has no effect, if it was given.
 void warnOfCrs(const MeshFile& file, const std::string& why, Run& run);
 
 }  // namespace coastmesh

@@ -43,7 +43,7 @@ int threadsAsked(const ParallelOptions& options) {
   return options.threads > 0 ? options.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
-// Throws OptionError for a vector file of the job that can be read but once; `purpose` says what reads it again.
+// Throws OptionError if a vector file of the job can be read only once; `purpose`: what reads it again.
 void requireNoStream(const MeshJob& job, const std::string& purpose) {
   const InputOptions& input = job.input;
   const SizeOptions& sizes = job.sizes;
@@ -62,7 +62,7 @@ void requireNoStream(const MeshJob& job, const std::string& purpose) {
   }
 }
 
-// Why there is no mesh at all.
+// Why there is no mesh.
 std::string reasonOf(const std::vector<Refusal>& refusals) {
   if (refusals.size() == 1) return refusals.front().reason;
   return "none of the " + std::to_string(refusals.size()) + " parts of the input can be meshed";
@@ -70,7 +70,7 @@ std::string reasonOf(const std::vector<Refusal>& refusals) {
 
 std::string summaryOf(const MeshRunUsage& usage, const MeshJob& job, const MeshJobResult& result) {
   std::string text = meshSummary(job, result);
-  constexpr std::size_t kNotesShown = 20;  // thousands of lakes have notes each
+  constexpr std::size_t kNotesShown = 20;  // each of thousands of lakes may have notes
   const std::vector<std::string>& notes = result.read.notes;
   for (std::size_t i = 0; i < std::min(kNotesShown, notes.size()); ++i) text += notes[i] + "\n";
   if (notes.size() > kNotesShown)
@@ -81,7 +81,7 @@ std::string summaryOf(const MeshRunUsage& usage, const MeshJob& job, const MeshJ
   return text;
 }
 
-// Why the mesh is short of what was asked, in a line: all that a quiet run says of it.
+// The requirements that the mesh misses, in one line: all that a quiet run prints about them.
 std::string shortfallOf(const MeshJobResult& result) {
   std::string text;
   const auto add = [&text](const std::string& reason) { text += (text.empty() ? "" : "; ") + reason; };
@@ -99,7 +99,8 @@ std::string shortfallOf(const MeshJobResult& result) {
   return text;
 }
 
-// Gives what files cannot hold of the mesh, or hold and the mesh has not, having warned of it.
+// Writes all mesh files. Warns of what they cannot hold of the mesh, or hold although the mesh lacks it; returns the
+// warnings.
 std::vector<std::string> writeGrids(RunOutputs& outputs, const Grid& grid, ProgressDisplay& display, Run& run,
                                     const ItemLoop& loop) {
   std::vector<std::string> warnings = outputs.lossWarnings(grid, LossesOf::Input);
@@ -116,7 +117,7 @@ std::vector<std::string> writeGrids(RunOutputs& outputs, const Grid& grid, Progr
   return warnings;
 }
 
-// The exit code of the run that made what is there already; none where that is not all.
+// The exit code of the run that made the existing outputs; nullopt unless all exist and are complete.
 std::optional<int> doneBefore(const MeshRunUsage& usage, Run& run, const GivenOptions& given) {
   int code = kExitDone;
   for (const OptionTable::NamedOutput& output : run.options.outputs()) {
@@ -136,10 +137,10 @@ std::optional<int> doneBefore(const MeshRunUsage& usage, Run& run, const GivenOp
   return code;
 }
 
-// The folder of --checkpoint from the files of the run.
+// Throws OptionError if the folder of --checkpoint is an input or output of the run.
 void requireCheckpointApart(const std::string& folder, const OptionTable& options) {
   std::vector<OptionTable::NamedOutput> written = options.outputs();
-  const std::string name = (std::filesystem::path(folder) / "").parent_path();  // without a slash at its end
+  const std::string name = (std::filesystem::path(folder) / "").parent_path();  // without a trailing slash
   written.push_back({"--checkpoint", folder, {{name}, {}, {}}});
   requireOutputsApart(written, options.inputs());
 }
@@ -266,7 +267,7 @@ int runMesh(const MeshRunUsage& usage, Run& run) {
       if (checkpoint) checkpoint->keep(group, result);
     };
   }
-  job.keep_edits = edits != nullptr || to_shard || keeps;  // another run may be asked for them
+  job.keep_edits = edits != nullptr || to_shard || keeps;  // a later run may write them
   ProgressDisplay display(ProgressDisplay::styleFor(usage.progress, usage.quiet));
   const JobControl control{[&interrupt, &display] { return interrupt.requested() || display.abandoned(); },
                            [&display](std::string_view phase, double share) { display.show(phase, share); }};
@@ -312,12 +313,12 @@ int runMesh(const MeshRunUsage& usage, Run& run) {
   result.seconds.write = secondsSince(write_start);
   result.seconds.total = secondsSince(start);
   outputs.writeReport(meshReport(job, result, threadsAsked(job.parallel), run.warnings));
-  // Before the outputs come into place: nothing that may fail comes after.
+  // Made before the outputs are in place: nothing that may fail comes after.
   const bool silent = usage.quiet || usage.progress == "json" || usage.report == "-";
   const std::string summary = any && !silent ? summaryOf(usage, job, result) : "";
   outputs.commit();
   if (checkpoint && !lacks_memory) checkpoint->finish();
-  // Other shards may have what this one has not.
+  // Other shards may have meshes.
   if (!any && to_shard) {
     display.clear();
     if (!usage.quiet) std::fputs("nothing of this shard was meshed\n", stdout);

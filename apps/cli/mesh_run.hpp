@@ -10,7 +10,7 @@
 
 namespace coastmesh {
 
-// The name of the argument for what is meshed.
+// The name of the argument for the input.
 inline constexpr const char* kInputs = "INPUT";
 
 // A run that ends with a mesh, of all of the input or of a shard of it, made here or gathered.
@@ -31,22 +31,22 @@ struct MeshRunUsage {
   bool quiet = false;
 };
 
-// The options that say what a mesh is, and its inputs.
+// The options that determine a mesh, and its inputs.
 OptionTable meshJobOptions(MeshUsage& usage);
 
 // -o and --format; `with_shards`: .shard files too.
 void declareMeshes(OptionTable& table, MeshRunUsage& usage, bool with_shards);
-// What else such a run writes, and how.
+// Other outputs of such a run, and how it is run.
 void declareRunOutputs(OptionTable& table, MeshRunUsage& usage);
 
-// "3/7" as the third of seven, counted from 0; the only one of one where `text` is empty. Throws OptionError.
+// "3/7" as (2, 7), counted from 0; (0, 1) if `text` is empty. Throws OptionError.
 std::pair<std::uint32_t, std::uint32_t> shardOf(const std::string& text);
 
-// Processes that a launcher has started together do not know of one another's shards: where each is to make one of its
-// own, rank (I - 1) modulo their number makes shard I, and none is made twice. Throws OptionError for another.
+// If one launcher has started several processes, each for a shard of its own, rank (I - 1) modulo their number makes
+// shard I, so that none is made twice. Throws OptionError on any other rank.
 void requireShardOfThisRank(const std::string& text, const Run& run);
 
-// REQUIRES: `usage.mesh` is settled. Gives an exit code; throws what main turns into messages and codes.
+// REQUIRES: `usage.mesh` is settled. Returns an exit code; main turns its exceptions into messages and codes.
 int runMesh(const MeshRunUsage& usage, Run& run);
 
 }  // namespace coastmesh

@@ -36,7 +36,7 @@ PartitionOptions partitionFor(std::uint64_t parts, const std::vector<std::string
   for (const std::string& path : outputs) {
     const GridFormat& known = gridFormatFor(path, format);
     if (known.name != "fesom_partition") continue;
-    const std::size_t for_parts = filesOf(known, path).targets.size() / 2;  // two a process, and one of all
+    const std::size_t for_parts = filesOf(known, path).targets.size() / 2;  // two per process, and one for all
     if (for_parts != parts)
       throw OptionError("'" + path + "': this folder is for " + std::to_string(for_parts) + " processes, not for " +
                         std::to_string(parts));

@@ -43,7 +43,7 @@ std::string named(std::string path, const std::string& name) {
   return path;
 }
 
-// Of what does not go together with a mesh for each feature.
+// Throws OptionError for options that cannot be combined with --per-feature.
 void requirePossible(const MeshRunUsage& usage) {
   const MeshJob& job = usage.mesh.job;
   const FrameOptions& frame = job.input.frame;
@@ -70,7 +70,7 @@ void requirePossible(const MeshRunUsage& usage) {
   }
 }
 
-// A feature that is this run's to mesh.
+// A feature of this run's shard.
 struct Planned {
   std::size_t feature = 0;  // in the coastline
   std::size_t points = 0;
@@ -91,7 +91,7 @@ Box boxOf(const Feature& feature) {
   return box;
 }
 
-// Those of this run's shard, in the input's order, named.
+// The features of this run's shard, in the input's order, with names and outputs.
 std::vector<Planned> plan(const MeshRunUsage& usage, const Coastline& coastline, const Run& run) {
   std::vector<const Feature*> features;
   std::vector<std::size_t> points, indices;
@@ -135,7 +135,7 @@ std::vector<Planned> plan(const MeshRunUsage& usage, const Coastline& coastline,
   return planned;
 }
 
-// Features that are not meshed themselves: constraints, regions, lines that say types of boundaries.
+// Features that are not meshed themselves: constraints, regions, lines with boundary types.
 struct Beside {
   std::vector<std::size_t> indices;
   std::vector<Box> boxes;
@@ -151,7 +151,7 @@ Beside besideAreas(const Coastline& coastline) {
   return beside;
 }
 
-// The feature alone, with what of the others may concern it, in the input's order.
+// The feature alone, with those beside it that may affect it, in the input's order.
 std::shared_ptr<const Coastline> alone(const Coastline& all, const Beside& beside, const Planned& one) {
   std::vector<std::size_t> members{one.feature};
   for (std::size_t b = 0; b < beside.indices.size(); ++b)
@@ -163,7 +163,7 @@ std::shared_ptr<const Coastline> alone(const Coastline& all, const Beside& besid
   return coastline;
 }
 
-// How far all are, weighed by their points.
+// Combined progress of all features, weighted by their points.
 class Shares {
  public:
   Shares(const std::vector<Planned>& planned, ProgressDisplay& display) : shares_(planned.size()), display_(display) {
@@ -186,14 +186,14 @@ class Shares {
   double total_ = 1.0, done_ = 0.0;
 };
 
-// Whether its jobs read files, which they can only one after another.
+// True if the jobs read files: then they cannot run at the same time.
 bool readsFiles(const MeshJob& job) {
   const SizeOptions& sizes = job.sizes;
   return !job.finish.depth.files.empty() || !sizes.features.empty() || !sizes.rasters.empty() ||
          !sizes.bathymetry.empty() || !sizes.passages.empty() || !sizes.barriers.empty();
 }
 
-// Meshes and writes features; each call is for another one, from any thread.
+// Meshes and writes features; may be called from several threads, for different features.
 class Maker {
  public:
   Maker(const MeshRunUsage& usage, const Coastline& coastline, const MeshJob& job, const PartitionOptions& partition,
@@ -207,7 +207,8 @@ class Maker {
         shares_(shares),
         cancelled_(std::move(cancelled)) {}
 
-  // Within so many bytes of memory. Returns whether it is done; what lacks memory is so only in the end.
+  // `memory`: bytes that it may take. Returns false if it lacks memory, unless `in_the_end`: then the feature is
+  // refused.
   bool make(std::size_t i, Planned& one, double memory, bool in_the_end) {
     FeatureOutcome& outcome = one.outcome;
     MeshJob job = job_;
@@ -238,7 +239,7 @@ class Maker {
     return true;
   }
 
-  // Warnings for those files of boundary types that say nothing of any feature that was meshed.
+  // Warnings for files of boundary types that set none in any feature that was meshed.
   std::vector<std::string> idleBoundaries() const {
     std::vector<std::string> warnings;
     for (const auto& [file, idle] : idle_boundaries_)
@@ -248,11 +249,11 @@ class Maker {
 
  private:
   struct IdleFile {
-    std::size_t features = 0;  // of which it says nothing
+    std::size_t features = 0;  // in which it sets none
     std::string warning;
   };
 
-  // Most of the others lie beside a feature.
+  // A file that has no effect on this feature may have one on another.
   void noteBoundaries(BoundaryReport& boundaries) {
     const std::lock_guard lock(mutex_);
     ++meshed_;
@@ -264,8 +265,8 @@ class Maker {
     boundaries.warnings.clear();
   }
 
-  // One feature at a time: libraries of formats, and the partitioner, are not for several threads. Nothing in here
-  // shares out work, or a thread might begin another feature while it holds the lock.
+  // One feature at a time: format libraries and the partitioner are not thread-safe. Nothing in here may run in
+  // parallel, or this thread might begin another feature while it holds the lock.
   void write(FeatureOutcome& outcome, MeshJobResult& result) {
     const std::lock_guard lock(mutex_);
     run_.interrupt.check();
@@ -337,7 +338,7 @@ int runPerFeature(const MeshRunUsage& usage, Run& run) {
   ProgressDisplay display(ProgressDisplay::styleFor(usage.progress, usage.quiet));
   const Interrupt& interrupt = run.interrupt;
   const auto cancelled = [&interrupt, &display] { return interrupt.requested() || display.abandoned(); };
-  // Above all the report's place is looked at: nothing is made that it cannot tell of.
+  // First of all: nothing is meshed if the report cannot be written.
   RunOutputs report(usage.overwrite || usage.skip_existing, run.inputs, run.interrupt);
   report.addReport(usage.report);
   ReadReport read;
@@ -355,7 +356,7 @@ int runPerFeature(const MeshRunUsage& usage, Run& run) {
 
   Shares shares(planned, display);
   Maker maker(usage, coastline, job, partition, run, shares, cancelled);
-  std::vector<std::size_t> order;  // the large ones first
+  std::vector<std::size_t> order;  // largest first
   for (std::size_t i = 0; i < planned.size(); ++i)
     if (planned[i].outcome.state != FeatureState::Skipped) order.push_back(i);
   std::ranges::stable_sort(order, std::greater(), [&planned](std::size_t i) { return planned[i].points; });
@@ -369,7 +370,7 @@ int runPerFeature(const MeshRunUsage& usage, Run& run) {
     }
     Together together{order.size(), 0, static_cast<std::size_t>(threads)};
     for (const std::size_t i : order) together.points += planned[i].points;
-    // Those whose share of the memory is too little are made once they are alone.
+    // Features that need more than their share of the memory are meshed afterwards, one by one.
     std::vector<char> done(order.size(), false);
     forEachItem(order.size(), RunControl{cancelled, {}}, [&](std::size_t at) {
       Planned& one = planned[order[at]];
@@ -383,7 +384,7 @@ int runPerFeature(const MeshRunUsage& usage, Run& run) {
   std::vector<FeatureOutcome> features;
   for (Planned& one : planned) features.push_back(std::move(one.outcome));
   for (const std::string& warning : read.warnings) run.warn(warning);
-  // Other runs have the other features.
+  // Only for a run of all features: a file may have an effect on others.
   const bool all = shardOf(usage.shard).second == 1 && order.size() == features.size();
   for (const std::string& warning : all ? maker.idleBoundaries() : std::vector<std::string>{}) run.warn(warning);
   warnOf(features, run);

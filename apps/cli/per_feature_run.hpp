@@ -7,10 +7,10 @@ namespace coastmesh {
 // Declares --per-feature and --name-field.
 void declarePerFeature(OptionTable& table, MeshRunUsage& usage);
 
-// Meshes each feature of the input alone into files of its own, whose names are those of the outputs with the feature's
-// name for "{}". Each feature's files come into place as soon as they are made, all of them or none. A feature that
-// cannot be meshed is warned of, and the others are made. REQUIRES: `usage.mesh` is settled. Gives an exit code; throws
-// what main turns into messages and codes.
+// Meshes each feature of the input alone, into its own files, named like the outputs with the feature's name in place
+// of "{}". The files of a feature are moved into place together, as soon as they are made. A feature that cannot be
+// meshed causes a warning, and the others are meshed. REQUIRES: `usage.mesh` is settled. Returns an exit code; main
+// turns its exceptions into messages and codes.
 int runPerFeature(const MeshRunUsage& usage, Run& run);
 
 }  // namespace coastmesh

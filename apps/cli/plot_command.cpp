@@ -25,7 +25,7 @@ struct PlotUsage {
   bool overwrite = false;
 };
 
-// An east below the west lies across the antimeridian, as for the domain.
+// If the east is less than the west, the box crosses the antimeridian, as for --bbox of the domain.
 std::string storeBox(std::vector<double> sides, PlotOptions& plot) {
   constexpr double kHalfTurn = 180.0;
   plot.bbox.reset();
@@ -37,7 +37,7 @@ std::string storeBox(std::vector<double> sides, PlotOptions& plot) {
   return {};
 }
 
-// What a page, in which one moves about, has no use for.
+// Throws OptionError for options that have no meaning for a page.
 void refusePictureOptions(const OptionTable& options) {
   for (const char* name : {"--size", "--bbox", "--degrees"}) {
     if (!options.given(name).empty())

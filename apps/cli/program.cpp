@@ -40,7 +40,7 @@ std::string wholeUsage(const std::vector<Command>& commands) {
   return usage.dump(2) + "\n";
 }
 
-// For somebody who typed the program's name to see what it is.
+// Shown if the program is called without arguments.
 std::string welcome(const std::vector<Command>& commands) {
   using Json = nlohmann::ordered_json;
   std::string text =
@@ -59,7 +59,7 @@ std::string welcome(const std::vector<Command>& commands) {
   return text + "\ncoastmesh COMMAND --help shows the options of a command, with examples; man coastmesh has it all.\n";
 }
 
-// The library counts what an option of one value has got.
+// CLI11 reports an option that is given twice by its number of values.
 std::string mistakeOf(const CLI::ParseError& error) {
   const std::string text = oneLine(error.what());
   const std::size_t counts = text.find(": At Most 1 required");
@@ -79,7 +79,7 @@ int runProgram(int argc, char** argv, Interrupt& interrupt, Cluster* cluster) {
   app.footer(
       "coastmesh COMMAND --help shows the options of a command, with examples. Start with:\n"
       "  coastmesh mesh lake.geojson -o lake.gpkg\n");
-  // Each command takes this over when it is added: a word after the command is no second command, whatever its name.
+  // Commands inherit this when they are added: a word after the command is not taken for a second command.
   app.require_subcommand(0, 1);
   std::vector<Command> commands;
   app.add_flag_callback(
@@ -111,7 +111,7 @@ int runProgram(int argc, char** argv, Interrupt& interrupt, Cluster* cluster) {
       arguments = command->line.toParse({arguments.begin() + 1, arguments.end()}, former_names);
       arguments.insert(arguments.begin(), argv[1]);
     }
-    std::ranges::reverse(arguments);  // as CLI11 wants them
+    std::ranges::reverse(arguments);  // CLI11 expects them reversed
     app.parse(std::move(arguments));
   } catch (const CLI::Success& asked) {  // --help, --version
     std::ostringstream text, errors;

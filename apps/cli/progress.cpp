@@ -22,7 +22,7 @@ bool isSet(const char* variable) {
   return value != nullptr && *value != '\0' && std::string_view(value) != "false" && std::string_view(value) != "0";
 }
 
-// Whether lines on stderr can be written over.
+// True if lines on stderr can be overwritten.
 bool hasCursor() {
   const char* terminal = std::getenv("TERM");
   return isatty(STDERR_FILENO) == 1 && terminal != nullptr && std::string_view(terminal) != "dumb" && !isSet("CI");
@@ -33,7 +33,7 @@ int terminalWidth() {
   return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
 
-// Somebody who put the program into the background wants his terminal for himself.
+// A program in the background must not write to the terminal.
 bool inForeground() {
   const pid_t foreground = tcgetpgrp(STDERR_FILENO);
   return foreground < 0 || foreground == getpgrp();
@@ -105,9 +105,9 @@ void ProgressDisplay::show(std::string_view phase, double share) {
 
 void ProgressDisplay::showBar() {
   if (!inForeground()) return;
-  // One column less than there are: a line that fills them all makes some terminals go on to the next.
+  // One column is left free: some terminals wrap after a full line.
   std::string line = progressLine(phase_, shown_, secondsSoFar(), terminalWidth() - 1);
-  // To the line's start, what is new, and away with what is left of a longer one.
+  // Returns to the start of the line, prints, and erases the rest of a longer one.
   std::fprintf(stderr, "\r%s\033[K", line.c_str());
   std::fflush(stderr);
   bar_visible_ = true;
@@ -119,7 +119,7 @@ bool ProgressDisplay::abandoned() {
   const std::int64_t now = duration_cast<milliseconds>(Clock::now().time_since_epoch()).count();
   std::int64_t asked = asked_ms_;
   if (now - asked < kInterval.count() || !asked_ms_.compare_exchange_strong(asked, now)) return false;
-  // A pipe whose reader is gone shows as an error, without a line that would have to be written to it.
+  // Detects that the reader of a pipe is gone without writing to it.
   pollfd pipe{STDOUT_FILENO, 0, 0};
   if (poll(&pipe, 1, 0) == 1 && (pipe.revents & POLLERR) != 0) abandoned_ = true;
   return abandoned_;

@@ -8,13 +8,13 @@
 
 namespace coastmesh {
 
-// What --progress shows on stderr: a bar on a terminal, now and then a line in a log; or, on stdout, one JSON object a
-// line: {"phase":"refine","share":0.42}.
+// What --progress shows: on stderr a bar on a terminal, or occasional lines in a log; on stdout one JSON object per
+// line, {"phase":"refine","share":0.42}.
 class ProgressDisplay {
  public:
   enum class Style { None, Bar, Log, Json };
-  // "auto" is a bar on a terminal that can move its cursor; lines where stderr goes to a file or a pipe, and where the
-  // environment says that this is continuous integration; nothing where `quiet`.
+  // "auto": a bar on a terminal that can move its cursor; lines if stderr is a file or a pipe, or if the environment
+  // variable CI is set; nothing if `quiet`.
   static Style styleFor(const std::string& name, bool quiet);
 
   explicit ProgressDisplay(Style style) : style_(style) {}
@@ -22,13 +22,12 @@ class ProgressDisplay {
   ProgressDisplay(const ProgressDisplay&) = delete;
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
-  // The start and the end of every phase are shown, what lies between at most ten times a second; in a log nothing in
-  // the first ten seconds, and a line every ten seconds from then on.
+  // Shows the start and end of every phase, and its progress at most ten times a second. A log has a line every ten
+  // seconds instead, the first after ten seconds.
   void show(std::string_view phase, double share);
-  // Whether nobody reads the JSON lines any more: who asked for the run is gone.
-  // May be called from several threads, and often.
+  // True if nobody reads the JSON lines any more: the caller is gone. May be called often, from several threads.
   bool abandoned();
-  // Takes the bar off the terminal, so that a message has the line to itself.
+  // Erases the bar, so that a message gets its own line.
   void clear();
 
  private:
@@ -44,10 +43,10 @@ class ProgressDisplay {
   Clock::time_point shown_at_ = start_;
   bool bar_visible_ = false;
   std::atomic<bool> abandoned_{false};
-  std::atomic<std::int64_t> asked_ms_{0};  // when `abandoned` last looked, on the steady clock
+  std::atomic<std::int64_t> asked_ms_{0};  // last check by `abandoned`, on the steady clock
 };
 
-// "refine [#####     ]  50 %  1:05", at most `width` columns; the bar gives way first, then the time.
+// "refine [#####     ]  50 %  1:05", at most `width` columns; the bar is left out first, then the time.
 std::string progressLine(std::string_view phase, double share, double seconds, int width);
 
 }  // namespace coastmesh

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A file whatever way leads to it: what is there by its device and number, what is not by its path without links.
+// Identifies a file whatever its path: by device and inode if it exists, otherwise by its path without links.
 std::string identityOf(const std::string& path) {
   struct stat status {};
   if (stat(path.c_str(), &status) == 0) return std::to_string(status.st_dev) + ':' + std::to_string(status.st_ino);
@@ -35,8 +35,8 @@ bool isThere(const std::string& path) {
   return fs::exists(path, error);
 }
 
-// The files on the disk in what an option names: the path, or what a name of GDAL's has of paths in it, as
-// "GPKG:file:layer", "/vsizip/file.zip/inside.shp" and "file|layer" do.
+// The files on disk that an option's value names: the path itself, or the paths within a name of GDAL's, such as
+// "GPKG:file:layer", "/vsizip/file.zip/inside.shp" and "file|layer".
 std::vector<std::string> filesNamed(const std::string& name) {
   std::vector<std::string> files{name};
   std::string part;
@@ -64,7 +64,7 @@ std::vector<std::string> filesNamed(const std::string& name) {
   return files;
 }
 
-// And those that these take their data from.
+// The same, with the files that these take their data from.
 std::vector<std::string> filesNamedAndBehind(const std::string& name) {
   std::vector<std::string> all = filesNamed(name);
   for (const std::string& behind : filesBehind(name)) {
@@ -107,7 +107,7 @@ class Inputs {
   std::map<std::string, Owner> files_, companions_;
 };
 
-// Which outputs write a file, and which take one away or keep it as it is.
+// The files that outputs write, and those that they remove or keep.
 class Claims {
  public:
   void add(const OptionTable::NamedOutput& output) {
@@ -140,8 +140,7 @@ class Claims {
   std::map<std::string, Owner> written_, touched_;
 };
 
-// The mean of length in the grid's CRS over length on the ground, of some of its edges. REQUIRES: a projected CRS in
-// metres.
+// Length in the grid's CRS over length on the ground, for a sample of edges. REQUIRES: a projected CRS in metres.
 double meanScale(const Grid& grid) {
   constexpr std::size_t kEdges = 1000;
   std::vector<std::vector<Point>> edges;
@@ -160,7 +159,7 @@ double meanScale(const Grid& grid) {
 }  // namespace
 
 std::vector<std::string> filesReadBy(const std::string& name) {
-  // A database's own notes, which come and go as it is read.
+  // Journals of a database, which come and go as it is read.
   const auto isPassing = [](const std::string& file) { return file.ends_with("-wal") || file.ends_with("-journal"); };
   std::vector<std::string> files;
   for (const std::string& file : filesNamedAndBehind(name)) {
@@ -260,7 +259,7 @@ std::vector<std::string> RunOutputs::numberWarnings(const Grid& grid) const {
                        "reproject the input to a CRS in metres (ogr2ogr -t_srs), and mesh that");
     return warnings;
   }
-  constexpr double kTrue = 0.02;  // UTM and the grids of countries are true to a thousandth, or to a few
+  constexpr double kTrue = 0.02;  // UTM and national grids are true to a few thousandths
   const double scale = meanScale(grid);
   if (std::abs(scale - 1.0) > kTrue) {
     char text[32];

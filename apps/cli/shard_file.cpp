@@ -13,7 +13,7 @@
 
 namespace coastmesh {
 
-// Found by the calls of `pass`.
+// Found by argument-dependent lookup from `pass`.
 auto partsOf(auto& header) requires std::is_same_v<std::remove_cvref_t<decltype(header)>, ShardHeader> {
   auto& [version, options, shard, shards, exit_code, input_digest, groups, left] = header;
   return std::tie(version, options, shard, shards, exit_code, input_digest, groups, left);
@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::string_view kMagic = "coastmesh shard\n";
 constexpr const char* kEnding = ".shard";
-constexpr std::uint64_t kMostNamed = 20;  // of shards that are missing
+constexpr std::uint64_t kMostNamed = 20;  // missing shards that a message lists
 
 // Thrown by readers of a file that may be cut short.
 struct EndsTooEarly : InputError {
@@ -71,7 +71,8 @@ std::uint64_t checksumOf(std::string_view bytes) {
 
 constexpr std::size_t kSumBytes = sizeof(std::uint64_t);
 
-// What is before the checksum. What is read behind it is not looked at by value: a damaged node may be no node.
+// The content before the checksum, which must match: later readers do not check values, and a damaged index of a node
+// may be out of range.
 std::string_view unsealed(const std::string& bytes, const std::string& path) {
   std::uint64_t sum = 0;
   if (bytes.size() < kSumBytes) throw InputError("'" + path + "' ends too early");
@@ -112,7 +113,7 @@ GivenOptions givenOptions(const OptionTable& table, const OptionTable& of_job) {
 
 namespace {
 
-// None where the file ends within it.
+// nullopt if the file ends within the header.
 std::optional<ShardHeader> headerOf(const std::string& path) {
   // Enough for most; thousands of inputs with long names need more.
   constexpr std::size_t kAtFirst = 1 << 20, kGrowth = 8;
@@ -128,7 +129,7 @@ std::optional<ShardHeader> headerOf(const std::string& path) {
   }
 }
 
-// Whether the file ends with the checksum of what comes before; it may be larger than the memory.
+// True if the file ends with the checksum of what comes before. Reads piece by piece: it may be larger than memory.
 bool isSealedFile(const std::string& path) {
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
@@ -197,11 +198,11 @@ std::string ShardWriter::file(int exit_code) const {
 
 GatheredShards::GatheredShards(const std::vector<std::string>& paths) : paths_(paths) {
   for (const std::string& path : paths_) contents_.push_back(contentsOf(path, std::string::npos));
-  // Nothing here is as long as a header says.
+  // Numbers in headers are not trusted: nothing is allocated by them.
   std::map<std::uint32_t, std::size_t> file_of;
   for (std::size_t f = 0; f < paths_.size(); ++f) {
     ByteReader anything(contents_[f], "'" + paths_[f] + "'");
-    readHeader(anything, paths_[f]);  // of another kind or version: that is said first
+    readHeader(anything, paths_[f]);  // reports another kind or version first
     ByteReader reader(unsealed(contents_[f], paths_[f]), "'" + paths_[f] + "'");
     const ShardHeader header = readHeader(reader, paths_[f]);
     if (f == 0) header_ = header;

@@ -15,46 +15,46 @@
 
 namespace coastmesh {
 
-// A file of the groups that one shard of a run meshed, for `gather`: .shard.
+// A .shard file: the groups that one shard of a run meshed, for `gather`.
 
 bool isShardFile(const std::string& path);
-// Those that are not, in their order.
+// The paths of other files, in their order.
 std::vector<std::string> withoutShardFiles(const std::vector<std::string>& paths);
 
-// What was given of the options that decide what a mesh is, by name.
+// The given options that determine a mesh: name and value.
 using GivenOptions = std::vector<std::pair<std::string, OptionValue>>;
-// Of `table`, those that `of_job` declares too, less --threads.
+// Those of `table` that `of_job` declares too, without --threads.
 GivenOptions givenOptions(const OptionTable& table, const OptionTable& of_job);
 
-// What stands before the groups.
+// Precedes the groups in the file.
 struct ShardHeader {
   std::string version;
   GivenOptions options;
   std::uint32_t shard = 0, shards = 1;
   std::int32_t exit_code = 0;  // of the run that made it
   std::uint64_t input_digest = 0;
-  std::uint64_t groups = 0;  // of the whole
-  std::uint64_t left = 0;    // of its own: for lack of memory they are not in it, and `gather` meshes them
+  std::uint64_t groups = 0;  // of the whole run
+  std::uint64_t left = 0;    // groups of this shard that are missing for lack of memory: `gather` meshes them
 
   bool ofSameRun(const ShardHeader& other) const {
     return version == other.version && options == other.options && shards == other.shards;
   }
 };
 
-// `bytes` with a checksum behind them, as the file of a shard ends.
+// `bytes` followed by their checksum, as a shard file ends.
 std::string sealedShard(std::string bytes);
 
-// Of a file that is whole, by its checksum; none for one that is damaged or cut short. Throws InputError for what is no
-// shard file of this version.
+// The header of a complete file, by its checksum; nullopt if the file is damaged or cut short. Throws InputError for a
+// file that is no shard file of this version.
 std::optional<ShardHeader> headerOfWholeShard(const std::string& path);
 
-// Takes the groups of a run as they are made.
+// Collects the groups of a run as they are made.
 class ShardWriter {
  public:
   ShardWriter(GivenOptions options, std::uint32_t shard, std::uint32_t shards);
 
   void begin(std::uint64_t input_digest, std::size_t groups);
-  // From several threads. Of a group that lacks memory only that it does.
+  // May be called from several threads. Of a group that lacks memory, only that is recorded.
   void keep(std::size_t group, const GroupResult& result);
   std::string file(int exit_code) const;
 
@@ -67,13 +67,13 @@ class ShardWriter {
 // All shards of a run.
 class GatheredShards {
  public:
-  // Throws InputError where they are damaged, not those of one run, or one is missing or there twice.
+  // Throws InputError if files are damaged or of different runs, or if a shard is missing or given twice.
   explicit GatheredShards(const std::vector<std::string>& paths);
 
   const GivenOptions& options() const { return header_.options; }
-  // Throws InputError where the shards were made of another input.
+  // Throws InputError if the shards were made from another input.
   void begin(std::uint64_t input_digest, std::size_t groups) const;
-  // From several threads. Those that lacked memory are not there.
+  // May be called from several threads. False for groups that lacked memory.
   bool has(std::size_t group) const { return !places_.at(group).bytes.empty(); }
   GroupResult take(std::size_t group) const;  // throws InputError
 

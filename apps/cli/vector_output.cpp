@@ -142,7 +142,7 @@ void requireVectorFormat(const std::string& path, std::size_t layers) {
 void writeVectorLayers(const std::string& path, const Crs& crs, const std::vector<VectorLayer>& layers) {
   requireVectorFormat(path, layers.size());
   OgrErrors errors;
-  // A GeoPackage notes when it was written; the same input has to give the same bytes.
+  // A GeoPackage records when it was written; the same input must give the same bytes.
   const OgrOption date("OGR_CURRENT_DATE", "2000-01-01T00:00:00.000Z");
   registerDrivers();
 
@@ -156,7 +156,7 @@ void writeVectorLayers(const std::string& path, const Crs& crs, const std::vecto
   if (!crs.isPlane()) srs = toOgr(crs);
   for (const VectorLayer& layer : layers) writeLayer(*dataset, path, layer, srs ? &*srs : nullptr, errors);
 
-  // What the driver holds back is written on closing, where a full disk shows.
+  // The driver writes its buffers on closing, which fails if the disk is full.
   dataset.reset();
   if (errors.failed()) fail(path, errors);
 }

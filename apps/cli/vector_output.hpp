@@ -13,8 +13,8 @@ namespace coastmesh {
 using VectorValue = std::variant<std::int64_t, double, std::string>;
 
 struct VectorShape {
-  std::vector<Point> points;  // one for a layer of points, two or more for one of lines, a ring not closed for polygons
-  std::vector<VectorValue> values;          // one a field of the layer, of the field's type
+  std::vector<Point> points;        // one for points, two or more for lines, for polygons a ring without repeated point
+  std::vector<VectorValue> values;  // one per field of the layer, of the field's type
   std::vector<std::vector<Point>> holes{};  // of a polygon
 };
 
@@ -22,11 +22,11 @@ struct VectorLayer {
   enum class Kind { Points, Lines, Polygons, Table };  // a table has no shapes
   std::string name;
   Kind kind = Kind::Points;
-  std::vector<std::pair<std::string, VectorValue>> fields;  // name, and a value that has the type
+  std::vector<std::pair<std::string, VectorValue>> fields;  // name, and a value of the type
   std::vector<VectorShape> shapes;
 };
 
-// Throws OutputError where `path` has none of the endings that hold `layers` layers: .gpkg any number, .geojson and
+// Throws OutputError unless `path` has an ending whose format holds `layers` layers: .gpkg any number, .geojson and
 // .fgb one.
 void requireVectorFormat(const std::string& path, std::size_t layers);
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// The number behind a word in a file of such pairs; without a word, the first.
+// The number after `word` in a file of such pairs; without a word, the first number.
 std::optional<double> numberIn(const std::filesystem::path& path, const std::string& word = {}) {
   std::ifstream file(path);
   std::string name;
@@ -35,7 +35,7 @@ double onMachine() {
   return kib ? 1024.0 * *kib : kInfinity;
 }
 
-// Of a control group and those that it lies in. Files that were read and can be forgotten do not count as used.
+// Memory left in a control group and its ancestors. Page cache that can be dropped does not count as used.
 double inGroups(const std::filesystem::path& root, std::filesystem::path group, const char* limit, const char* used,
                 const char* forgettable) {
   double least = kInfinity;

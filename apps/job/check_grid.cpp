@@ -26,8 +26,8 @@ struct InputVertex {
 };
 using InputVertices = std::unordered_map<Point, InputVertex, PointHash>;
 
-// Adds places a turn to the east and to the west, if the grid's longitudes are not within those of the input: a file
-// for a model counts them on past 180.
+// Adds each place a turn to the east and to the west if the grid has longitudes beyond those of the input: in files of
+// models they continue past 180°.
 void addTurns(const Grid& grid, InputVertices& vertices) {
   if (!grid.crs.geographic || grid.nodes.empty() || vertices.empty()) return;
   const auto longitude = [](const auto& known) { return known.first.x; };
@@ -39,7 +39,7 @@ void addTurns(const Grid& grid, InputVertices& vertices) {
     for (const double turn : {360.0, -360.0}) vertices.emplace(Point{place.x + turn, place.y}, vertex);
 }
 
-// By how many degrees the angles opposite an inner edge exceed 180 together.
+// Degrees by which the sum of the angles opposite an interior edge exceeds 180.
 double delaunayExcess(const TriMesh& mesh, EdgeRef e) {
   const auto angleAtApex = [&mesh](EdgeRef edge) {
     return anglesDeg(mesh.points[mesh.apex(edge)], mesh.points[mesh.origin(edge)], mesh.points[mesh.target(edge)])[0];
@@ -47,7 +47,7 @@ double delaunayExcess(const TriMesh& mesh, EdgeRef e) {
   return angleAtApex(e) + angleAtApex(mesh.twin(e)) - 180.0;
 }
 
-// The triangle's edge whose middle lies at `place`.
+// The triangle's edge whose midpoint is nearest to `place`.
 EdgeRef edgeAt(const TriMesh& mesh, TriId t, const Point& place) {
   const auto distanceTo = [&](unsigned i) {
     const Point& a = mesh.points[mesh.origin(edgeRef(t, i))];
@@ -61,7 +61,7 @@ EdgeRef edgeAt(const TriMesh& mesh, TriId t, const Point& place) {
   return edgeRef(t, nearest);
 }
 
-// Rounding does not account for it.
+// True if rounding cannot explain the defect.
 bool isClearlyNotDelaunay(const TriMesh& mesh, const MeshDefect& defect) {
   const EdgeRef e = edgeAt(mesh, defect.triangle, defect.place);
   return mesh.twin(e) != kNone && delaunayExcess(mesh, e) > kAngleSlackDeg;
@@ -87,13 +87,13 @@ void checkPiece(const GridPiece& piece, const Pslg* pslg, const GridCheckOptions
   result.bounds.add(bounds);
   for (const MeshDefect& defect : found) {
     if (defect.kind == DefectKind::NotDelaunay && !isClearlyNotDelaunay(piece.mesh, defect)) continue;
-    if (defect.kind == DefectKind::NotCounterClockwise) continue;  // what counts is the ground, not this plane
+    if (defect.kind == DefectKind::NotCounterClockwise) continue;  // tested on the ground, not in this plane
     const std::int64_t triangle = defect.triangle == kNone ? -1 : std::int64_t{piece.triangles[defect.triangle]};
     defects.push_back({defect.kind, inverse(defect.place), triangle, defect.value});
   }
 }
 
-// As `mesh` judges what it made: the plane that a piece is put into may be another than that.
+// On the ground, as `mesh` does: the plane of a piece may differ from the one that the mesh was made in.
 void checkOrientation(const Grid& grid, std::vector<GridDefect>& defects) {
   for (const std::uint32_t t : turnedTriangles(grid, triangleAreas(grid.nodes, grid.triangles, grid.crs)))
     defects.push_back({DefectKind::NotCounterClockwise, middleOf(grid, t), std::int64_t{t}});
@@ -103,7 +103,7 @@ void sortByKind(std::vector<GridDefect>& defects) {
   std::ranges::stable_sort(defects, {}, [](const GridDefect& defect) { return static_cast<int>(defect.kind); });
 }
 
-// The input's group that most nodes of the triangles are vertices of.
+// The input's group that has most of the triangles' nodes as vertices; nullopt if none has any.
 std::optional<std::size_t> groupOf(const Grid& grid, const std::vector<std::uint32_t>& triangles,
                                    const InputVertices& vertices) {
   std::map<std::size_t, std::size_t> votes;
@@ -168,8 +168,8 @@ GridCheck checkGridAgainst(const Grid& grid, const JobInput& input, const GridCh
     }
     std::ranges::sort(triangles_of[g]);
     GridPiece piece = makePiece(grid, std::move(triangles_of[g]), domains[g]->projection);
-    // A vertex that cleaning made has no coordinates of the input to be projected from: its place in the plane is
-    // reported.
+    // Vertices that cleaning made have exact places only in the plane: projecting their rounded coordinates does not
+    // give these back.
     for (std::size_t v = 0; v < piece.nodes.size(); ++v) {
       const auto found = vertices.find(grid.nodes[piece.nodes[v]]);
       if (found != vertices.end() && found->second.group == g) {

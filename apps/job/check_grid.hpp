@@ -21,7 +21,7 @@ struct GridDefect {
 struct GridCheckOptions {
   double min_angle_deg = 0.0;    // degrees; 0: no bound
   double max_angle_deg = 180.0;  // degrees; 180: no bound
-  SurfaceChoice surface{};       // without an input; else the input's counts
+  SurfaceChoice surface{};       // used without an input; otherwise the input's applies
   bool delaunay = false;
   bool pinches = false;
 };
@@ -35,8 +35,7 @@ struct GridCheck {
   BoundCounts bounds;
 };
 
-// Every defect of the grid, each connected piece in its own plane; a border between features counts as a
-// constraint.
+// Every defect of the grid, each connected piece in its own plane; a border between features counts as a constraint.
 GridCheck checkGrid(const Grid& grid, const GridCheckOptions& options);
 
 // The same against the grid's input, in the input's own planes: vertices and segments must exist, and small angles of

@@ -9,7 +9,7 @@
 namespace coastmesh {
 
 std::vector<std::uint32_t> dealGroups(const std::vector<std::size_t>& points, std::uint32_t shards) {
-  // What a group costs however small it is, in points.
+  // Fixed cost of a group, in points.
   constexpr std::uint64_t kPointsOfAny = 20;
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -12,8 +12,7 @@ namespace coastmesh {
 
 namespace {
 
-constexpr std::size_t kLongestName =
-    100;  // bytes: most systems end at 255, with folder, ending and hidden names besides
+constexpr std::size_t kLongestName = 100;  // bytes; most systems allow 255, to which hidden names and endings add
 
 bool isPartOfLetter(char c) { return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u; }
 

@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 std::string nameOf(Target target) { return kTargetNames[static_cast<std::size_t>(target)]; }
 std::string nameOf(const Repair& repair) { return repair.target ? nameOf(*repair.target) : "time step"; }
 
-constexpr double kMuchWater = 0.02;  // of all: more than models forgive
+constexpr double kMuchWater = 0.02;  // share of all water; losing more affects models
 
 std::string textOf(const DroppedWaters& dropped) {
   return areaInWords(dropped.area_m2, dropped.in_plane) + amount(" (%.2g %%)", 100.0 * dropped.share) +
@@ -66,8 +66,8 @@ FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunContr
   RepairMemory memory;
   if (!grid.triangles.empty() && report.mended)
     report.repairs = repairForTargets(grid, targets, options.repair, &memory);
-  // Nodes that repairs made or moved get a depth of their own; openings may be above the water then, and time steps too
-  // short.
+  // Nodes that repairs made or moved get new depths, which may put openings above the water or make time steps too
+  // short: hence further rounds.
   constexpr int kRounds = 3;
   const auto ofDepths = [](const Repair& repair) { return repair.kind == TargetDefectKind::DryOpening; };
   bool changed = !std::ranges::all_of(report.repairs.repairs, ofDepths);

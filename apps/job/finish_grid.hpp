@@ -19,7 +19,7 @@ struct FinishOptions {
   BoundaryOptions boundaries{};
   std::vector<std::string> targets{};  // names of models that the grid is repaired for
   RepairOptions repair{};
-  bool drop_apart = false;  // waters without a connection to an open boundary, if there is one
+  bool drop_apart = false;  // waters without a connection to an open boundary are removed, if there is one
 
   bool any() const { return !depth.files.empty() || boundaries.any() || !targets.empty() || repair.time_step_s > 0.0; }
 };
@@ -30,7 +30,7 @@ struct FinishReport {
   bool mended = false;  // repairs were requested
   RepairReport repairs;
   DroppedWaters dropped;
-  std::size_t apart = 0;  // such waters that are still there, if targets are given
+  std::size_t apart = 0;  // such waters that are left, if targets are given
 
   std::vector<std::string> notes() const;
   std::vector<std::string> warnings() const;

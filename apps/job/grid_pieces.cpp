@@ -41,7 +41,7 @@ Grid partOf(const Grid& grid, const std::vector<std::uint32_t>& nodes, const std
   return part;
 }
 
-// A border between features was a constraint, of which segment cannot be known any more.
+// Borders between features were constraints; which segments they were is unknown.
 void markBorders(TriMesh& mesh) {
   constexpr SegmentId kSomeSegment = 0;
   for (TriId t = 0; t < mesh.triangles.size(); ++t) {
@@ -102,13 +102,13 @@ Projection fitProjection(const Grid& grid, const std::vector<std::uint32_t>& tri
     for (VertexId v : loop) polygon.outer.push_back(part.nodes[v]);
   }
   if (conflicts.empty() && isClosed(linked)) {
-    // Beyond the plane lies what is opposite to a place: of the first triangle, and of no symmetry.
+    // What is opposite to this place lies beyond the plane: a point of the first triangle, off its axes of symmetry.
     const auto& [a, b, c] = part.triangles.front();
     outline.features[0].points.push_back(0.5 * part.nodes[a] + 0.3 * part.nodes[b] + 0.2 * part.nodes[c]);
     outline.rest = 0;
     return Projection::fitted(outline, {0}, kind);
   }
-  // A broken grid may have no boundary at all.
+  // A broken grid may have no boundary.
   if (outline.features[0].polygons.empty()) outline.features[0].polygons.push_back({part.nodes, {}});
   return Projection::fitted(outline, {0}, kind);
 }

@@ -20,7 +20,7 @@ struct GridPiece {
   std::vector<EdgeConflict> conflicts;   // in points of the mesh
 };
 
-// The grid's triangles in pieces that share no node; pieces, and the triangles in them, ascend.
+// The grid's triangles in pieces that share no node. Pieces, and the triangles in them, are in ascending order.
 std::vector<std::vector<std::uint32_t>> connectedTriangles(const Grid& grid);
 
 // A conformal projection fitted to the given triangles, or the identity for a grid without a place on Earth.

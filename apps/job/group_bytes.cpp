@@ -4,7 +4,7 @@
 
 namespace coastmesh {
 
-// Found by the calls of `pass`.
+// Found by argument-dependent lookup from `pass`.
 auto partsOf(auto& seconds) requires std::is_same_v<std::remove_cvref_t<decltype(seconds)>, MeshSeconds> {
   auto& [triangulate, refine, coarsen, optimise, stitch] = seconds;
   return std::tie(triangulate, refine, coarsen, optimise, stitch);
@@ -25,7 +25,7 @@ auto partsOf(auto& raised) requires std::is_same_v<std::remove_cvref_t<decltype(
   auto& [length_m, raised_m, most_m] = raised;
   return std::tie(length_m, raised_m, most_m);
 }
-// All but the log.
+// All members but the log.
 auto partsOf(auto& result) requires std::is_same_v<std::remove_cvref_t<decltype(result)>, GroupResult> {
   auto& [grid, edits, edit_places, projection, projection_reason, surface, least_scale, greatest_scale, refine,
          short_of, quality, size_max, input_area_m2, digest, clean_s, size_s, check_s, mesh_s, pieces, log,

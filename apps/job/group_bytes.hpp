@@ -8,11 +8,12 @@
 
 namespace coastmesh {
 
-// A group's result as bytes, for one version of coastmesh: everything except, in its log, only the work.
+// A group's result as bytes, for one version of coastmesh: everything but the log, of which only the total work is
+// kept.
 std::string bytesOf(const GroupResult& result);
-// The same, passed on as they are made.
+// The same, passed to `put` piece by piece.
 void putBytesOf(const GroupResult& result, const std::function<void(std::string_view)>& put);
-// `what` names the bytes in the error if they are damaged; throws InputError.
+// Throws InputError if the bytes are damaged; `what` names them in the message.
 GroupResult groupFrom(std::string_view bytes, const std::string& what);
 
 }  // namespace coastmesh

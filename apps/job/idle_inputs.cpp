@@ -45,8 +45,7 @@ Box boxOf(const ShoreLine& line) {
   return box;
 }
 
-// What lies a little beside the mesh may well be meant: sizes grow from features outside of it into it, and closed
-// straits are not in it.
+// With a margin: sizes grow from features outside the mesh into it, and closed straits are not part of it.
 Box surroundingsOf(const Grid& grid) {
   Box mesh;
   for (const Point& node : grid.nodes) mesh.add(node);
@@ -62,7 +61,7 @@ bool meets(const Box& box, const Box& mesh, const Crs& crs) {
   return false;
 }
 
-// What the mesh has of features of that use: names of lines, or of regions.
+// Names that the mesh has of features of that use: of lines, or of regions.
 std::set<std::string> namesIn(const Grid& grid, FeatureUse use) {
   std::set<std::string> names;
   if (use == FeatureUse::Region) {
@@ -75,7 +74,7 @@ std::set<std::string> namesIn(const Grid& grid, FeatureUse use) {
   return names;
 }
 
-// Whether the feature was read from that file, or from its layer where the name says one: "file|layername=layer".
+// True if the feature was read from that file, or from its layer if the name has one: "file|layername=layer".
 bool isFrom(const Feature& feature, const std::string& named) {
   if (feature.source == named || feature.source.starts_with(named + "|")) return true;
   const std::size_t bar = named.rfind('|');
@@ -87,8 +86,8 @@ bool isFrom(const Feature& feature, const std::string& named) {
          feature.source == file + "|" + (layer.starts_with(kLayer) ? layer.substr(kLayer.size()) : layer);
 }
 
-// The files of that use that left nothing in the mesh; features beyond the frame are no longer there. Of constraints
-// that are points, cleaning says which lie in no water.
+// The files of that use that left nothing in the mesh; features beyond the frame were removed before. Point constraints
+// count as used: cleaning reports those outside the water.
 std::vector<std::string> idleFiles(const Coastline& coastline, FeatureUse use, const std::vector<std::string>& files,
                                    const Grid& grid) {
   if (files.empty()) return {};
@@ -110,7 +109,7 @@ bool holdsPolygons(const Coastline& coastline, FeatureUse use, const std::string
   });
 }
 
-// True iff it holds polygons, and nothing else.
+// True iff the file holds polygons and nothing else.
 bool holdsOnlyPolygons(const Coastline& coastline, FeatureUse use, const std::string& file) {
   if (use == FeatureUse::Region || !holdsPolygons(coastline, use, file)) return false;
   return std::ranges::none_of(coastline.features, [&](const Feature& feature) {
@@ -118,7 +117,8 @@ bool holdsOnlyPolygons(const Coastline& coastline, FeatureUse use, const std::st
   });
 }
 
-// The depths that some place in a triangle may have, whose nodes were lowered where they were less than `least`.
+// The depths that places in a triangle may have. A node at `least_m` may have been lowered to it from any smaller
+// depth.
 struct DepthRange {
   double from_m = std::numeric_limits<double>::infinity(), to_m = -from_m;
 
@@ -129,7 +129,7 @@ struct DepthRange {
   bool meets(const DepthBand& band) const { return to_m >= band.from_m && from_m < band.to_m; }
 };
 
-// A band is met where depths between those of nodes are in it.
+// A band has an effect if it meets the range of depths in a triangle.
 void addIdleBands(const MeshJob& job, const Grid& grid, std::vector<std::string>& warnings) {
   std::vector<DepthBand> idle = job.sizes.depth.bands;
   for (const auto& triangle : grid.triangles) {
@@ -160,7 +160,7 @@ std::vector<std::string> warningsOfIdleInputs(const MeshJob& job, const SizeInpu
       all.push_back("--size-raster " + raster.path + ": no node of the mesh lies in it; is its CRS right?");
   if (hasDepths(grid)) addIdleBands(job, grid, all);
   const bool any = !sizes.features.empty() || !job.sizes.passages.empty() || !job.sizes.barriers.empty();
-  const Box around = any ? surroundingsOf(grid) : Box{};  // a look at every node
+  const Box around = any ? surroundingsOf(grid) : Box{};  // visits every node
   const auto isNear = [&](const auto& part) { return meets(boxOf(part), around, grid.crs); };
   for (std::size_t file = 0; file < sizes.features.size(); ++file)
     if (std::ranges::none_of(sizes.features[file].parts, isNear))

@@ -10,9 +10,8 @@
 
 namespace coastmesh {
 
-// A warning for each file that was given for sizes, passages, barriers, constraints, weirs or regions and has nothing
-// where the mesh lies: mostly it is in another CRS than it says, or of another place; and for each band of depths that
-// the mesh has none of.
+// A warning for each file given for sizes, passages, barriers, constraints, weirs or regions that has nothing near the
+// mesh (mostly its CRS is wrong, or it is of another place), and for each band that contains no depth of the mesh.
 std::vector<std::string> warningsOfIdleInputs(const MeshJob& job, const SizeInputs& sizes, const Coastline& coastline,
                                               const Grid& grid);
 

@@ -57,8 +57,8 @@ std::vector<Source> sourcesOf(const InputOptions& options) {
   return sources;
 }
 
-// GeoJSON says longitudes and latitudes whatever it holds: where what is to be taken as a plane is none of these, it
-// has no place on Earth, and nor has the mesh.
+// GeoJSON always declares longitudes and latitudes. If coordinates to be taken as a plane are out of their range, drops
+// the CRS, with a warning: neither the input nor the mesh has a place on Earth.
 void forgetImpossibleCrs(Coastline& coastline, ReadReport& report) {
   if (!coastline.crs.geographic) return;
   const Feature* odd = nullptr;
@@ -195,7 +195,7 @@ void JobInput::bendEdges() {
                           " by more than --edge-tolerance");
 }
 
-// Of a ready plane graph, which is taken as it is.
+// Throws OptionError for options that do not apply to a ready plane graph, which is used as it is.
 void JobInput::requireReadyGraph(const std::string& name) {
   if (options_.frame.side != DomainSide::Auto || options_.frame.box || options_.frame.water_at ||
       !options_.clip.empty())
@@ -222,7 +222,8 @@ void JobInput::readPolyFile(const std::string& path) {
   takePlaneGraph(readPoly(path), path);
 }
 
-// Where the surface asked for needs a place on Earth and a plane that is fitted.
+// An ellipsoid or sphere needs a place on Earth and a fitted plane. Without these, uses the plane if `where_known`, and
+// throws OptionError otherwise.
 void JobInput::requireSurface() {
   SurfaceChoice& surface = options_.surface;
   if (!surface.needsEarth()) return;

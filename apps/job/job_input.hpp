@@ -30,8 +30,8 @@ struct InputOptions {
   std::shared_ptr<const Pslg> pslg{};        // instead of files: a ready plane graph, not to be cleaned
   std::shared_ptr<const Coastline> ready{};  // instead of files: features read by `readInput`
   ReadFilter filter{};                       // what of the files is read
-  std::string boundary_column{};             // their column of boundary types; empty: only what `clean` kept counts
-  bool may_lack_column = false;              // since other files have the column
+  std::string boundary_column{};             // their column of boundary types; empty: only types that `clean` kept
+  bool may_lack_column = false;              // the column may be missing, since other files have it
   FrameOptions frame{};                      // the limits of the domain besides the shores
   std::string clip{};                        // a file of polygons that limit it, instead of `frame.box`; empty: none
   std::vector<std::string> constraints{};    // files of lines and points that become edges and vertices
@@ -49,7 +49,7 @@ struct InputOptions {
   double min_island_area_m2 = 0.0;           // square metres, 0 or more
 };
 
-// Whether the input is a plane graph, which has no features: `pslg` or a .poly.
+// True if the input is a plane graph, which has no features: `pslg` or a .poly.
 bool isPlaneGraph(const InputOptions& options);
 
 // Reads all the files of `options`, which must not be a .poly, once; what `files` define about boundaries is added to
@@ -87,11 +87,10 @@ class JobInput {
   // Projects and cleans a group. Throws InputError if nothing of it can be meshed. May be called from several threads
   // at once. Throws NothingWanted for one outside the frame or separate from the requested water.
   Domain domain(std::size_t group, CleanReport& report, const ItemLoop& loop = inOrder) const;
-  // Square metres on the ellipsoid, the sum of its rings as they are; none for a .poly, whose inside depends on its
+  // Square metres on the ellipsoid, the sum of its rings as they are; nullopt for a .poly, whose inside depends on its
   // holes.
   std::optional<double> area(std::size_t group) const;
-  // Of what was made of a group: what cleaning drops, and frames and coasts cut off, does not count, and what overlaps
-  // counts once.
+  // Area of a group's domain: excludes what cleaning drops and what frames and coasts cut off; overlaps count once.
   std::optional<double> area(const Domain& domain, const ItemLoop& loop = inOrder) const;
 
  private:

@@ -27,12 +27,12 @@ struct MeshJudgement {
 };
 
 // Finds the triangles of a finished mesh that miss the bounds of `options` on angles, and of the plane on lengths.
-// `slack_deg` as in `judgeFinished`; `places` are the plane's in space.
+// `slack_deg` as in `judgeFinished`; `places`: the mesh's points in space, empty if the plane is the surface.
 MeshJudgement judgeMesh(const TriMesh& mesh, const WorkingPlane& plane, const RefineOptions& options, double slack_deg,
                         std::span<const SpacePoint> places, const ItemLoop& loop = inOrder);
 
-// A group in a grid that has several, one after another: the first of its features there. Its projection is fitted
-// again when needed: most runs never need it, and some have a million groups.
+// A group in a grid of several groups, one after another, with its first feature there. Its projection is fitted again
+// when needed: most runs never need it, and some have a million groups.
 struct MergedGroup {
   std::size_t group;
   double size_max;  // as in WorkingPlane

@@ -10,11 +10,11 @@ namespace coastmesh {
 struct Together {
   std::size_t groups = 1;     // of the run
   std::size_t points = 0;     // of all of them
-  std::size_t at_a_time = 1;  // at most so many of them are meshed at once
+  std::size_t at_a_time = 1;  // at most this many of them are meshed at once
 };
 
-// What of `whole` bytes a group may take while others are meshed beside it: the shares of any `at_a_time` groups are no
-// more than `whole`. A group for which its share is too little has to be meshed alone.
+// The part of `whole` bytes that a group may take while others are meshed at the same time: shares of any `at_a_time`
+// groups sum to at most `whole`. A group that needs more than its share must be meshed alone.
 double memoryShare(double whole, std::size_t points, const Together& together);
 
 // Bytes of a finished grid's arrays.

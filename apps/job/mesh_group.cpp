@@ -39,7 +39,7 @@ namespace coastmesh {
 namespace {
 
 Point centreOf(const Pslg& pslg) {
-  if (pslg.points.empty()) return {};  // of a whole globe
+  if (pslg.points.empty()) return {};  // a whole globe
   Point low = pslg.points.front();
   Point high = low;
   for (const Point& p : pslg.points) {
@@ -49,7 +49,7 @@ Point centreOf(const Pslg& pslg) {
   return {low.x + (high.x - low.x) / 2, low.y + (high.y - low.y) / 2};
 }
 
-// Least and greatest scale at (a sample of) the points: a scale has its greatest on the boundary of what is mapped.
+// Smallest and largest scale at a sample of the points: a scale is largest on the boundary of what is mapped.
 std::pair<double, double> scaleRange(const Domain& domain) {
   constexpr std::size_t kLeastSample = 16, kMostSample = 1024, kPointsForOne = 16;
   const std::size_t count = domain.pslg.points.size();
@@ -65,11 +65,11 @@ std::pair<double, double> scaleRange(const Domain& domain) {
   return {least, greatest};
 }
 
-// Estimates are right to half as much; what asks for more than this many times the budget is not begun.
+// Estimates may be off by half; meshes that require more than this many times the budget are not begun.
 constexpr double kClearlyMore = 2.0;
 constexpr double kMostReported = 1e18;
 
-// A group, and what it is meshed with.
+// A group, and the context in which it is meshed.
 struct GroupTask {
   const MeshJob& job;
   const JobInput& input;
@@ -81,21 +81,21 @@ struct GroupTask {
   const Feature& firstFeature() const { return input.coastline().features[input.members(group).front()]; }
 };
 
-// Memory of the whole program at its peak, GIS layers included, and what of it a run takes at least: refinement that
-// grows beyond this much of the memory is stopped.
+// Bytes of the whole program per vertex. `peak` includes GIS layers; estimates are compared with it. `least` is what
+// any run takes: refinement stops at as many vertices as fit in memory at this rate.
 struct BytesPerVertex {
   double peak, least;
 };
 
-// Measured from three million vertices on, where lattices make most of them: 143 to 178 with a longest edge alone, 234
-// with graded sizes, 263 on the whole globe; and without lattices.
+// Measured with three million vertices and more. Where lattices make most of them: 143 to 178 with a maximum edge
+// length alone, 234 with graded sizes, 263 on the whole globe. `kRefined`: without lattices.
 BytesPerVertex bytesPerVertex(const MeshJob& job, SurfaceKind surface) {
   constexpr BytesPerVertex kOfLattices{320.0, 280.0}, kRefined{600.0, 520.0};
   const bool is_bounded = std::isfinite(job.sizes.most_m) && surface == SurfaceKind::Plane;
   return job.mesh.refine.algorithm == Algorithm::Relocate && (job.sizes.any() || is_bounded) ? kOfLattices : kRefined;
 }
 
-// As many as there is memory for, or as the numbers of a mesh's parts reach.
+// The number of vertices for which there is memory, at most the range of indices in a mesh.
 double possibleVertices(const GroupTask& task, SurfaceKind surface) {
   return std::min(task.room.memory / bytesPerVertex(task.job, surface).peak, static_cast<double>(kMostVertices));
 }
@@ -137,9 +137,9 @@ MeshOptions optionsFor(const GroupTask& task, const Domain& domain, SurfaceKind 
   options.refine.max_vertices = room.vertices;
   options.refine.most_in_memory = static_cast<std::uint64_t>(
       std::min(static_cast<double>(kMostVertices), room.memory / bytesPerVertex(job, surface).least));
-  // A place that is no number has no resolution; what triangulates says which it is.
+  // Coordinates that are NaN have no resolution; triangulation reports them.
   if (std::isfinite(domain.resolution.grain)) options.refine.resolution = domain.resolution.grain;
-  // Where the coast is kept the data say how long edges are.
+  // With --coast keep, the data determine the lengths of edges.
   if (job.sizes.least_m > 0.0 && job.sizes.any() && job.sizes.coast == CoastDetail::Follow)
     options.refine.least_edge =
         StepOutcome::kUsualShare * job.sizes.least_m * domain.projection.measureAt(centreOf(domain.pslg));
@@ -150,20 +150,20 @@ MeshOptions optionsFor(const GroupTask& task, const Domain& domain, SurfaceKind 
   return options;
 }
 
-// Where `--size-max` is only a bound there is no map of sizes, but no mesh has fewer vertices than equilateral
-// triangles of that size.
+// If `--size-max` is only a bound, there is no map of sizes. The lower bound on vertices is then the number for
+// equilateral triangles of that size. Throws TooManyVertices if these exceed the memory.
 void requireMemory(const GroupTask& task, const Domain& domain, const GroupResult& result) {
   const MeshJob& job = task.job;
   const std::optional<double>& area_m2 = result.input_area_m2;
   if (job.sizes.any() || !area_m2 || !std::isfinite(job.sizes.most_m)) return;
-  // In a plane lengths are in its units, whatever area a CRS would give its coordinates.
+  // With coordinates used as they are, lengths are in their units, even if a CRS gives an area in square metres.
   const double area = domain.projection.isIdentity() ? geodesicArea(domain, Crs{}) : *area_m2;
   const double least = 2.0 / std::sqrt(3.0) * area / job.sizes.most_m / job.sizes.most_m;
   if (std::min(least, static_cast<double>(task.room.vertices)) <= possibleVertices(task, result.surface)) return;
   throw TooManyVertices({least, domain.projection.inverse(centreOf(domain.pslg)), job.sizes.most_m, "--size-max"});
 }
 
-// Leaves the failing region where its finder can send it from; returns where, or why not.
+// Saves the failing region, for a bug report; returns where, or why not.
 std::string dumpRegion(const Pslg& pslg, std::uint64_t digest) {
   std::ostringstream name;
   name << "coastmesh-bug-" << std::hex << digest << ".poly";
@@ -191,8 +191,8 @@ void requireSound(const MeshedRegion& region, const Domain& domain, std::span<co
                 pointText(domain.projection.inverse(defect.place)) + "; " + dumpRegion(domain.pslg, digestOf(mesh)));
 }
 
-// The group's part of the grid, for which the mesh is used up: no more memory is ever taken than while both are there.
-// It is given its own features alone, so that the work does not grow with the square of their number.
+// The group's part of the grid. Frees the mesh on the way, since memory is at its peak while both exist. Uses only the
+// group's own features, or the work would grow with the square of their number.
 Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, TriMesh mesh, std::vector<double> size_m,
                GroundPlaces ground, const ItemLoop& loop) {
   Coastline names;
@@ -207,7 +207,7 @@ Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, T
       name.attributes = feature.attributes;
     }
     forStretches(loop, mesh.regions.size(), [&](std::size_t first, std::size_t last) {
-      // Triangles near each other are mostly of one region.
+      // Consecutive triangles are mostly of one region.
       std::optional<RegionId> feature;
       RegionId member = 0;
       for (std::size_t t = first; t < last; ++t) {
@@ -228,18 +228,18 @@ Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, T
   freeMemoryOf(size_m);
   ground = {};
   grid.area_m2 = triangleAreas(grid.nodes, grid.triangles, grid.crs, loop);
-  grid.crs = {};  // the whole has it; a copy a lake would weigh more than the lake
+  grid.crs = {};  // the combined grid has it; a copy per lake would take more than the lake
   return grid;
 }
 
-// Sizes of shores that are dropped or closed would stay behind: they are made again from what is left. Where they are
-// larger at shores then, the coast follows them anew; where at open boundaries alone, these become coarser. `sized` is
-// replaced.
+// Makes the coast follow the sizes. Sizes also depend on shores that are dropped or closed by this, so they are
+// computed again from what is left. If they are larger at shores then, the coast follows them again; if only at open
+// boundaries, these are coarsened. Replaces `sized`.
 template <typename MakeSizes>
 Domain followShore(Domain&& domain, DomainSizes& sized, MakeSizes&& makeSizes, const FollowOptions& options,
                    const EdgeWishes& wishes, const ShoreGuides& guides, const Coastline& coastline, CleanReport& report,
                    FollowStart start, const ItemLoop& loop) {
-  constexpr double kSame = 1.05, kSameAtShores = 1.15;  // between the places that they are known at sizes are off
+  constexpr double kSame = 1.05, kSameAtShores = 1.15;  // tolerances, since sizes are interpolated
   const auto lengthen = [&](Domain&& followed, const SizeFunction& size) {
     if (wishes.least_m <= 0.0) return std::move(followed);
     return lengthenShores(std::move(followed), wishes, size, coastline, report, loop);
@@ -266,7 +266,7 @@ Domain cleanStage(const GroupTask& task, GroupResult& result) {
   const Stopwatch stopwatch;
   Recorder recorder;
   CleanReport clean;
-  // Small regions go without the clock, which would cost them more than the work.
+  // Small regions run without threads and clock, which would cost more than the work.
   constexpr std::size_t kWorthThreads = 10000;
   const bool many_points = task.input.pointsOf(task.group) >= kWorthThreads;
   const ItemLoop loop = many_points ? recorder.loop("clean", task.control) : ItemLoop(inOrder);
@@ -285,7 +285,7 @@ Domain cleanStage(const GroupTask& task, GroupResult& result) {
   return domain;
 }
 
-// The sizes of a whole globe: where one length is asked for everywhere no map of them is needed.
+// The sizes of a whole globe. A single length everywhere needs no map.
 std::unique_ptr<SizeFunction> globeSizes(const GroupTask& task, const Domain& domain, const ItemLoop& loop,
                                          VertexDemand& demand) {
   const SizeOptions& wanted = task.job.sizes;
@@ -301,7 +301,7 @@ std::unique_ptr<SizeFunction> globeSizes(const GroupTask& task, const Domain& do
   return std::make_unique<ConstantSize>(length);
 }
 
-// Where it is so much of the water that the sizes there may surprise.
+// Adds a note if so much of the water has no depth that the sizes there may surprise.
 void noteFilledWater(const FilledWater& filled, const SizeOptions& wanted, GroupResult& result) {
   constexpr double kLittle = 0.01;
   if (!(filled.area_m2 > kLittle * result.input_area_m2.value_or(0.0))) return;
@@ -311,7 +311,7 @@ void noteFilledWater(const FilledWater& filled, const SizeOptions& wanted, Group
       (wanted.gaps == GapFill::Nearest ? "the nearest depths" : "depths interpolated across it") + ", as nodes do");
 }
 
-// The sizes of a domain, which is made as coarse as they are where that is asked for; null where none are.
+// The sizes of a domain; with --coast follow, also coarsens the domain accordingly. Null if no sizes are requested.
 std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, GroupResult& result) {
   const auto& [job, input, sizes, group, room, control] = task;
   if (!job.sizes.any()) return nullptr;
@@ -404,8 +404,8 @@ MeshedRegion meshStage(const GroupTask& task, const Domain& domain, MeshOptions&
   return region;
 }
 
-// The loop of a stage after meshing; small regions go without threads. A large one need not have been cut: the lattice
-// of a whole globe is made as it is.
+// The loops of stages after meshing; small regions run without threads. A large region need not have been cut: the
+// lattice of a whole globe is made in one piece.
 class LoopsAfterMeshing {
  public:
   LoopsAfterMeshing(const MeshedRegion& region, const RunControl& control)
@@ -436,7 +436,7 @@ void checkStage(const GroupTask& task, const Domain& domain, const RefineOptions
   result.check_s = checking.seconds();
 }
 
-// Takes what is left of the region.
+// Consumes the rest of the region.
 void gridStage(const GroupTask& task, const Domain& domain, const SizeFunction* size, MeshedRegion& region,
                GroundPlaces ground, const ItemLoop& loop, GroupResult& result) {
   std::vector<double> size_m;
@@ -452,7 +452,7 @@ void gridStage(const GroupTask& task, const Domain& domain, const SizeFunction* 
   result.grid.piece_of = std::move(region.piece_of);
 }
 
-// What a mesh of the whole globe begins with.
+// Sets the cap, seeds and lattice that a mesh of the whole globe starts with.
 void startGlobe(const GroupTask& task, const Domain& domain, const SizeFunction* size, MeshOptions& options) {
   Recorder recorder;
   GlobeStart start = globeStart(domain, task.job.sizes, size, recorder.loop("lattice", task.control));
@@ -478,7 +478,7 @@ void fillGroup(const GroupTask& task, GroupResult& result) {
   result.log.append(loops.finish());
 }
 
-// Of a plane graph, whose segments the user knows by their order.
+// The segments of a plane graph, by their order in the input.
 std::string segmentsOf(const PslgDefect& defect) {
   if (defect.segment == kNone) return "";
   const std::string first = std::to_string(std::uint64_t{defect.segment} + 1);

@@ -6,7 +6,7 @@
 
 namespace coastmesh {
 
-// What is kept of a group of features once it is meshed.
+// The result of meshing a group of features.
 struct GroupResult {
   Grid grid;  // without its CRS
   std::array<std::uint64_t, kEditKinds> edits{};
@@ -18,7 +18,7 @@ struct GroupResult {
   RefineStats refine;
   Shortfall short_of;
   MeshQuality quality;
-  std::optional<double> size_max;  // the longest edge of its plane, as in WorkingPlane; none if nothing was meshed
+  std::optional<double> size_max;  // the longest edge of its plane, as in WorkingPlane; nullopt if nothing was meshed
   std::optional<double> input_area_m2;
   std::uint64_t digest = 0;
   double clean_s = 0.0;
@@ -40,7 +40,7 @@ struct GroupResult {
   RaisedShore raised_shore;
 };
 
-// How coasts are to follow sizes where they do.
+// The options for coasts that follow sizes.
 FollowOptions followOptionsOf(const MeshJob& job);
 
 // The limits of a group's mesh.
@@ -49,9 +49,9 @@ struct GroupRoom {
   double memory = 0.0;         // bytes; changes nothing but whether the group is refused
 };
 
-// Projects, cleans, meshes and checks a group. Reasons why it cannot be meshed go to `refusal`, also if its sizes
-// require many more vertices than there is room for, before that is used. Throws Cancelled, BadMesh, BadCheckpoint, and
-// what the job's exchange throws.
+// Projects, cleans, meshes and checks a group. Reasons why it cannot be meshed go to `refusal`. Sizes that require many
+// more vertices than there is room for are refused before meshing. Throws Cancelled, BadMesh, BadCheckpoint, and what
+// the job's exchange throws.
 GroupResult meshGroup(const MeshJob& job, const JobInput& input, const SizeInputs& sizes, std::size_t group,
                       const GroupRoom& room, const RunControl& control);
 

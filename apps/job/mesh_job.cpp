@@ -38,17 +38,17 @@ namespace coastmesh {
 
 namespace {
 
-// Groups up to so many points are taken in their order, so that their results are put together as they come.
+// Groups of up to this many points are taken in order, so that their results can be merged at once.
 constexpr std::size_t kSmallGroup = 1024;
 
-// What the whole may hold, shared out by the groups' points, so that no group waits for what another leaves over.
+// A group's share of the budget, by points: fixed, so that no group waits for what another leaves.
 std::uint64_t vertexBudget(std::uint64_t whole, std::size_t points, std::size_t all_points) {
   if (points == all_points || whole == std::numeric_limits<std::uint64_t>::max()) return whole;
   return static_cast<std::uint64_t>(static_cast<double>(whole) * static_cast<double>(points) /
                                     static_cast<double>(all_points));
 }
 
-// The groups' shares of the work put together, weighed by their points.
+// Combined progress of the groups, weighted by their points.
 class GroupProgress {
  public:
   GroupProgress(const std::vector<std::size_t>& weights, const JobControl& control)
@@ -144,8 +144,8 @@ void addGroup(const JobInput& input, std::size_t group, GroupResult&& part, Mesh
   appendGrid(result.grid, std::move(part.grid));
 }
 
-// The result of a group that waits for those before it. Where a large one is among these, half a million small ones may
-// wait for it: as bytes they take less than half the room.
+// The result of a group that waits for those before it. Half a million small ones may wait for a large one: as bytes
+// they take less than half the memory.
 class WaitingGroup {
  public:
   explicit WaitingGroup(GroupResult&& result) {
@@ -159,17 +159,17 @@ class WaitingGroup {
   GroupResult take() { return whole_ ? std::move(*whole_) : groupFrom({bytes_.data(), bytes_.size()}, "a group"); }
 
  private:
-  std::unique_ptr<GroupResult> whole_;  // of one that was cut, whose log counts
-  std::vector<char> bytes_;             // no more room than they need
+  std::unique_ptr<GroupResult> whole_;  // of a group that was cut, whose log is used
+  std::vector<char> bytes_;             // no spare capacity
 };
 
-// Puts the groups' results together in the groups' order, each as soon as those before it are there.
+// Merges the groups' results in order, each as soon as all before it are there.
 class OrderedMerge {
  public:
-  // Of groups; a million lakes may have one each.
+  // Of groups: each of a million lakes may have one.
   static constexpr std::size_t kMostWarnings = 20;
 
-  // Groups that are not `expected` are passed over.
+  // Groups that are not `expected` are skipped.
   OrderedMerge(const JobInput& input, const std::vector<bool>& expected, MeshJobResult& result)
       : input_(input), expected_(expected), result_(result), waiting_(input.groups()) {
     passUnexpected();
@@ -207,7 +207,7 @@ class OrderedMerge {
   }
 
  private:
-  // Once it is, it stays so until it is added.
+  // Once true, it stays true until the group is added.
   bool isNext(std::size_t group) {
     const std::lock_guard lock(mutex_);
     return group == next_;
@@ -246,7 +246,7 @@ class OrderedMerge {
   double merging_s_ = 0.0;
 };
 
-// Large groups first, lest one of them be left for the end, when all other threads have nothing to do.
+// Large groups first: one that is left for the end would leave other threads idle.
 std::vector<std::size_t> workOrder(const std::vector<std::size_t>& points) {
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -255,9 +255,9 @@ std::vector<std::size_t> workOrder(const std::vector<std::size_t>& points) {
   return order;
 }
 
-// Memory of the groups of a run. As many as there are threads are meshed at once, each within its share; those for
-// which that is too little are meshed afterwards, one by one, with all that finished groups leave. Hence together they
-// never take more than there is, and which are refused does not depend on what is meshed beside them.
+// Memory of the groups of a run. As many groups as there are threads are meshed at once, each within its share; those
+// that need more are meshed afterwards, one by one, with all that finished groups leave. Hence together they never take
+// more than there is, and which groups are refused does not depend on the others.
 class GroupMemory {
  public:
   GroupMemory(double whole, const Together& together) : whole_(whole), together_(together) {}
@@ -281,7 +281,7 @@ class GroupMemory {
   std::mutex mutex_;
 };
 
-// Meshes the groups that this run is to mesh, or takes them from the job's exchange, and puts them together.
+// Meshes this run's groups, or takes them from the job's exchange, and merges them.
 std::vector<MergedGroup> meshGroups(const MeshJob& job, const JobInput& input, const SizeInputs& sizes,
                                     const JobControl& control, MeshJobResult& result) {
   std::vector<std::size_t> points(input.groups());
@@ -304,7 +304,7 @@ std::vector<MergedGroup> meshGroups(const MeshJob& job, const JobInput& input, c
   const std::size_t own_points = std::accumulate(weights.begin(), weights.end(), std::size_t{0});
   GroupMemory memory(job.memory ? *job.memory : availableMemory(),
                      {order.size(), own_points, static_cast<std::size_t>(threadCount())});
-  // Returns whether it is done; what lacks memory is so only in the end.
+  // Returns false if the group lacks memory, unless `in_the_end`: then it is refused.
   const auto make = [&](std::size_t g, double room, bool in_the_end) {
     const std::uint64_t budget = vertexBudget(job.mesh.refine.max_vertices, points[g], all_points);
     const RunControl inner{control.cancelled, [&progress, g](double share) { progress.report(g, share); }};
@@ -315,7 +315,7 @@ std::vector<MergedGroup> meshGroups(const MeshJob& job, const JobInput& input, c
     memory.hold(part.grid);
     const bool large = part.pieces > 1;
     merge.add(g, std::move(part));
-    // Many may have waited for it.
+    // Many small results may have waited for it.
     if (large) giveBackFreeMemory();
     progress.report(g, 1.0);
     return true;
@@ -337,8 +337,8 @@ std::vector<MergedGroup> meshGroups(const MeshJob& job, const JobInput& input, c
   return merge.merged();
 }
 
-// The grid as it is now, each group in the plane that it was made in. The digest stays that of the mesh where nothing
-// but nodes of the frame moved.
+// Measures the present grid, each group in the plane that it was made in. Unless the grid is repaired, only nodes at
+// the frame have moved, and the digest stays that of the mesh.
 void measureAgain(const MeshJob& job, const JobInput& input, const std::vector<MergedGroup>& groups, bool is_repaired,
                   MeshJobResult& result) {
   result.quality = {};
@@ -370,7 +370,7 @@ bool isMeasuredOnEarth(const MeshJobResult& result) {
   return std::ranges::any_of(result.surfaces, [](const auto& each) { return each.first != SurfaceKind::Plane; });
 }
 
-// What was not short when it was measured, and is in the file.
+// Adds a note on triangles that met the bound when they were measured, but miss it in the file.
 void noteFallenShort(const FrameMoves& moves, double min_angle_deg, MeshJobResult& result) {
   if (moves.fell_short.empty()) return;
   double worst = 180.0;
@@ -390,7 +390,7 @@ void noteFallenShort(const FrameMoves& moves, double min_angle_deg, MeshJobResul
   result.read.notes.push_back(text.str());
 }
 
-// By all groups: shares are of all water that is meshed.
+// For all groups together: shares are of all water that is meshed.
 void noteFollowed(const MeshJob& job, MeshJobResult& result) {
   const FollowOptions follow = followOptionsOf(job);
   NotesAndWarnings texts = noteWaters(result.waters, follow);
@@ -400,7 +400,7 @@ void noteFollowed(const MeshJob& job, MeshJobResult& result) {
   if (!of_area.empty()) result.read.warnings.push_back(std::move(of_area));
 }
 
-// Where it is so much of the shore that the sizes there may surprise.
+// Adds a note if sizes are raised along so much of the shore that they may surprise.
 void noteRaisedShore(MeshJobResult& result) {
   constexpr double kLittle = 0.1;
   const auto& [length_m, raised_m, most_m] = result.raised_shore;
@@ -411,7 +411,7 @@ void noteRaisedShore(MeshJobResult& result) {
                               "; a shorter step allows smaller elements");
 }
 
-// In the coordinates that are written: what is right in the working plane need not be so there.
+// In the coordinates that are written: orientation in the working plane may differ.
 void findTurned(MeshJobResult& result, const ItemLoop& loop) {
   for (const std::uint32_t t : turnedTriangles(result.grid, result.grid.area_m2, loop)) {
     ++result.turned;
@@ -456,7 +456,8 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   const ItemLoop loop = recorder.loop("grid", RunControl{control.cancelled, {}});
   const FrameMoves moves =
       input.isPoly() ? FrameMoves{} : keepInFrame(result.grid, input.coastline(), job.mesh.refine.min_angle_deg, loop);
-  // In the plane it is what was made there that counts, less what this spoilt; on the Earth, where every node lies.
+  // If angles are measured on the Earth, those of moved nodes are measured again; in the plane, the mesh as it was made
+  // counts, and triangles that now fall short are noted.
   if (moves.nodes > 0 && isMeasuredOnEarth(result)) {
     measureAgain(job, input, merged, false, result);
   } else {
@@ -484,7 +485,7 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
     result.seconds.finish = finishing.seconds();
     result.log.append(recorder.finish("finish"));
   }
-  // A shard, or one feature of many, may well lie beside them.
+  // A shard, or one feature of many, may legitimately be far from these inputs.
   if (job.exchange.shards <= 1 && !job.input.ready) {
     std::ranges::move(warningsOfIdleInputs(job, sizes, input.coastline(), result.grid),
                       std::back_inserter(result.read.warnings));

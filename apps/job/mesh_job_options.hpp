@@ -23,7 +23,7 @@ struct MeshJob {
   GroupExchange exchange;
   std::vector<std::string> notes;  // choices made for the user, for messages
   bool keep_edits = false;         // record where changes were made, not only how many
-  std::optional<double> memory;    // bytes that it may take; none: `availableMemory()`
+  std::optional<double> memory;    // bytes that it may take; nullopt: `availableMemory()`
 };
 
 // Communication of a job with its caller. Either function may be empty; `progress` is called from one thread at a time,

@@ -80,15 +80,15 @@ struct MeshJobResult {
   ReadReport read;
   Crs crs;
   std::array<std::uint64_t, kEditKinds> edits{};
-  std::vector<Edit> edit_places;                     // where the job keeps them: of cleaning, and of following sizes
-  std::map<std::uint32_t, std::string> edited;       // the features of these, and their sources
+  std::vector<Edit> edit_places;                     // if the job keeps them: by cleaning, and by following sizes
+  std::map<std::uint32_t, std::string> edited;       // the features of these edits, and their sources
   std::map<std::string, std::uint64_t> projections;  // kind, and how many regions used it
   std::string first_projection;                      // of the first region, with its parameters
   std::string first_projection_reason;
   std::map<SurfaceKind, std::uint64_t> surfaces;  // number of regions measured on each
   double least_scale = std::numeric_limits<double>::infinity(), greatest_scale = 0.0;  // plane over true length
   std::uint64_t regions = 0;        // groups of features that were meshed
-  std::uint64_t pieces = 0;         // number of pieces
+  std::uint64_t pieces = 0;         // regions are refined in one or more pieces
   WorkLog log;                      // groups that were cut, one after another, then the others
   double estimated_vertices = 0.0;  // from the requested sizes, including refused groups; 0 if there are none
   RefineStats refine;               // `unresolved` is empty: see below
@@ -97,12 +97,12 @@ struct MeshJobResult {
   std::uint64_t turned = 0;          // triangles that are not counter-clockwise on the ground: see `turnedTriangles`
   std::vector<Point> turned_places;  // the first kBoundViolationPlaces of them, in the input's CRS
   std::vector<Refusal> refusals;
-  std::map<std::string, std::size_t> idle;  // in how many regions what is given has no effect
-  FollowedWaters waters;                    // of what was meshed, where coasts follow sizes
+  std::map<std::string, std::size_t> idle;  // notes on inputs without effect, with the number of such regions
+  FollowedWaters waters;                    // of meshed groups, if coasts follow sizes
   RaisedShore raised_shore;
   std::string last_unwanted;  // why a group outside the requested area was skipped
   MeshQuality quality;
-  std::optional<double> input_area_m2;  // of what was meshed; none for a .poly
+  std::optional<double> input_area_m2;  // of what was meshed; nullopt for a .poly
   double mesh_area_m2 = 0.0;
   std::uint64_t digest = 0;
   PhaseSeconds seconds;

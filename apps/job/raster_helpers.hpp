@@ -17,8 +17,7 @@
 
 namespace coastmesh {
 
-// Rasters that are read by this process and its helpers: each part by only one of them, during the lifetime of
-// this.
+// Rasters that this process and its helpers read: each part is read by only one of them while this object lives.
 class RasterHelpers {
  public:
   // `helpers` may be null: then this process reads everything.

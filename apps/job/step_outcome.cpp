@@ -12,7 +12,7 @@ namespace coastmesh {
 
 namespace {
 
-// How many there are of each cause, and what helps.
+// The number of each cause, and remedies.
 template <typename Short>
 std::string causesText(const std::vector<Short>& found, const SizeOptions& sizes, QualityGoal goal) {
   std::array<std::size_t, kShortCauses> counts{};

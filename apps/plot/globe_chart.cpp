@@ -24,7 +24,7 @@ class Orthographic final : public GlobeChart {
   explicit Orthographic(const LonLat& above)
       : above_(above),
         up_(onSphere(above)),
-        east_(onSphere({above.lon + 90.0, 0.0})),  // at a pole too
+        east_(onSphere({above.lon + 90.0, 0.0})),  // defined at a pole too
         north_(cross(up_, east_)) {}
 
   Point half() const override { return {1.0, 1.0}; }
@@ -58,7 +58,7 @@ class Orthographic final : public GlobeChart {
       triangles.push_back({centre, atMost(outline[i]), atMost(outline[(i + 1) % outline.size()])});
   }
 
-  // What lies this side of the horizon.
+  // Adds the parts on this side of the horizon.
   void addLine(const std::vector<SphereVector>& line, Lines& lines) const override {
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
       SphereVector p = line[i], q = line[i + 1];
@@ -75,14 +75,14 @@ class Orthographic final : public GlobeChart {
   double lengthOf(const SphereVector& a, const SphereVector& b) const override {
     return std::hypot(a[0] - b[0], a[1] - b[1]);
   }
-  // Towards the horizon all lies closer together.
+  // Lines get thinner towards the horizon, where everything is foreshortened.
   double widthAt(const SphereVector& a, const SphereVector& b) const override {
     constexpr double kLeast = 0.2;
     return std::clamp((a[2] + b[2]) / 2.0, 0.0, 1.0) * (1.0 - kLeast) + kLeast;
   }
 
  private:
-  // What lies beyond the horizon is drawn onto it.
+  // Moves points beyond the horizon onto it.
   static Point atMost(const SphereVector& seen) {
     const double reach = std::hypot(seen[0], seen[1]);
     if (seen[2] >= 0.0 || reach == 0.0) return {seen[0], seen[1]};
@@ -115,7 +115,7 @@ class NaturalEarth final : public GlobeChart {
   }
 
   void addArea(const std::vector<SphereVector>& outline, Triangles& triangles) const override {
-    std::vector<LonLat> way;  // its longitudes go on beyond the cut
+    std::vector<LonLat> way;  // longitudes are unwrapped beyond the cut
     for (const SphereVector& p : outline) way.push_back(follows(way, placeOf(p)));
     const LonLat back = follows(way, way.front());
     const double turn = back.lon - way.front().lon;
@@ -160,7 +160,7 @@ class NaturalEarth final : public GlobeChart {
 
  private:
   static constexpr double kSide = 180.0;
-  static constexpr double kRadius = 6378137.0;  // that PROJ takes for this sphere, metres
+  static constexpr double kRadius = 6378137.0;  // metres; PROJ's for this sphere
 
   Point chart(const LonLat& place) const {
     constexpr double kInside = 1.0 - 1e-12;  // a longitude of 180 may come out on either side
@@ -168,7 +168,7 @@ class NaturalEarth final : public GlobeChart {
     return {metres.x / kRadius, metres.y / kRadius};
   }
 
-  // A place as it follows the last one the short way round.
+  // The place with its longitude unwrapped: less than half a turn from the last one.
   static LonLat follows(const std::vector<LonLat>& way, LonLat place) {
     if (way.empty()) return place;
     while (place.lon - way.back().lon > 180.0) place.lon -= 360.0;
@@ -176,7 +176,7 @@ class NaturalEarth final : public GlobeChart {
     return place;
   }
 
-  // What of a convex area lies left of the longitude `most`, or, where `sign` is -1, right of it.
+  // The part of a convex area west of the longitude `most`, or east of it if `sign` is -1.
   static std::vector<LonLat> clipped(const std::vector<LonLat>& area, double most, double sign) {
     std::vector<LonLat> left;
     for (std::size_t i = 0; i < area.size(); ++i) {
@@ -189,7 +189,7 @@ class NaturalEarth final : public GlobeChart {
     return left;
   }
 
-  // Where it reaches beyond the cut, its parts on both sides of the map.
+  // An area that crosses the cut is split into parts on both sides of the map.
   void addClipped(const std::vector<LonLat>& area, Triangles& triangles) const {
     for (const double turn : {-360.0, 0.0, 360.0}) {
       std::vector<LonLat> part = area;

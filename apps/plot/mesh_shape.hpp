@@ -7,10 +7,10 @@
 
 namespace coastmesh {
 
-// How many neighbours each vertex has; 0 for those on the boundary, where there is no best number, and for unused ones.
+// Valence of each vertex; 0 for those on the boundary, where no valence is best, and for unused ones.
 std::vector<std::uint32_t> degreesInside(const TriMesh& mesh);
 
-// The number of each triangle's part, from 0: those that hang together by edges and lie in one region.
+// The part of each triangle, numbered from 0. Parts are connected by edges and are in one region.
 std::vector<std::uint32_t> partsOf(const TriMesh& mesh);
 
 // 4 sqrt(3) area / sum of squared edges: 1 for an equilateral triangle, 0 for a flat one.

@@ -11,7 +11,7 @@
 namespace coastmesh {
 namespace {
 
-// Coordinates hardly get smaller, whatever the effort; most of the time would be spent on trying.
+// Coordinates hardly compress further with more effort, which takes most of the time.
 constexpr int kEffort = 4;
 
 // `word(i)` of each of `count` values, as planes of bytes.
@@ -49,7 +49,7 @@ PackedArray packIntegers(std::span<const std::int32_t> values) {
 PackedArray packNumbers(std::span<const double> values) {
   bool short_enough = true;
   for (const double value : values) {
-    // Beyond the largest of the short ones the conversion would have no meaning.
+    // The conversion of values beyond the range of float is undefined.
     const bool fits = std::isnan(value) || (std::abs(value) <= 3e38 && static_cast<float>(value) == value);
     short_enough = short_enough && fits;
   }

@@ -18,7 +18,7 @@ namespace {
 // Cairo's time grows faster than the number of lines in one path.
 constexpr std::size_t kLinesPerStroke = 400;
 
-constexpr double kPixelsInVector = 2.0;  // of an image within a vector drawing, a unit of the drawing
+constexpr double kPixelsInVector = 2.0;  // per unit of the drawing, in an image within a vector drawing
 
 }  // namespace
 
@@ -73,13 +73,14 @@ void PlotCanvas::fillTriangle(const std::array<Point, 3>& corners, const Color& 
   cairo_line_to(context, corners[1].x, corners[1].y);
   cairo_line_to(context, corners[2].x, corners[2].y);
   cairo_close_path(context);
-  // A viewer smooths the edges of neighbours one by one; a hairline of the same colour closes the gap.
+  // Viewers smooth the edges of neighbours separately; a hairline of the same colour closes the gap.
   cairo_fill_preserve(context);
   cairo_set_line_width(context, 0.3);
   cairo_stroke(context);
 }
 
-// Every pixel whose middle lies in the triangle; one on a side goes to the triangle of one side alone.
+// Fills every pixel whose centre is in the triangle; a centre on a shared side belongs to only one of the two
+// triangles.
 void PlotCanvas::fillPixels(const std::array<Point, 3>& corners, const Color& color) {
   cairo_surface_t* surface = surface_.get();
   const int width = cairo_image_surface_get_width(surface);
@@ -98,7 +99,7 @@ void PlotCanvas::fillPixels(const std::array<Point, 3>& corners, const Color& co
   struct Side {
     Point from;
     Point way;
-    double sense;  // 1, or -1 where the triangle lies to the other side of the way
+    double sense;  // 1, or -1 if the triangle is on the other side
     bool has(double x, double y) const {
       const double turn = sense * (way.x * (y - from.y) - way.y * (x - from.x));
       return turn > 0.0 || (turn == 0.0 && sense > 0.0);
@@ -106,7 +107,7 @@ void PlotCanvas::fillPixels(const std::array<Point, 3>& corners, const Color& co
   };
   std::array<Side, 3> sides;
   for (std::size_t i = 0; i < 3; ++i) {
-    // From the lesser end, whichever triangle asks: both then round alike, and no pixel is lost between them.
+    // From the lexicographically smaller end, for both triangles: they round alike, and no pixel between them is lost.
     const bool turned = std::pair(c[(i + 1) % 3].x, c[(i + 1) % 3].y) < std::pair(c[i].x, c[i].y);
     const Point& a = turned ? c[(i + 1) % 3] : c[i];
     const Point& b = turned ? c[i] : c[(i + 1) % 3];

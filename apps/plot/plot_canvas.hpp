@@ -19,7 +19,7 @@ struct Color {
 
 Color mix(const Color& a, const Color& b, double share_of_b);
 
-// A window of the plane drawn into a picture: coordinates below are pixels, y down, unless they say plane.
+// A window of the plane drawn into a picture: coordinates are pixels, y down, unless named `plane`.
 class PlotCanvas {
  public:
   // The window fills `size_px` on its longer side, with `strip_px` below it. Throws OutputError.
@@ -29,7 +29,7 @@ class PlotCanvas {
   double mapHeight() const { return map_height_; }
   double pixelsPerUnit() const { return scale_; }
   Point toPixel(const Point& plane) const { return {(plane.x - low_.x) * scale_, (high_.y - plane.y) * scale_}; }
-  // Whether the box round the pixels meets the map.
+  // True if the box around the pixels meets the map.
   bool showsAny(const Point* pixels, std::size_t count) const;
 
   void fillRectangle(const Point& corner, double width, double height, const Color& color);
@@ -47,8 +47,7 @@ class PlotCanvas {
   void clipToMap();
   void unclip();
 
-  // What is drawn in between comes as pixels into a vector drawing too: for more areas and lines than a viewer can
-  // bear.
+  // Between these calls, a vector drawing too gets pixels: for more areas and lines than viewers can handle.
   void beginPixels();
   void endPixels();
 
@@ -76,11 +75,11 @@ class PlotCanvas {
   double map_height_ = 0.0;
   std::unique_ptr<cairo_surface_t, DestroySurface> surface_;
   std::unique_ptr<cairo_t, DestroyContext> context_;
-  // Where the drawing goes that pixels are drawn for, while they are drawn.
+  // The vector drawing, while an image for it is drawn.
   std::unique_ptr<cairo_surface_t, DestroySurface> outer_surface_;
   std::unique_ptr<cairo_t, DestroyContext> outer_context_;
-  bool pixels_ = false;       // whether an image is drawn into
-  double pixel_scale_ = 1.0;  // of the image that is drawn into
+  bool pixels_ = false;       // an image is drawn into
+  double pixel_scale_ = 1.0;  // of that image
 };
 
 }  // namespace coastmesh

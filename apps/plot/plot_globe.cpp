@@ -28,15 +28,15 @@
 namespace coastmesh {
 namespace {
 
-constexpr double kRoom = 1.04;          // of the picture's half side over the globe's radius
+constexpr double kRoom = 1.04;          // half the picture's side over the globe's radius
 constexpr double kStep = 0.035;         // of the radius: longer edges are drawn as several lines
 constexpr double kGraticuleDeg = 15.0;  // between meridians and parallels
 constexpr double kGraticulePx = 0.5, kOutlinePx = 1.4;
 const Color kGraticule = mix(kLand, kShore, 0.22);
 
-// What a triangle's colour shows, as a share of a ramp, and what the ends of this are.
+// The values that triangles' colours show, as shares of a ramp, and labels of its ends.
 struct Shares {
-  std::vector<double> of;  // one a triangle; NaN: unknown
+  std::vector<double> of;  // per triangle; NaN: unknown
   Color (*ramp)(double) = rampColor;
   std::string low, high;
 };
@@ -89,7 +89,7 @@ class GlobePlot {
   }
   double smallestAngle(TriId t) const { return std::ranges::min(anglesOf(t)); }
 
-  // Of the flat triangle, with the sphere's radius as the unit.
+  // Squared sides of the flat triangle, in units of the sphere's radius.
   std::array<double, 3> squaresOf(TriId t) const {
     std::array<double, 3> squares;
     for (unsigned i = 0; i < 3; ++i) {
@@ -109,7 +109,7 @@ class GlobePlot {
       shares_.of.push_back((value(t) - low) / std::max(1e-12, high - low));
   }
 
-  // The least and the largest of the finite values, less the few smallest.
+  // The range of the finite values without the smallest 2 %. Throws InputError with `else_text` if there are none.
   static std::pair<double, double> rangeOf(const std::function<double(TriId)>& value, std::size_t count,
                                            const char* else_text) {
     std::vector<double> values;
@@ -189,7 +189,7 @@ class GlobePlot {
     return kWater;
   }
 
-  // Points of a great circle from `a` on to short of `b`.
+  // Adds points of the great circle from `a` to `b`, without `b`.
   void addArc(const SphereVector& a, const SphereVector& b, std::vector<SphereVector>& line) const {
     const SphereVector chord = minus(b, a);
     const int steps = std::max(1, static_cast<int>(std::ceil(std::sqrt(dot(chord, chord)) / kStep)));
@@ -224,7 +224,7 @@ class GlobePlot {
       canvas_.fillTriangle({canvas_.toPixel(p), canvas_.toPixel(q), canvas_.toPixel(r)}, color);
   }
 
-  // In pixels.
+  // Adds what is seen of a line, in pixels.
   void addSeen(const std::vector<SphereVector>& line, Lines& lines) const {
     const std::size_t before = lines.size();
     chart_.addLine(line, lines);
@@ -257,7 +257,7 @@ class GlobePlot {
     canvas_.strokeLines(lines, kGraticulePx, kGraticule);
   }
 
-  // Lines get thinner with the triangles, so that dense places, and those seen aslant, keep the tint of the others.
+  // Lines get thinner with the triangles, so that places with small or foreshortened triangles keep the same tint.
   void drawEdges() {
     std::map<int, Lines> by_width;  // in quarter octaves below the widest
     for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
@@ -305,15 +305,15 @@ class GlobePlot {
 
   const Grid& grid_;
   const PlotOptions& options_;
-  const std::vector<SphereVector>& places_;  // one a node
+  const std::vector<SphereVector>& places_;  // per node
   const GlobeChart& chart_;
   PlotCanvas canvas_;
-  std::vector<SphereVector> seen_;  // one a node
+  std::vector<SphereVector> seen_;  // per node
   TriMesh mesh_;
   std::vector<EdgeConflict> conflicts_;
   Shares shares_;
   GlobeChart::Triangles areas_;  // of one triangle of the mesh
-  std::vector<int> regions_;     // one a feature
+  std::vector<int> regions_;     // per feature
 };
 
 }  // namespace
@@ -324,7 +324,7 @@ LonLat middleOnGlobe(const Grid& grid, const std::vector<SphereVector>& places) 
     const SphereVector normal = cross(minus(places[b], places[a]), minus(places[c], places[a]));
     for (std::size_t k = 0; k < 3; ++k) sum[k] += normal[k];
   }
-  constexpr double kAllRound = 0.05;  // of the sphere's radius, squared: of the flat triangles' areas, added as vectors
+  constexpr double kAllRound = 0.05;  // radius squared; for the vector sum of the flat triangles' areas
   if (std::sqrt(dot(sum, sum)) < kAllRound) return {0.0, 20.0};
   const LonLat middle = placeOf(sum);
   return {std::round(middle.lon), std::round(middle.lat)};

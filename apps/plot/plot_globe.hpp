@@ -11,24 +11,24 @@
 
 namespace coastmesh {
 
-// What is seen of the globe: from far off the half below `above` (none: the middle of the mesh lies there), or all of
-// it, about that longitude.
+// The view of the globe: the half below `above`, from far away, or all of it, centred on that longitude. Without
+// `above`, the middle of the mesh.
 struct GlobeView {
   bool all = false;
   std::optional<LonLat> above{};
 };
 
-// Reads "orthographic", "orthographic=LON,LAT", "natural-earth" or "natural-earth=LON"; none for "plane". Throws
-// OptionError for all else.
+// Reads "orthographic", "orthographic=LON,LAT", "natural-earth" or "natural-earth=LON"; nullopt for "plane". Throws
+// OptionError for anything else.
 std::optional<GlobeView> globeViewNamed(const std::string& text);
 
-// Above the middle of the triangles; where they go all round, above the prime meridian. `places`: one a node.
+// The middle of the triangles, in whole degrees; (0, 20) if they go all around. `places`: per node.
 LonLat middleOnGlobe(const Grid& grid, const std::vector<SphereVector>& places);
 
-// Draws the grid on a globe, its edges great circles, latitudes taken for those of a sphere; what lies beyond the
-// horizon is not seen. Of the options all but the box and the dots on nodes mean the same as for `plotMesh`; angles
-// and quality are those of flat triangles through the corners. Throws as that does, and InputError for a mesh in a
-// plane.
+// Draws the grid on a globe. Edges are great circles, latitudes are taken for those of a sphere; what is beyond the
+// horizon is hidden. Options mean the same as for `plotMesh`, except for the box and the dots on nodes, which do not
+// apply; angles and quality are those of flat triangles through the corners. Throws like `plotMesh`, and InputError for
+// a mesh in a plane.
 void plotGlobe(const Grid& grid, const PlotOptions& options, const GlobeView& view, const std::string& path);
 
 }  // namespace coastmesh

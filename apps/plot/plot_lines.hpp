@@ -8,7 +8,7 @@
 
 namespace coastmesh {
 
-// A boundary that ADCIRC's files have as a weir.
+// True for boundaries that are weirs in ADCIRC's files.
 inline bool isWeir(const Boundary& boundary) { return !boundary.back_nodes.empty() || !boundary.weir.empty(); }
 
 // Edges that pictures show in a colour of their own.
@@ -21,9 +21,9 @@ struct PlotLines {
   std::vector<NodePair> edges;
 };
 
-// Those of the grid, in the order in which they are drawn: islands where there is an open boundary to tell from, lines
-// to keep, weirs (lines, and boundaries with a height), rivers, and open boundaries. Kinds that it has none of are left
-// out.
+// The lines of the grid, in the order in which they are drawn: islands, if there is an open boundary to distinguish
+// them from, constraints, weirs (lines, and boundaries with a height), rivers, and open boundaries. Kinds without edges
+// are omitted.
 std::vector<PlotLines> colouredLines(const Grid& grid);
 
 }  // namespace coastmesh

@@ -25,7 +25,7 @@ namespace coastmesh {
 
 namespace {
 
-// Of nodes by their neighbours: five, seven, others.
+// Dots on nodes by their number of neighbours: five, seven, others.
 constexpr Color kFive{0.05, 0.60, 0.20};
 constexpr Color kSeven{0.93, 0.45, 0.05};
 constexpr Color kOtherDegree{0.55, 0.05, 0.55};
@@ -71,8 +71,8 @@ Window windowOf(const GridPiece& piece, const PlotOptions& options) {
   return window;
 }
 
-// The triangles that the picture may show: the plane is fitted to them alone. The box is one of longitudes and
-// latitudes, the picture one of the plane, which reaches further at its corners.
+// The triangles that the picture may show; the plane is fitted to these alone. The box is in the grid's CRS, the
+// picture in the plane, where it reaches further at its corners.
 std::vector<std::uint32_t> trianglesIn(const Grid& grid, const PlotOptions& options) {
   constexpr double kReach = 0.3;  // of the box's sides
   bool any = false;               // in the box itself
@@ -185,7 +185,7 @@ class MeshPlot {
         return rampColor((quality - kLeastQuality) / (1.0 - kLeastQuality));
       }
       case PlotColor::Feature:
-      case PlotColor::Piece:  // in place of the features: see `plotMesh`
+      case PlotColor::Piece:  // stored as regions: see `plotMesh`
         return featureColor(static_cast<std::size_t>(std::max(0, mesh_.regions[t])));
       case PlotColor::Size:
         return rampColor((std::log(area(t)) - least_log_area_) / std::max(1e-12, most_log_area_ - least_log_area_));
@@ -207,7 +207,7 @@ class MeshPlot {
     return kWater;
   }
 
-  // Metres, positive up; NaN where a corner has none.
+  // Metres, positive up; NaN if a corner has none.
   double heightOf(TriId t) const {
     double sum = 0.0;
     for (VertexId v : mesh_.triangles[t].v) sum += grid_.z[piece_.nodes[v]];
@@ -239,7 +239,7 @@ class MeshPlot {
     if (!(most_step_s_ > 0.0)) throw InputError("the mesh has no depth below water, so no time step to colour it by");
   }
 
-  // Numbers the regions by their names where there are any, else the parts.
+  // Numbers the regions by name if there are names, otherwise the connected parts.
   void findParts() {
     if (const std::vector<std::string> names = regionNames(grid_); !names.empty()) {
       const std::vector<int> numbers = regionNumbers(grid_, names);
@@ -250,7 +250,7 @@ class MeshPlot {
     parts_ = partsOf(mesh_);
   }
 
-  // The range that colours show: of the triangles shown, less the few smallest.
+  // The range of colours: log areas of the triangles shown, without the smallest 2 %.
   void findAreas() {
     std::vector<double> shown;
     for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
@@ -277,7 +277,7 @@ class MeshPlot {
     }
   }
 
-  // Lines get thinner with the triangles, so that dense places keep the tint of the others.
+  // Lines get thinner with the triangles, so that places with small triangles keep the same tint.
   void drawEdges() {
     std::map<int, std::vector<std::array<Point, 2>>> by_width;  // in quarter octaves below the widest
     for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
@@ -347,14 +347,14 @@ class MeshPlot {
     }
   }
 
-  // The shore of a lake or an island of a few pixels is thin, lest ink be all that is seen of it.
+  // Lakes and islands of a few pixels get a thin shore, which otherwise would cover them.
   static int shoreLevel(const std::vector<Point>& loop) {
     Window extent;
     for (const Point& p : loop) extent.add(p);
     return static_cast<int>(std::clamp(extent.longerSide() / 2.0, 1.0, 8.0));
   }
 
-  // A bad triangle of a pixel would go unseen: a circle shows where it is.
+  // Bad triangles of a few pixels are marked with a circle, or they would not be seen.
   void markBad() {
     for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
       if (!isBad(t) || longestEdgePx(t) > 8.0 || !shows(t)) continue;
@@ -380,7 +380,7 @@ class MeshPlot {
     canvas_.text({12.0, y + 18.0}, lengthText(length, grid_.crs.isPlane()), 13.0, kInk);
   }
 
-  // Land is told from islands where there is an open boundary.
+  // Land is listed, beside islands, only if there is an open boundary.
   void drawLineLegend() {
     std::vector<std::pair<std::string, Color>> entries;
     for (const PlotLines& kind : lines_) {
@@ -391,7 +391,7 @@ class MeshPlot {
     constexpr double kEntryPx = 75.0, kRowPx = 16.0;
     const double left = 0.32 * canvas_.width(), right = canvas_.width() - (showsRamp() ? kRampPx : 0.0);
     double x = left, y = canvas_.mapHeight() + 20.0;
-    bool may_wrap = !options_.degrees;  // their legend is the second row
+    bool may_wrap = !options_.degrees;  // the legend of degrees takes the second row
     for (const auto& [name, color] : entries) {
       if (x > left && x + kEntryPx > right) {
         if (!std::exchange(may_wrap, false)) break;  // no room for it
@@ -464,17 +464,17 @@ class MeshPlot {
   const TriMesh& mesh_;
   const PlotOptions& options_;
   PlotCanvas canvas_;
-  std::vector<Point> pixels_;              // one a point of the mesh
+  std::vector<Point> pixels_;              // per point of the mesh
   std::vector<std::vector<Point>> loops_;  // the boundary
   Point centre_;                           // of the window, in the plane
   double least_log_area_ = 0.0;
   double most_log_area_ = 0.0;
   double lowest_z_ = 0.0;  // metres, of the triangles shown
   double highest_z_ = 0.0;
-  std::vector<double> steps_;  // one a triangle of the grid, where they are shown
+  std::vector<double> steps_;  // per triangle of the grid, if shown
   double least_step_s_ = 0.0;  // of the triangles shown
   double most_step_s_ = 0.0;
-  std::vector<std::uint32_t> parts_;  // one a triangle, where parts are shown
+  std::vector<std::uint32_t> parts_;  // per triangle, if parts are shown
   std::vector<PlotLines> lines_;
 };
 

@@ -35,7 +35,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Of what is shown: half the longer side of the plane, or the globe's radius. Differences of places fit into 32 bits.
+// Integer for half the longer side of the plane, or for the globe's radius. Differences of places fit into 32 bits.
 constexpr double kWhole = (1 << 30) - 1;
 
 struct NamedArray {
@@ -43,7 +43,7 @@ struct NamedArray {
   PackedArray packed;
 };
 
-// What the page holds besides its looks.
+// The data in the page.
 struct PageData {
   Json facts;
   std::vector<NamedArray> arrays;
@@ -58,11 +58,11 @@ struct PageData {
 };
 
 std::int32_t quantised(double share) {
-  // Nodes of no triangle may lie anywhere, and nowhere.
+  // Nodes without a triangle may be anywhere, and may have no finite place.
   return std::isfinite(share) ? static_cast<std::int32_t>(std::lround(std::clamp(share, -1.0, 1.0) * kWhole)) : 0;
 }
 
-// Axes one after another, so that neighbours in number, which mostly lie near one another, differ little.
+// One axis after another: nodes with consecutive numbers are mostly near each other, so that differences are small.
 void addAxis(PageData& data, const std::string& name, std::size_t count,
              const std::function<double(std::size_t)>& share) {
   std::vector<std::int32_t> values(count);
@@ -80,7 +80,7 @@ void addAngles(PageData& data, std::size_t count, const std::function<std::array
   data.add("angle", packIntegers(smallest));
 }
 
-// Plane length over true length on a lattice over what is shown, rows from south to north; for a plane on Earth.
+// Plane length over true length on a lattice over the area shown, rows from south to north; for a plane on Earth.
 void addScales(PageData& data, const GridPiece& piece, const Point& low, const Point& high) {
   constexpr int kAcross = 17;
   std::vector<double> scales;
@@ -110,7 +110,7 @@ void addGlobe(PageData& data, const std::vector<Point>& geographic, const std::o
 }
 
 void addPlane(PageData& data, const Grid& grid, const GridPiece& piece) {
-  // Nodes that no triangle has are not shown, and may lie anywhere.
+  // Nodes without a triangle are not shown, and may be anywhere.
   Point low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   Point high{-low.x, -low.y};
   for (const Point& p : piece.mesh.points) {
@@ -137,7 +137,7 @@ void addPlane(PageData& data, const Grid& grid, const GridPiece& piece) {
   });
 }
 
-// Edges as pairs of nodes, by what they are.
+// Edges as pairs of nodes, by kind.
 void addLines(PageData& data, const Grid& grid, const TriMesh& linked) {
   std::vector<std::pair<std::string, std::vector<std::uint32_t>>> kinds;
   const auto put = [&](const std::string& kind, std::uint32_t a, std::uint32_t b) {
@@ -156,7 +156,7 @@ void addLines(PageData& data, const Grid& grid, const TriMesh& linked) {
       if (twin != kNone) {
         if (e < twin && linked.regions[t] != linked.regions[triOf(twin)]) put("border", a, b);
       } else if (!std::ranges::binary_search(named, NodePair{std::min(a, b), std::max(a, b)})) {
-        put("shore", a, b);  // the file does not say what it is
+        put("shore", a, b);  // the file has no type for it
       }
     }
   }
@@ -195,7 +195,7 @@ void addPalettes(PageData& data) {
   data.facts["least_quality"] = kLeastQuality;
 }
 
-// What triangles may be coloured by, besides their shape, and the names of it.
+// Adds the values by which triangles may be coloured, besides their shape, and names of these values.
 void addMarks(PageData& data, const Grid& grid, const TriMesh& linked) {
   Json colors = {"none", "angle", "quality", "size"};
   if (std::ranges::any_of(grid.z, [](double z) { return std::isfinite(z); })) {
@@ -299,7 +299,7 @@ std::string escaped(std::string_view text) {
   return out;
 }
 
-// JSON within a script element: nothing in it can end that.
+// JSON within a script element, escaped so that nothing in it can end the element.
 std::string scriptJson(const Json& value) {
   const std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
   std::string out;

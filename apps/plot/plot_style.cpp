@@ -8,7 +8,7 @@
 namespace coastmesh {
 namespace {
 
-// The colour at a share of the way along four that lie evenly.
+// The colour at a share of the way along four evenly spaced ones.
 Color between(const std::array<Color, 4>& stops, double share) {
   const double at = std::clamp(share, 0.0, 1.0) * 3.0;
   const auto stop = std::min<std::size_t>(2, static_cast<std::size_t>(at));
@@ -35,7 +35,7 @@ void drawRamp(PlotCanvas& canvas, Color (*color_at)(double), const std::string& 
   constexpr int kSteps = 60;
   constexpr double kStep = (kRampPx - 12.0) / kSteps;
   const double left = canvas.width() - kRampPx, top = canvas.mapHeight() + 12.0;
-  if (left < canvas.width() / 2) return;  // no room for it beside what else stands there
+  if (left < canvas.width() / 2) return;  // no room beside the other entries
   for (int i = 0; i < kSteps; ++i)
     canvas.fillRectangle({left + i * kStep, top}, kStep + 0.5, 10.0, color_at((i + 0.5) / kSteps));
   canvas.text({left, top + 26.0}, low, 13.0, kInk);

@@ -7,7 +7,7 @@
 
 namespace coastmesh {
 
-// What all pictures of meshes have alike.
+// Shared by all pictures of meshes.
 
 inline constexpr Color kLand{0.955, 0.950, 0.935};
 inline constexpr Color kWater{0.865, 0.925, 0.965};
@@ -33,7 +33,7 @@ inline constexpr double kShorePx = 1.1;
 inline constexpr double kBlurPx = 3.0;  // triangles smaller than this show as a tint, not as lines
 // Lines of kEdgeShare of the length of an equilateral triangle's edges cover this share of it.
 inline constexpr double kEdgeCover = 3.46 * kEdgeShare;
-inline constexpr std::size_t kMostVectorTriangles = 100'000;  // in an .svg; more come as an image in it
+inline constexpr std::size_t kMostVectorTriangles = 100'000;  // in an .svg; more are drawn as an image in it
 
 inline constexpr double kLeastQuality = 0.6;  // at the bad end of the colours
 
@@ -41,10 +41,11 @@ inline constexpr double kLeastQuality = 0.6;  // at the bad end of the colours
 Color rampColor(double share);
 // From deep to shallow: dark blue, blue, pale green, sand.
 Color depthColor(double share);
-// Colours far apart for neighbours in number: hues turned by the golden section.
+// Colours that differ much between consecutive numbers: hues turned by the golden section.
 Color featureColor(std::size_t feature);
 
-// A scale of colours in the strip below the map, at its right, with what its ends mean; where there is room for it.
+// Draws a scale of colours with labels at its ends, on the right of the strip below the map; nothing if there is no
+// room.
 void drawRamp(PlotCanvas& canvas, Color (*color_at)(double), const std::string& low, const std::string& high);
 
 }  // namespace coastmesh

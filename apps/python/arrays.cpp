@@ -15,7 +15,7 @@ namespace {
 template <typename T>
 using Rows = py::array_t<T, py::array::c_style | py::array::forcecast>;
 
-// Refuses what numpy would convert into something else than was given.
+// Throws InputError for arrays that numpy would convert to something else: masked and complex ones.
 void requirePlain(const py::object& object, const std::string& name) {
   if (py::module_::import("numpy.ma").attr("is_masked")(object).cast<bool>())
     throw InputError(name + ": has masked elements; take their rows out, or fill them");
@@ -25,7 +25,7 @@ void requirePlain(const py::object& object, const std::string& name) {
     throw InputError(name + ": is not an array of real numbers but of complex ones");
 }
 
-// Rows of two numbers; empty for an empty array of whatever shape.
+// Rows of two numbers; empty for an empty array of any shape.
 template <typename T>
 Rows<T> pairs(const py::object& object, const std::string& name) {
   requirePlain(object, name);

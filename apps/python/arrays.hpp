@@ -10,7 +10,7 @@
 
 namespace coastmesh {
 
-// A numpy array over memory that `owner` keeps; not to be written to, since others see the same bytes.
+// A read-only numpy array over memory that `owner` keeps alive: others see the same bytes.
 template <typename T>
 pybind11::array viewOf(const T* data, std::vector<pybind11::ssize_t> shape, const pybind11::object& owner) {
   pybind11::array_t<T> array(std::move(shape), data, owner);
@@ -18,16 +18,16 @@ pybind11::array viewOf(const T* data, std::vector<pybind11::ssize_t> shape, cons
   return array;
 }
 
-// What came from a file or the system, not of Python's own making, as a str: bytes that are no UTF-8 as os.fsdecode has
-// them.
+// A text from a file or the system as a str; bytes that are not UTF-8 are decoded as by os.fsdecode.
 inline pybind11::str textOf(const std::string& text) {
   PyObject* made = PyUnicode_DecodeFSDefaultAndSize(text.data(), static_cast<Py_ssize_t>(text.size()));
   if (made == nullptr) throw pybind11::error_already_set();
   return pybind11::reinterpret_steal<pybind11::str>(made);
 }
 
-// Points of shape (n, 2), segments of shape (m, 2) of indices into them, holes of shape (k, 2), in numpy arrays or what
-// numpy makes one of. Throws InputError for another shape and for what is no number or no index.
+// Points of shape (n, 2), segments of shape (m, 2) with indices of points, holes of shape (k, 2), as numpy arrays or
+// anything that numpy converts; segments and holes may be None. Throws InputError for other shapes, elements that are
+// not numbers, and invalid indices.
 std::shared_ptr<const Pslg> pslgOf(const pybind11::object& points, const pybind11::object& segments,
                                    const pybind11::object& holes);
 

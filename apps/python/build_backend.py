@@ -22,7 +22,7 @@ import tomllib
 import zipfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-# Libraries that the module may link, less their versions: what the rooms use, and what every C++ program does.
+# Libraries that the module may link, without versions: those of the project, and those of every C++ program.
 LINKED = {"libgdal", "libGeographicLib", "libnetcdf", "libscotch", "libscotcherr", "libgmp", "libtbb", "libcairo",
           "libstdc++", "libm", "libgcc_s", "libc", "libpthread", "libdl", "ld-linux-x86-64", "ld-linux-aarch64"}
 
@@ -92,7 +92,7 @@ def tag():
 
 
 def epoch():
-    # A zip archive knows no time before 1980.
+    # A zip archive cannot hold times before 1980.
     return max(int(os.environ.get("SOURCE_DATE_EPOCH", "0")), 315619200)
 
 

@@ -15,7 +15,7 @@ namespace {
 bool isText(const py::object& value) { return py::isinstance<py::str>(value) || py::isinstance<py::bytes>(value); }
 bool isList(const py::object& value) { return py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value); }
 
-// A number of numpy as Python's own, an array as a list, a path and a CRS as their text; else the value as it is.
+// numpy's numbers as Python's, arrays as lists, paths and CRSs as text; any other value unchanged.
 py::object plain(const py::object& value) {
   if (py::hasattr(value, "__fspath__")) return py::module_::import("os").attr("fsencode")(value);
   if (py::hasattr(value, "to_wkt")) return value.attr("to_wkt")();
@@ -36,7 +36,7 @@ std::optional<double> numberOf(const py::object& value) {
   if (!py::isinstance<py::float_>(value) && !py::isinstance<py::int_>(value)) return std::nullopt;
   const double number = PyFloat_AsDouble(value.ptr());
   if (PyErr_Occurred() == nullptr) return number;
-  PyErr_Clear();  // a whole number beyond all that a double holds
+  PyErr_Clear();  // an integer beyond the range of double
   return std::numeric_limits<double>::infinity();
 }
 
@@ -51,7 +51,7 @@ std::optional<std::vector<double>> numbersOf(const py::object& value) {
   return numbers;
 }
 
-// The value as one of that kind; none where it is of another.
+// The value as one of the option's kind; nullopt if it is of another kind.
 std::optional<OptionValue> valueFor(const OptionTable::Entry& entry, const py::object& value) {
   if (entry.kind == OptionKind::Flag) {
     if (py::isinstance<py::bool_>(value)) return value.cast<bool>();
@@ -63,7 +63,7 @@ std::optional<OptionValue> valueFor(const OptionTable::Entry& entry, const py::o
   if (!number) return std::nullopt;
   if (entry.kind == OptionKind::Number) return *number;
   if (entry.kind != OptionKind::Integer) return std::nullopt;
-  // One that is negative or not whole is no value of it, which the option says with its range.
+  // Negative and fractional numbers are passed on as text: the option rejects them with its range.
   const unsigned long long whole = py::isinstance<py::int_>(value) ? PyLong_AsUnsignedLongLong(value.ptr()) : 0;
   if (PyErr_Occurred() == nullptr && py::isinstance<py::int_>(value)) return static_cast<std::uint64_t>(whole);
   PyErr_Clear();
@@ -113,7 +113,7 @@ void setFromKeywords(OptionTable& table, const py::dict& keywords, std::vector<s
       warnings.push_back(keyword + " is called " + keywordOf(entry.name) +
                          " now; the next version will not accept the former name");
     const py::object value = plain(py::reinterpret_borrow<py::object>(given));
-    // One group of numbers is a list as well as several of them are.
+    // A single group of numbers is a list, as several groups are.
     const bool one = !entry.multiple || !isList(value) || (entry.kind == OptionKind::Numbers && numbersOf(value));
     if (one) {
       setOne(table, entry, keyword, value);

@@ -2,7 +2,7 @@
 """Writes the type stubs of the module, with every option of mesh(): make_stubs.py OUT.pyi (PYTHONPATH finds coastmesh)."""
 import sys
 
-del sys.path[0]  # the sources lie there, without the compiled half
+del sys.path[0]  # has the sources, without the compiled half
 import coastmesh  # noqa: E402
 
 HEAD = '''from os import PathLike

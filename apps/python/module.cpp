@@ -22,7 +22,7 @@ namespace coastmesh {
 
 namespace {
 
-// Where an array's elements are an own struct: `columns` numbers of type T one after another.
+// For arrays whose elements are structs: `columns` consecutive numbers of type T.
 template <typename T, typename Row>
 py::array rowsOf(const std::vector<Row>& rows, py::ssize_t columns, const py::object& owner) {
   static_assert(sizeof(Row) % sizeof(T) == 0);
@@ -113,7 +113,7 @@ PYBIND11_MODULE(_coastmesh, m) {
   m.doc() = "The compiled half of coastmesh; import coastmesh instead.";
   m.attr("version") = COASTMESH_VERSION;
 
-  // coastmesh/__init__.py makes classes of these.
+  // coastmesh/__init__.py turns these into its own classes.
   static PyObject* usage_error = PyErr_NewException("coastmesh._coastmesh.UsageError", nullptr, nullptr);
   static PyObject* input_error = PyErr_NewException("coastmesh._coastmesh.InputError", nullptr, nullptr);
   static PyObject* output_error = PyErr_NewException("coastmesh._coastmesh.OutputError", nullptr, nullptr);

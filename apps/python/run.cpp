@@ -27,7 +27,7 @@ namespace coastmesh {
 
 namespace {
 
-constexpr auto kPollEvery = std::chrono::milliseconds(50);  // how long a Ctrl-C or a progress call may wait
+constexpr auto kPollEvery = std::chrono::milliseconds(50);  // maximum delay of Ctrl-C and of progress calls
 
 // The job on a thread of its own, and what it reports.
 class Background {
@@ -46,7 +46,7 @@ class Background {
     return ended_changed_.wait_for(lock, kPollEvery, [this] { return ended_; });
   }
 
-  // The last phase and share reported; false where nothing new was.
+  // Gets the last phase and share reported; false if nothing is new.
   bool takeProgress(std::string& phase, double& share) {
     const std::lock_guard lock(mutex_);
     phase = phase_;
@@ -54,7 +54,7 @@ class Background {
     return std::exchange(news_, false);
   }
 
-  // Once it has ended. Throws what the job threw.
+  // To be called once it has ended. Throws what the job threw.
   MeshJobResult take() {
     if (error_) std::rethrow_exception(error_);
     return std::move(result_);
@@ -93,7 +93,7 @@ class Background {
   std::thread thread_;  // last: it uses all of the above
 };
 
-// GeoJSON that came as text, as a file for GDAL.
+// GeoJSON text as a file in memory, for GDAL.
 class MemoryFile {
  public:
   static constexpr const char* kName = "GeoJSON";
@@ -110,7 +110,7 @@ class MemoryFile {
   MemoryFile& operator=(const MemoryFile&) = delete;
 
   const std::string& path() const { return path_; }
-  // `text` as its reader knows the file.
+  // `text` with the file's path replaced by kName.
   std::string named(std::string text) const {
     for (std::size_t at = text.find(path_); at != std::string::npos; at = text.find(path_, at)) {
       text.replace(at, path_.size(), kName);
@@ -123,7 +123,7 @@ class MemoryFile {
   std::string path_;
 };
 
-// Messages of the library name options as the program does, and files as GDAL knows them.
+// Rewords messages of the library for Python: options as keywords, the file in memory by its name.
 class Wording {
  public:
   Wording(const OptionTable& options, const std::optional<MemoryFile>& geojson)
@@ -156,8 +156,8 @@ MeshJobResult runInBackground(const MeshJob& job, const py::object& progress) {
     double share = 0.0;
     if (!progress.is_none() && background.takeProgress(phase, share)) progress(phase, share);
   };
-  // Where a signal or `progress` raises, the destructor stops the job; it may wait without Python's lock: the job's
-  // threads never take it.
+  // If a signal or `progress` raises, the destructor stops the job. It waits with the GIL held, which is safe: the
+  // job's threads never take it.
   for (bool ended = false; !ended;) {
     {
       const py::gil_scoped_release release;

@@ -10,7 +10,7 @@
 
 namespace coastmesh {
 
-// What a run leaves behind; the arrays that Python sees lie in `grid`.
+// The result of a run; Python's arrays are views into `grid`.
 struct MeshResult {
   Grid grid;
   std::string report;  // JSON, as --report writes it; empty for a mesh that was read
@@ -21,11 +21,11 @@ struct MeshResult {
 
 pybind11::list refusalsOf(const MeshResult& result);
 
-// Meshes what it reads from `files`, from `text` (GeoJSON), or from `graph`, a tuple (points, segments, holes), where
-// that is not None. `keywords` are options: see setFromKeywords; messages name them so. The work is done on threads of
-// its own, without Python's lock; `progress(phase, share)` is called, and signals are handled, in the caller's thread.
-// What either raises ends the run and is raised again. Throws OptionError, InputError. A result without a triangle says
-// in `refusals` why; where nothing was to be meshed that is an InputError.
+// Meshes `files`, or `text` (GeoJSON), or `graph`, a tuple (points, segments, holes), whichever is given. `keywords`
+// are options, see setFromKeywords; messages use these names. Works on threads of its own, without the GIL; calls
+// `progress(phase, share)` and handles signals in the caller's thread. What either raises ends the run and is raised
+// again. Throws OptionError, InputError. `refusals` of a result without triangles has the reasons; if nothing was to be
+// meshed, throws InputError.
 MeshResult runFromPython(const pybind11::dict& keywords, std::vector<std::string> files,
                          std::optional<std::string> text, const pybind11::object& graph,
                          const pybind11::object& progress);

@@ -54,7 +54,7 @@ class ExtremeEdges {
  private:
   double compare(const Point& a, const Point& b) const {
     if (!crs_.geographic) return std::hypot(b.x - a.x, b.y - a.y);
-    // Half the chord: at the poles longitudes say nothing.
+    // Half the chord, since longitudes are meaningless at the poles.
     constexpr double kDegree = std::numbers::pi / 180.0;
     const double across = std::sin(std::remainder(b.x - a.x, 360.0) / 2 * kDegree);
     const double along = std::sin((b.y - a.y) / 2 * kDegree);

@@ -12,7 +12,7 @@
 
 namespace coastmesh {
 
-// The least box round coordinates, as they stand in the file.
+// The bounding box of coordinates as in the file.
 struct Extent {
   Point low;
   Point high;
@@ -29,12 +29,12 @@ struct MeshInfo {
   bool has_z = false;     // at any node
   double lowest_z = 0.0;  // metres
   double highest_z = 0.0;
-  std::uint64_t nodes_without_z = 0;  // where the file has a place for it
+  std::uint64_t nodes_without_z = 0;  // NaN, if the file has z
   double area_m2 = 0.0;
-  MeshQuality quality;     // lengths and areas in it are the surface's
-  std::string surface;     // that angles are measured on; "mixed" where pieces differ
-  bool closed = true;      // no edge has one triangle alone
-  std::int64_t euler = 0;  // nodes less edges, and triangles: 2 for each piece that is all of a globe
+  MeshQuality quality;     // lengths and areas on the surface
+  std::string surface;     // on which angles are measured; "mixed" if pieces differ
+  bool closed = true;      // no boundary edges
+  std::int64_t euler = 0;  // nodes minus edges plus triangles: 2 for each piece that is a whole globe
   StepReport step;         // the shortest edge, on the ellipsoid, and the time step
   double longest_edge_m = 0.0;
   bool plane = false;
@@ -51,7 +51,7 @@ struct CoastlineInfo {
   std::uint64_t skipped_empty = 0;
   std::uint64_t skipped_points = 0;
   Extent extent;
-  double shortest_edge_m = 0.0;  // longer than 0
+  double shortest_edge_m = 0.0;  // of edges longer than 0
   double longest_edge_m = 0.0;
   std::uint64_t zero_edges = 0;  // between two equal points
   double area_m2 = 0.0;

@@ -34,7 +34,7 @@ void addExtent(std::string& text, const Extent& extent) {
   addLine(text, "extent          %.10g %.10g to %.10g %.10g", extent.low.x, extent.low.y, extent.high.x, extent.high.y);
 }
 
-// The classes that hold anything, and those between them.
+// Shows the classes that are not empty, and those between them.
 void addHistogram(std::string& text, const MeshQuality& quality) {
   const auto& counts = quality.angle_histogram;
   std::size_t first = 0;

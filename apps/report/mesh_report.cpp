@@ -85,7 +85,7 @@ Json turnedSection(const MeshJobResult& result) {
   return {{"count", result.turned}, {"places", std::move(places)}};
 }
 
-// What angles are measured on, where all regions agree, and how many are measured on which.
+// The surface on which angles are measured, if all regions agree, and the number of regions on each.
 Json surfaceSection(const MeshJobResult& result) {
   const bool one = result.surfaces.size() == 1;
   const auto nameOf = [](SurfaceKind kind) { return kSurfaceNames[static_cast<std::size_t>(kind)]; };
@@ -96,7 +96,7 @@ Json surfaceSection(const MeshJobResult& result) {
           {"regions", std::move(regions)}};
 }
 
-// Nodes less edges, and triangles: 2 of a closed globe.
+// Nodes minus edges plus triangles: 2 for a closed globe.
 std::int64_t eulerNumber(const MeshJobResult& result) {
   std::size_t on_boundary = 0;
   for (const Boundary& boundary : result.grid.boundaries)
@@ -125,7 +125,7 @@ Json meshSection(const MeshJobResult& result) {
           {"digest", digestText(result.digest)}};
 }
 
-// Lines by their kinds.
+// The number of lines of each kind.
 Json lineSection(const Grid& grid) {
   Json section = Json::object();
   for (const LineKind kind : kLineKinds) {
@@ -147,7 +147,7 @@ Json timeSection(const PhaseSeconds& seconds) {
           {"fit", seconds.optimise}};   // and of `optimise`
 }
 
-// What more cores would give.
+// The expected speedup on more cores.
 Json speedupSection(const WorkLog& log) {
   const double work = log.work();
   Json speedup = Json::object();
@@ -156,8 +156,7 @@ Json speedupSection(const WorkLog& log) {
   return {{"work_s", work}, {"critical_path_s", log.criticalPath()}, {"speedup", std::move(speedup)}};
 }
 
-// Stages one after another of the same name are one, but those whose items are of interest: a map of sizes is made in
-// hundreds.
+// Joins consecutive stages of the same name, except those whose items are listed: a map of sizes alone has hundreds.
 Json stagesSection(const WorkLog& log) {
   Json stages = Json::array();
   for (const Stage& stage : log.stages) {
@@ -184,7 +183,7 @@ Json stagesSection(const WorkLog& log) {
   return stages;
 }
 
-// How the work was shared out: the whole run, and what is between cleaning and checking.
+// Parallel work of the whole run, and of the stages between cleaning and checking.
 Json parallelSection(const WorkLog& log) {
   Json section = speedupSection(log);
   section["meshing"] = speedupSection(
@@ -193,7 +192,7 @@ Json parallelSection(const WorkLog& log) {
   return section;
 }
 
-// Who else worked on the mesh.
+// The ranks that worked on the mesh.
 Json clusterSection(const Helpers* helpers, const std::vector<RasterUse>& rasters_read) {
   const HelpersUse use = helpers != nullptr ? helpers->use() : HelpersUse();
   Json by_rank = Json::array();
@@ -250,7 +249,7 @@ std::string meshReport(const MeshJob& job, const MeshJobResult& result, int thre
 
 namespace {
 
-// What cleaning did to the input that may surprise; empty where it did none of that.
+// Edits by cleaning that may surprise; empty if there are none.
 std::string cleaningText(const std::array<std::uint64_t, kEditKinds>& edits) {
   std::string text;
   for (const EditKind kind :

@@ -7,12 +7,12 @@
 
 namespace coastmesh {
 
-// The names that --algorithm takes, in the order of `Algorithm`.
+// The names that --algorithm and --quality take, in the order of `Algorithm` and `QualityGoal`.
 inline constexpr const char* kAlgorithmNames[] = {"circumcenter", "offcenter", "optimal", "relocate"};
 inline constexpr const char* kGoalNames[] = {"shape", "centred", "links"};
 
-// The report of a job as JSON text, its keys as apps/README.md documents them. `threads` is what the job ran on,
-// `warnings` all that the run gave.
+// The report of a job as JSON text, its keys as documented in apps/README.md. `threads`: number that the job ran on;
+// `warnings`: all of the run.
 std::string meshReport(const MeshJob& job, const MeshJobResult& result, int threads,
                        const std::vector<std::string>& warnings);
 

@@ -7,9 +7,9 @@
 
 namespace coastmesh {
 
-// What a job warns of, a sentence each: what is odd in the input, what could not be done for depths and models,
-// triangles turned over on the ground, what was left out. Where nothing was meshed and there is one reason, that is the
-// error to come and not among them.
+// The warnings of a job, one sentence each: oddities of the input, what could not be done for depths and models,
+// triangles that are not counter-clockwise on the ground, groups left out. If nothing was meshed and there is a single
+// reason, that becomes the error and is not included.
 std::vector<std::string> warningsOf(const MeshJobResult& result);
 
 }  // namespace coastmesh

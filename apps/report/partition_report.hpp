@@ -7,10 +7,10 @@
 
 namespace coastmesh {
 
-// null where the grid was not partitioned.
+// null if the grid was not partitioned.
 Json partitionSection(const PartitionReport& report);
 
-// For people: a line each for elements and nodes; empty where the grid was not partitioned.
+// For users: a line each for elements and nodes; empty if the grid was not partitioned.
 std::string partitionText(const PartitionReport& report);
 
 }  // namespace coastmesh

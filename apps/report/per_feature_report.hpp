@@ -11,13 +11,13 @@ namespace coastmesh {
 
 enum class FeatureState {
   Made,
-  Short,    // made, but short of what was asked
-  Skipped,  // its outputs were there already
-  Refused,  // no mesh can be made of it
+  Short,    // made, but misses a requirement
+  Skipped,  // its outputs existed already
+  Refused,  // cannot be meshed
 };
 std::string_view toString(FeatureState state);
 
-// What became of one feature of many that are meshed apart.
+// The result for one of many features that are meshed separately.
 struct FeatureOutcome {
   std::string name, source;
   std::int64_t fid = 0;
@@ -30,14 +30,14 @@ struct FeatureOutcome {
 };
 
 struct FeatureSums {
-  std::uint64_t made = 0, short_of = 0, skipped = 0, refused = 0;  // `made`: those that are short not among them
+  std::uint64_t made = 0, short_of = 0, skipped = 0, refused = 0;  // `made` without those that are short
   MeshQuality quality;                                             // of what was meshed
 
   std::uint64_t meshed() const { return made + short_of; }
 };
 FeatureSums sumsOf(const std::vector<FeatureOutcome>& features);
 
-// The report as JSON text, its keys as apps/README.md documents them. `seconds` by the clock.
+// The report as JSON text, its keys as documented in apps/README.md. `seconds`: wall-clock.
 struct PerFeatureTimes {
   double read = 0.0, total = 0.0;
 };

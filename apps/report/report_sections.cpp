@@ -64,7 +64,7 @@ std::string boundText(const BoundCounts& bounds) {
 std::string textOf(const Json& report) { return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 double peakMemoryMib() {
-  // Of this program: what getrusage gives begins with what the process that started it held.
+  // VmHWM is this program's own; the value of getrusage starts with that of the process that started it.
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);) {
     double kib = 0.0;

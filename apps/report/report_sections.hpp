@@ -12,7 +12,7 @@
 
 namespace coastmesh {
 
-// Parts that the reports of several commands have in common; their keys are as apps/README.md documents them.
+// Sections that the reports of several commands share, with keys as documented in apps/README.md.
 
 using Json = nlohmann::ordered_json;
 
@@ -23,13 +23,13 @@ Json editsSection(const std::array<std::uint64_t, kEditKinds>& counts);
 // 1234567 as "1,234,567".
 std::string grouped(std::uint64_t number);
 
-// For people: how many triangles break the bounds, by what excuses them.
+// For users: how many triangles break the bounds, by what excuses them.
 std::string boundText(const BoundCounts& bounds);
 
-// Names in the input need not be UTF-8.
+// Indented. Bytes that are not UTF-8, which names in the input may have, are replaced.
 std::string textOf(const Json& report);
 
-// The most memory that the process has held, in MiB.
+// Peak memory of the process, MiB.
 double peakMemoryMib();
 
 }  // namespace coastmesh

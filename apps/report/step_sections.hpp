@@ -5,7 +5,7 @@
 
 namespace coastmesh {
 
-// What reports say of a grid's shortest edge and time step; `outcomeSection` also whether they are what was asked for.
+// Sections of reports on a grid's shortest edge and time step; `outcomeSection` adds whether requirements are met.
 Json stepSection(const StepReport& step);
 Json outcomeSection(const StepOutcome& outcome, const SizeOptions& sizes);
 

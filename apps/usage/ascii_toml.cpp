@@ -15,11 +15,11 @@ struct CodePoint {
   std::size_t bytes = 0;
 };
 
-// The code point beyond ASCII at the beginning; nothing where it is not UTF-8.
+// The non-ASCII code point at the start; nullopt if it is not UTF-8.
 std::optional<CodePoint> firstCodePoint(std::string_view text) {
   const auto lead = static_cast<unsigned char>(text.front());
   const std::size_t bytes = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
-  constexpr std::uint32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};  // below it a shorter form is the valid one
+  constexpr std::uint32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};  // by length; below, only a shorter form is valid
   if (lead < 0xC0 || lead >= 0xF8 || text.size() < bytes) return std::nullopt;
   std::uint32_t value = lead & (0x7Fu >> bytes);
   for (const char c : text.substr(1, bytes - 1)) {
@@ -62,7 +62,7 @@ class AsciiTomlWriter {
     for (; at_ < end; ++at_) ascii_.text += isAscii(document_[at_]) ? document_[at_] : '?';
   }
 
-  // A text with a letter beyond ASCII is written between double quotes, which alone allow escapes.
+  // A string with non-ASCII letters is written in double quotes, since only these allow escapes.
   void writeText(char quote) {
     const std::size_t quotes = document_.substr(at_).starts_with(std::string(3, quote)) ? 3 : 1;
     const auto end = endOfText(quote, quotes);
@@ -97,7 +97,7 @@ class AsciiTomlWriter {
     at_ += point->bytes;
   }
 
-  // Behind the quotes that end the text which begins here.
+  // The position after the closing quotes of the string that begins here; nullopt if there are none.
   std::optional<std::size_t> endOfText(char quote, std::size_t quotes) const {
     const std::string closing(quotes, quote);
     std::size_t end = at_ + quotes;
@@ -106,7 +106,7 @@ class AsciiTomlWriter {
       if (end >= document_.size() || (quotes == 1 && document_[end] == '\n')) return std::nullopt;
     }
     end += quotes;
-    // Two more may belong to a text of several lines.
+    // A string of several lines may end with up to two quotes of its own.
     for (int more = 0; quotes == 3 && more < 2 && end < document_.size() && document_[end] == quote; ++more) ++end;
     return end;
   }

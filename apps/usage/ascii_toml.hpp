@@ -12,11 +12,11 @@ struct TomlFault {
   std::string why;
 };
 
-// A TOML document of the same values and lines in ASCII: what lies beyond is escaped in texts and struck out of
-// comments. toml++ 3.3 meets undefined behaviour where it looks for the end of a value and finds such a letter.
+// A TOML document with the same values and lines in ASCII: other letters are escaped in strings and replaced in
+// comments. toml++ 3.3 has undefined behaviour if it meets such a letter while it looks for the end of a value.
 struct AsciiToml {
   std::string text;
-  std::size_t dots = 0;            // outside of texts and comments
+  std::size_t dots = 0;            // outside strings and comments
   std::optional<TomlFault> fault;  // the first one; the text then ends before it
 };
 

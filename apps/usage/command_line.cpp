@@ -18,16 +18,16 @@ class HelpFormatter : public CLI::Formatter {
  public:
   explicit HelpFormatter(std::set<const CLI::Option*> required) : required_(std::move(required)) {}
 
-  // CLI11 shows "--coarsen,--no-coarsen{false}"; which of the two is on is said in the description.
+  // CLI11 shows "--coarsen,--no-coarsen{false}"; the description says which of the two is the default.
   std::string make_option_name(const CLI::Option* option, bool is_positional) const override {
     return CLI::detail::find_and_replace(CLI::Formatter::make_option_name(option, is_positional), "{false}", "");
   }
-  // CLI11 ends a group with an empty line, and begins one so.
+  // CLI11 puts an empty line both after and before a group.
   std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
     return CLI::detail::find_and_replace(CLI::Formatter::make_help(app, std::move(name), mode), "\n\n\n", "\n\n");
   }
-  // What must be given may also stand in a file, which CLI11 does not know: to it nothing is required.
-  // It also shows "FILE ..." for options that take one value each time.
+  // Required options may also be given in a file, so that to CLI11 nothing is required. It also shows "FILE ..." for
+  // options that take one value each time.
   std::string make_option_opts(const CLI::Option* option) const override {
     std::string options = CLI::Formatter::make_option_opts(option);
     if (!option->get_positional()) options = CLI::detail::find_and_replace(options, " ...", " (repeat)");
@@ -50,13 +50,13 @@ CLI::Option* bind(CLI::App& app, OptionTable& table, const OptionTable::Entry& e
       throw CLI::ValidationError(entry.name, error.what());
     }
   };
-  // CLI11 passes "true" or "false": it turns the values of opposites round, and `toParse` lets no others through.
+  // CLI11 passes "true" or "false": it negates the values of opposites, and `toParse` passes no other values.
   if (entry.kind == OptionKind::Flag) return app.add_flag(entry.names, entry.shown_help)->each(set);
   CLI::Option* option = nullptr;
   if (entry.multiple) {
     const auto set_all = [set](const std::vector<std::string>& texts) { std::ranges::for_each(texts, set); };
     option = app.add_option_function<std::vector<std::string>>(entry.names, set_all, entry.shown_help);
-    // One value a flag, so that `-o a.gpkg INPUT` does not take the input for an output.
+    // One value per flag, so that `-o a.gpkg INPUT` does not take the input for an output.
     if (!entry.argument) option->allow_extra_args(false);
   } else {
     option = app.add_option_function<std::string>(entry.names, set, entry.shown_help);
@@ -66,7 +66,7 @@ CLI::Option* bind(CLI::App& app, OptionTable& table, const OptionTable::Entry& e
   return option;
 }
 
-// Whether `value` turns a switch on; `shown` is all that the user gave.
+// True if `value` turns a switch on; throws OptionError if it is no truth value. `shown`: the whole argument.
 bool isOn(const std::string& shown, const std::string& value) {
   for (const char* const yes : {"true", "on", "yes", "1"})
     if (value == yes) return true;
@@ -123,7 +123,7 @@ std::vector<std::string> CommandLine::toParse(const std::vector<std::string>& ar
                                               std::vector<std::string>& warnings) const {
   std::map<std::string, std::string> present;
   std::map<std::string, const OptionTable::Entry*> named;
-  std::string argument_name;  // of which there may be several, or none
+  std::string argument_name;  // the argument that may be repeated; empty if there is none
   for (const OptionTable::Entry* entry : table_->entries()) {
     if (entry->argument && entry->multiple) argument_name = entry->name;
     if (entry->argument) continue;
@@ -132,7 +132,7 @@ std::vector<std::string> CommandLine::toParse(const std::vector<std::string>& ar
   }
   std::vector<std::string> words;
   bool any_argument = false;
-  // "--weirs a.shp b.shp": the second is no value.
+  // "--weirs a.shp b.shp": the second is an argument, not a value.
   const auto warnOfArgumentAfter = [&](const std::string& name, const OptionTable::Entry& entry, auto next) {
     if (argument_name.empty() || !entry.multiple || !any_argument || next == arguments.end() || next->starts_with("-"))
       return;
@@ -160,7 +160,7 @@ std::vector<std::string> CommandLine::toParse(const std::vector<std::string>& ar
     } else if (option->second->kind == OptionKind::Flag) {
       words.push_back(with_value ? name + (isOn(*argument, argument->substr(sign + 1)) ? "=true" : "=false") : name);
     } else {
-      // In two words, since CLI11 would take "--name=" for one whose value is the next word.
+      // Two words, since CLI11 would take the next word for the value of "--name=".
       words.push_back(name);
       if (with_value) {
         words.push_back(argument->substr(sign + 1));

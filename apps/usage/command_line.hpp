@@ -13,12 +13,12 @@ class App;
 
 namespace coastmesh {
 
-// Not an error: the text that --help, --version or --json-usage asked for, to be printed before the program ends.
+// Not an error: the text that --help, --version or --json-usage prints before the program ends.
 struct UsageText {
   std::string text;
 };
 
-// A table for a command of the program, which begins with --config: `CommandLine::complete` reads what that names.
+// The table of a command of the program, with --config declared; `CommandLine::complete` reads that file.
 OptionTable commandOptions(const std::string& name, const std::string& help);
 
 // A command of the program: its arguments fill a table of options.
@@ -29,20 +29,21 @@ class CommandLine {
   CommandLine(CommandLine&&) noexcept;
 
   const OptionTable& options() const { return *table_; }
-  bool chosen() const;  // whether this command is the one that was called
+  bool chosen() const;  // true if this command was called
 
-  // What follows the command's name, as words to be parsed. Options that go by a former name are called as they are
-  // now, with a sentence for each in `warnings`; switches have true or false for a value, if any; other values are
-  // words of their own. Throws OptionError for a switch whose value is no truth value.
+  // The words after the command's name, for the parser. Former names of options are replaced by present ones, with a
+  // sentence for each in `warnings`; switches have true or false as value, if any; other values are words of their own.
+  // Also warns of arguments that look like a second value of an option. Throws OptionError for a switch whose value is
+  // no truth value.
   std::vector<std::string> toParse(const std::vector<std::string>& arguments, std::vector<std::string>& warnings) const;
 
-  // Once the arguments are parsed: takes what they leave open from the file that --config names (see takeConfig).
-  // Throws OptionError besides where something that must be given is in neither.
+  // To be called once the arguments are parsed: takes options that were not given from the file of --config (see
+  // takeConfig). Also throws OptionError if a required option is in neither.
   void complete(const std::set<std::string>& commands, std::vector<std::string>& warnings);
 
  private:
   CLI::App* app_;
-  std::unique_ptr<OptionTable> table_;  // its address is in what parses
+  std::unique_ptr<OptionTable> table_;  // the parser refers to its address
 };
 
 }  // namespace coastmesh

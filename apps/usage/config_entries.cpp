@@ -1,7 +1,7 @@
 #include "apps/usage/config_entries.hpp"
 
-// What toml++ asserts of a key ("[# a]") it then reports as an error of the file. Without asserts, some compilers are
-// told to take it for granted: neither is wanted.
+// toml++ asserts conditions on keys ("[# a]") that it then reports as errors of the file; without asserts it lets some
+// compilers assume them. Disable both.
 #pragma push_macro("NDEBUG")
 #undef NDEBUG
 #define TOML_ASSERT(expression) static_cast<void>(0)
@@ -42,7 +42,7 @@ using Json = nlohmann::ordered_json;
 
 // JSON ------------------------------------------------------------------------------------------------------------
 
-// Parses without recursion; what nests too deeply, or says a name twice, ends it at once.
+// Parses without recursion; throws at once if the nesting is too deep or a name is repeated.
 Json parseJson(const std::string& file, const std::string& text) {
   constexpr int kDeepest = 4;  // the file, a section, a list, a list in it
   std::vector<std::set<std::string>> names;
@@ -157,7 +157,7 @@ ConfigEntries readToml(const std::string& file, const std::string& text) {
   if (ascii.fault)
     refuseLine(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(ascii.fault->at), '\n') + 1,
                ascii.fault->why);
-  // The library frees tables within tables by recursion, and dotted names may nest as many as there are dots.
+  // The library frees nested tables by recursion, and dotted names nest one table per dot.
   constexpr std::size_t kMostDots = 10'000;
   if (ascii.dots > kMostDots) refuseDepth(file);
   toml::table table;
@@ -166,7 +166,7 @@ ConfigEntries readToml(const std::string& file, const std::string& text) {
   } catch (const toml::parse_error& error) {
     refuseLine(error.source().begin.line, error.description());
   }
-  // By their places in the file, which the library's table forgets.
+  // Sorted by their places in the file: the library's table does not keep the order.
   ConfigEntries read;
   std::vector<std::tuple<toml::source_position, ConfigEntry>> found;
   for (const auto& [name, value] : table) {

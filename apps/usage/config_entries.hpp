@@ -9,19 +9,18 @@ namespace coastmesh {
 struct ConfigEntry {
   std::string section;  // empty at the top
   std::string name;
-  bool list = false;  // the value is a list
-  std::vector<std::vector<std::string>>
-      values;  // its items, a list each where it is a list of lists; one of one text where it is none
+  bool list = false;                             // the value is a list
+  std::vector<std::vector<std::string>> values;  // its items, each a list for a list of lists; otherwise a single text
 };
 
-// What a file of options holds, in its order.
+// The contents of a file of options, in order.
 struct ConfigEntries {
   std::vector<std::string> sections;  // empty ones too
   std::vector<ConfigEntry> entries;
 };
 
-// Reads a file of options: JSON where its name ends in .json, else TOML. Throws OptionError: no such file, not of its
-// format, lists or sections nested deeper than options are, a name given twice.
+// Reads a file of options: JSON if its name ends in .json, otherwise TOML. Throws OptionError if the file does not
+// exist or has another format, if lists or sections are nested deeper than options are, or if a name is given twice.
 ConfigEntries readConfigEntries(const std::string& file);
 
 }  // namespace coastmesh

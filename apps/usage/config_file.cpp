@@ -12,10 +12,10 @@ namespace {
 
 using Entry = OptionTable::Entry;
 
-// What a name in a file means: an option, or an argument.
+// What a name in a file refers to: an option or an argument.
 struct Named {
   const Entry* entry = nullptr;
-  std::string present;  // the name without dashes where the file has a former one, else empty
+  std::string present;  // the present name without dashes if the file has a former one, otherwise empty
 };
 
 Named find(std::string name, const OptionTable& table) {
@@ -33,7 +33,7 @@ Named find(std::string name, const OptionTable& table) {
   return {};
 }
 
-// Whether the switch is on: "no-coarsen = true" turns coarsening off.
+// True if the switch is on: "no-coarsen = true" turns coarsening off.
 bool isOn(const ConfigEntry& entry, const std::string& where) {
   const std::string value = entry.list ? std::string() : entry.values[0][0];  // a list may be empty
   if (value != "true" && value != "false") throw OptionError(where + " is a switch: say true or false");
@@ -41,8 +41,8 @@ bool isOn(const ConfigEntry& entry, const std::string& where) {
   return (value == "true") != negated;
 }
 
-// The values as texts: a list for an option that takes several, and for one that takes numbers with commas between them
-// the list of these.
+// The values as texts. Lists are accepted for options that may be repeated, and for an option of several numbers as the
+// list of these.
 std::vector<std::string> textsFor(const Entry& option, const ConfigEntry& entry, const std::string& where) {
   const std::string& unit = option.shown_unit;
   const auto parts = static_cast<std::size_t>(1 + std::ranges::count(unit, ','));
@@ -75,7 +75,7 @@ std::vector<std::string> textsFor(const Entry& option, const ConfigEntry& entry,
 void give(const Entry& option, const ConfigEntry& entry, const std::string& where, OptionTable& table) {
   if (option.kind == OptionKind::Flag) {
     const bool on = isOn(entry, where);
-    // One without an opposite is off already.
+    // A switch without an opposite is off already.
     const auto turnsIt = [on](const std::string& name) { return name.starts_with("--no-") != on; };
     if (std::ranges::any_of(namesIn(option.names), turnsIt)) table.set(option.name, on, entry.values[0][0]);
     return;

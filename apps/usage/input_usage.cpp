@@ -18,7 +18,7 @@ bool allFinite(const std::vector<double>& numbers) {
   return std::ranges::all_of(numbers, [](double number) { return std::isfinite(number); });
 }
 
-// Stores the sides of a box, or what is wrong with them.
+// Stores the sides of a box; returns what is wrong with them, empty if nothing.
 std::string storeBox(const std::vector<double>& sides, std::optional<Box>& box) {
   box.reset();
   if (!allFinite(sides)) return "is not four finite numbers W,S,E,N";
@@ -76,7 +76,7 @@ void declareInputOptions(OptionTable& table, InputOptions& options) {
             return unframed || frame.box || !options.clip.empty() || frame.water_at;
           },
           "without --bbox or --clip")
-      // Water outside of land is what --water-at meshes anyway.
+      // --water-at meshes the water outside land anyway.
       .needs([&frame] { return !frame.water_at || frame.side == DomainSide::Outside; }, "with --water-at");
   table.numbers(
       {"--bbox", "Bounding box"}, "W,S,E,N", false,

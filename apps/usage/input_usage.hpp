@@ -5,16 +5,15 @@
 
 namespace coastmesh {
 
-// Declares the options that say how an input becomes domains of the plane: --crs, --snap, --simplify,
-// --min-island-area.
+// Declares the options on reading, the domain, cleaning and the working plane: from --layer to --crs.
 void declareInputOptions(OptionTable& table, InputOptions& options);
 
-// --surface; apart, since files are measured on one too.
+// --surface; separate, since commands on meshes have it too.
 void declareSurface(OptionTable& table, SurfaceChoice& surface);
-// Once all is set: the surface that models among the targets need, where the user chose none.
+// To be called once all is set: chooses the surface that target models need, unless the user chose one.
 void chooseSurface(const std::vector<std::string>& targets, SurfaceChoice& surface);
 
-// --pinches; apart, since `check` means something else by it.
+// --pinches; separate, since it has another meaning in `check`.
 void declarePinches(OptionTable& table, InputOptions& options);
 void declarePinches(OptionTable& table, const OptionNames& names, const std::string& help, InputOptions& options);
 

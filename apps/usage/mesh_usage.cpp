@@ -20,7 +20,7 @@ Enum named(const char* const (&names)[kCount], const std::string& name) {
   return static_cast<Enum>(std::ranges::find(names, name) - std::begin(names));
 }
 
-// MPAS' cells have no sense where circumcentres lie outside of their triangles.
+// MPAS requires circumcentres inside their triangles.
 void chooseLargestAngle(MeshUsage& usage) {
   constexpr double kWellCentredDeg = 89.0;
   const std::vector<Target> targets = targetsNamed(usage.job.finish.targets);
@@ -85,7 +85,7 @@ void declareMeshOptions(OptionTable& table, MeshUsage& usage) {
 
 namespace {
 
-// A whole globe without input is nothing but its sizes.
+// Throws OptionError if a whole globe has neither input nor sizes, or if its coasts are to follow sizes.
 void requireGlobe(const InputOptions& input, const SizeOptions& sizes) {
   if (input.frame.side != DomainSide::Globe) return;
   const bool empty = input.files.empty() && input.constraints.empty() && input.weirs.empty() && input.regions.empty();
@@ -108,10 +108,10 @@ void settle(MeshUsage& usage) {
     usage.job.mesh.refine.max_angle_deg = std::min(usage.job.mesh.refine.max_angle_deg, 90.0);
   chooseSurface(usage.job.finish.targets, usage.job.input.surface);
   chooseLargestAngle(usage);
-  // The classical algorithms are there to compare with: they insert what their papers say.
+  // The classical algorithms serve for comparison: by default they insert points as published, without coarsening.
   if (!usage.coarsen_given) usage.job.mesh.coarsen = usage.job.mesh.refine.algorithm == Algorithm::Relocate;
   const BoundaryOptions& boundaries = usage.job.finish.boundaries;
-  // Beside a plane graph, which has no columns, that of the files alone is meant.
+  // A plane graph has no columns: beside one, the column is only that of the files.
   if (boundaries.files.empty() || !isPlaneGraph(usage.job.input)) usage.job.input.boundary_column = boundaries.column;
   usage.job.input.may_lack_column = !boundaries.files.empty();
   usage.job.mesh.one_piece = !usage.cut;

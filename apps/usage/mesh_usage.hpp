@@ -9,7 +9,7 @@
 
 namespace coastmesh {
 
-// What a job of meshing is given, whoever gives it: the program or Python.
+// The options of a meshing job, set by the program or by Python.
 struct MeshUsage {
   MeshJob job;
   SizingUsage sizing;
@@ -24,7 +24,7 @@ struct MeshUsage {
 // Declares its options, bound to `usage`, which must outlive the table.
 void declareMeshOptions(OptionTable& table, MeshUsage& usage);
 
-// Once all is set: makes `usage.job` what the options say.
+// To be called once all is set: completes `usage.job` from the options. Throws OptionError.
 void settle(MeshUsage& usage);
 
 }  // namespace coastmesh

@@ -12,14 +12,14 @@ namespace {
 
 bool isAlnum(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
 
-// Whether what begins at `at` goes on a name, or a path.
+// True if the text at `at` continues a name or a path.
 bool goesOn(const std::string& text, std::size_t at) {
   if (at >= text.size()) return false;
   if (text[at] == '.') return at + 1 < text.size() && isAlnum(text[at + 1]);
   return isAlnum(text[at]) || text[at] == '-' || text[at] == '_' || text[at] == '/';
 }
 
-// The choice that follows at `at` after a space, or nothing.
+// The choice that follows at `at` after a space; empty if there is none.
 std::string choiceAt(const std::string& text, std::size_t at, const OptionTable::Entry& entry) {
   for (const std::string& choice : entry.choices)
     if (text.compare(at, choice.size() + 1, " " + choice) == 0 && !goesOn(text, at + choice.size() + 1)) return choice;

@@ -32,7 +32,7 @@ std::string rangeText(const NumberRange& range) {
   return {};
 }
 
-// What is wrong with a number, as the end of a sentence about it; empty where nothing is.
+// What is wrong with a number, as the end of a sentence about it; empty if nothing.
 std::string wrongWith(double value, const NumberRange& range) {
   const bool number = std::isfinite(value);
   const bool within = number && value <= range.high && (range.low_open ? value > range.low : value >= range.low);
@@ -101,14 +101,14 @@ struct OptionTable::Impl {
     std::size_t numbers = 0;  // of OptionKind::Numbers
     OptionValue initial;
     std::vector<OptionValue> given;
-    std::function<bool()> spared;      // whether it need not be given; empty: it must where it is required
+    std::function<bool()> spared;      // true if it need not be given although it is required; may be empty
     bool reads = false;                // names files to read
     std::optional<OutputKind> writes;  // names files to write
   };
 
   std::string name, help;
   Section section = Section::Run;
-  // Pointers to entries are given away.
+  // Pointers, since callers keep the addresses of entries.
   std::vector<std::unique_ptr<Declared>> all;
   Json examples = Json::array();
 
@@ -171,13 +171,13 @@ struct OptionTable::Impl {
 
   bool given(const std::string& wanted) const { return !declared(wanted).given.empty(); }
 
-  // Given, and not as what it is without being given: "--time-step 0" asks for none.
+  // True if given with a value other than its default: "--time-step 0" is not active.
   bool active(const std::string& wanted) const {
     const Declared& option = declared(wanted);
     return !option.given.empty() && option.given.front() != option.initial;
   }
 
-  // Of "--time-step" that it is active, of "--coast follow" that it is given as that.
+  // "--time-step" is fulfilled if it is active, "--coast follow" if that value is given.
   bool fulfilled(const std::string& need) const {
     const std::size_t space = need.find(' ');
     if (space == std::string::npos) return active(need);
@@ -185,7 +185,7 @@ struct OptionTable::Impl {
     return !option.given.empty() && option.given.front() == OptionValue(need.substr(space + 1));
   }
 
-  // Arguments first, then by sections.
+  // Arguments first, then options by section.
   std::vector<const Declared*> shown() const {
     std::vector<const Declared*> order;
     for (const auto& one : all) order.push_back(one.get());
@@ -230,7 +230,7 @@ const OptionTable::Option& OptionTable::Option::needs(std::vector<std::string> o
   const Impl* impl = table_->impl_.get();
   return needs(
       [impl, others] {
-        // All of them are asked, so that a name that is none shows.
+        // Evaluates all of them, so that an undeclared name throws.
         return std::ranges::count_if(others, [impl](const std::string& other) { return impl->fulfilled(other); }) > 0;
       },
       text);
@@ -304,7 +304,7 @@ std::string wholeRange(std::uint64_t low, std::uint64_t high) {
 
 auto storeInteger(std::uint64_t& value, std::uint64_t low, std::uint64_t high) {
   return [&value, low, high](const OptionValue& asked) -> std::string {
-    // What is no whole number comes as the text that it is.
+    // Text that is no whole number arrives as text.
     const std::uint64_t* const number = std::get_if<std::uint64_t>(&asked);
     if (number == nullptr || *number < low || *number > high)
       return "is not a whole number in the range " + wholeRange(low, high);
@@ -340,7 +340,7 @@ OptionTable::Option OptionTable::numbers(const OptionNames& names, const std::st
   added.numbers = 1 + static_cast<std::size_t>(std::ranges::count(unit, ','));
   added.initial = std::vector<double>{};
   added.store = [store, count = added.numbers, unit](const OptionValue& asked) -> std::string {
-    // What is no list of numbers comes as the text that it is.
+    // Text that is no list of numbers arrives as text.
     const std::vector<double>* const list = std::get_if<std::vector<double>>(&asked);
     const auto isNumber = [](double number) { return isComputable(number) || std::isinf(number); };
     if (list == nullptr || (!list->empty() && list->size() != count) || !std::ranges::all_of(*list, isNumber))
@@ -486,7 +486,7 @@ void OptionTable::set(const std::string& name, const OptionValue& value, const s
 }
 
 void OptionTable::setText(const std::string& name, const std::string& text) {
-  // A variable of the shell that is not set, most likely: without the option another mesh would be made.
+  // Most likely a shell variable that is not set: ignoring the option would make another mesh.
   if (text.empty()) throw OptionError("'' is an empty text; leave it out");
   set(name, valueOf(text, impl_->declared(name).entry.kind), text);
 }
@@ -537,7 +537,7 @@ std::vector<OptionTable::NamedOutput> OptionTable::outputs() const {
 std::vector<std::string> OptionTable::withoutEffect() const {
   std::vector<std::string> sentences;
   for (const auto& [option, holds, else_text] : impl_->conditions) {
-    const bool effective = holds();  // asked for those not given too, so that a condition that cannot be asked shows
+    const bool effective = holds();  // also for options not given, so that a faulty condition shows
     if (!effective && impl_->given(option)) sentences.push_back(option + " has no effect " + else_text);
   }
   return sentences;

@@ -18,15 +18,15 @@ namespace coastmesh {
 enum class Section { Input, Domain, Triangles, Sizes, Coast, Depths, Boundaries, Picture, Output, Run };
 const char* sectionTitle(Section section);
 
-// What an option is called.
+// The names of an option.
 struct OptionNames {
   OptionNames(const char* as_typed, std::string as_read = {}) : typed(as_typed), label(std::move(as_read)) {}
-  std::string typed;  // by those who type it: "-o,--output"
-  std::string label;  // by those who read it, in a dialog of QGIS: "Bounding box"; unique within a table
+  std::string typed;  // as typed: "-o,--output"
+  std::string label;  // as shown, for example in a dialog of QGIS: "Bounding box"; unique within a table
 };
 
-// What an option is called and what it does, in one: "Bounding box: mesh only ...", and where `help` begins with the
-// label, that alone: "Smallest angle asked for". `mark` stands before the label and after it.
+// Label and help in one text: "Bounding box: mesh only ..."; only the help if it begins with the label: "Smallest angle
+// asked for". `mark` is put before and after the label.
 std::string saidOf(const std::string& label, const std::string& help, const std::string& mark = {});
 
 struct NumberRange {
@@ -35,33 +35,33 @@ struct NumberRange {
   bool low_open = false;  // `low` itself is out
 };
 
-// Units of options that name files to read, shown as FILE; what follows the colon is their role in --json-usage, where
-// "FILE" alone says "input": programs offer layers of that kind. Files to write are declared by `output` and `outputs`.
+// Units of options that name files to read, shown as FILE. The text after the colon is their role in --json-usage
+// ("FILE" alone: "input"), so that programs can offer layers of that kind. Files to write are declared by `output` and
+// `outputs`.
 inline constexpr const char* kVectorFile = "FILE:vector";
 inline constexpr const char* kRasterFile = "FILE:raster";
 
-// The options of a job or a command. Each is declared once, by one call: that declaration checks its values, stores
-// them, and is what --help, --json-usage, Python and QGIS show. An option's default is what its variable holds when it
-// is declared; the variables must outlive the table. Who gives options is not known here: see command_line.hpp for
-// arguments of a program, option_keywords.hpp for keywords.
+// The options of a job or a command. Each is declared once, by one call: the declaration checks and stores its values,
+// and is shown by --help, --json-usage, Python and QGIS. An option's default is the value of its variable at the
+// declaration; variables must outlive the table. The table does not depend on how options are given: see
+// command_line.hpp for arguments of a program, option_keywords.hpp for keywords.
 class OptionTable {
  public:
   OptionTable(const std::string& name, const std::string& help);
   ~OptionTable();
   OptionTable(OptionTable&&) noexcept;
 
-  // An option that was declared, to say when it counts. Given without what it needs, it is warned of: see
-  // `withoutEffect`.
+  // A declared option, to define when it has an effect. There is a warning if it is given without: see `withoutEffect`.
   class Option {
    public:
-    // It has an effect only where one of `others` is given besides, and is not what it is by default; "--coast follow"
-    // stands for that option given as that.
+    // It has an effect only if one of `others` is given, with a value other than its default; "--coast follow" stands
+    // for that option with that value.
     const Option& needs(std::vector<std::string> others) const;
-    // It has no effect where one of `others` is given.
+    // It has no effect if one of `others` is given.
     const Option& ignoredWith(std::vector<std::string> others) const;
-    // It has an effect only where `holds`, once all is set, says so; `else_text` follows "has no effect ".
+    // It has an effect only if `holds` returns true once all is set; `else_text` follows "has no effect ".
     const Option& needs(std::function<bool()> holds, const std::string& else_text) const;
-    // What its names were called in the last version, in the same order.
+    // Its names in the last version, in the same order.
     const Option& formerly(const std::vector<std::string>& names) const;
 
    private:
@@ -73,28 +73,28 @@ class OptionTable {
 
   // Declarations -----------------------------------------------------------------------------------------------------
 
-  // Arguments known by their place. Names are as the help shows them: "INPUT".
+  // Positional arguments. Names are as the help shows them: "INPUT".
   void argument(const std::string& name, std::string& value, const std::string& help);
-  // `spared`, where there is one, says once all is set whether none need be given.
+  // `spared`, if not empty, is called once all is set: if it returns true, none need be given.
   void arguments(const std::string& name, std::vector<std::string>& values, const std::string& help,
                  const std::function<bool()>& spared = {});
-  // One that is a whole number, and no file.
+  // An argument that is a whole number, not a file.
   void integerArgument(const std::string& name, std::uint64_t& value, std::uint64_t low, std::uint64_t high,
                        const std::string& help);
 
   // The heading of the options that are declared from here on; before the first call it is Section::Run.
   void section(Section section);
 
-  // Options. `unit` is what the value is counted in
-  // ("DEG", "M"), or what it is ("FILE"). Numbers must be within their range and `isComputable`; an infinite default,
-  // or the greatest of integers, means none. `given`, where there is one, becomes true when the user gives the option.
+  // Options. `unit` is the unit of the value ("DEG", "M"), or its kind ("FILE"). Numbers must be within their range and
+  // `isComputable`; an infinite default, or the largest integer, means none. `given`, if not null, becomes true when
+  // the user gives the option.
   Option number(const OptionNames& names, double& value, const std::string& unit, const NumberRange& range,
                 const std::string& help, bool* given = nullptr);
   Option integer(const OptionNames& names, std::uint64_t& value, const std::string& unit, std::uint64_t low,
                  std::uint64_t high, const std::string& help);
-  // As many numbers as `unit` names: "W,S,E,N". `store` gets as many, or none where the list given is empty, and
-  // returns what is wrong with them as the end of a sentence about them ("is not ..."), empty where nothing is.
-  // `multiple`: the option may be repeated, `store` being called for each.
+  // As many numbers as `unit` names: "W,S,E,N". `store` receives that many, or none if the given list is empty, and
+  // returns what is wrong with them as the end of a sentence about them ("is not ..."), empty if nothing. `multiple`:
+  // the option may be repeated, and `store` is called for each.
   using StoreNumbers = std::function<std::string(const std::vector<double>&)>;
   Option numbers(const OptionNames& names, const std::string& unit, bool multiple, const StoreNumbers& store,
                  const std::string& help);
@@ -105,22 +105,22 @@ class OptionTable {
   Option requiredText(const OptionNames& names, std::string& value, const std::string& unit, const std::string& help);
   Option choice(const OptionNames& names, std::string& value, const std::vector<std::string>& choices,
                 const std::string& help);
-  // The same for a value that is no text: `store` takes the user's choice.
+  // The same for a value that is not text: `store` receives the user's choice.
   Option choice(const OptionNames& names, const std::string& initial, const std::vector<std::string>& choices,
                 const std::function<void(const std::string&)>& store, const std::string& help);
   // "--coarsen,!--no-coarsen" declares a flag and its opposite.
   Option flag(const OptionNames& names, bool& value, const std::string& help, bool* given = nullptr);
 
-  // A file to read that whoever fills the table reads himself: nothing is stored.
+  // A file that the caller who fills the table reads: nothing is stored.
   Option file(const OptionNames& names, const std::string& help);
 
-  // One that is declared already, by its longest name.
+  // An option that is declared already, by its longest name.
   Option option(const std::string& name) { return {*this, name}; }
-  // All that `declare` declares needs one of `others`.
+  // All options that `declare` declares need one of `others`.
   void needing(const std::vector<std::string>& others, const std::function<void()>& declare);
 
-  // Files to write. `files` says all that a path given stands for; empty: the file of that name alone.
-  // `standard_output`: "-" is allowed and means it.
+  // Files to write. `files` returns all files of a given path; empty: only the file of that name. `standard_output`:
+  // "-" is allowed and means standard output.
   using FilesOf = std::function<OutputFiles(const std::string& path)>;
   struct OutputKind {
     bool required = false;
@@ -147,8 +147,8 @@ class OptionTable {
     std::string shown_help;     // after its label, with its range
     std::string shown_default;  // empty: none is shown
     std::vector<std::string> choices;
-    std::vector<std::pair<std::string, std::string>> former_names;  // each with what it is called now
-    bool argument = false;                                          // known by its place
+    std::vector<std::pair<std::string, std::string>> former_names;  // each with its present name
+    bool argument = false;                                          // positional
   };
   // As they are shown: arguments first, then by sections, and in the order of declaration.
   std::vector<const Entry*> entries() const;
@@ -160,20 +160,19 @@ class OptionTable {
 
   // Values -----------------------------------------------------------------------------------------------------------
 
-  // Gives an option, by `Entry::name`, a value of its kind, or a text to be read as one. `shown` is what the user gave,
-  // for messages. Throws OptionError, which says what is wrong with the value and leaves it to the caller to say
-  // whose it is.
+  // Gives an option, by `Entry::name`, a value of its kind, or a text to be read as one. `shown`: what the user gave,
+  // for messages. Throws OptionError, which says what is wrong with the value; the caller adds the name of the option.
   void set(const std::string& name, const OptionValue& value, const std::string& shown);
   void setText(const std::string& name, const std::string& text);
 
-  // All the values that an option, or an argument, was given, by `Entry::name`.
+  // All values that an option or argument was given, by `Entry::name`.
   const std::vector<OptionValue>& given(const std::string& name) const;
 
-  // Once all is set: the options and arguments that must be given and were not.
+  // Once all is set: the required options and arguments that were not given.
   std::vector<std::string> missing() const;
 
-  // Once all is set: the files to read that arguments and options name, whichever they are, and those to write. Throws
-  // OptionError for "-" where standard output is not allowed, and what `FilesOf` throws.
+  // Once all is set: the files to read and to write that arguments and options name. Throws OptionError for "-" where
+  // standard output is not allowed, and what `FilesOf` throws.
   struct NamedFile {
     std::string option, path;
   };

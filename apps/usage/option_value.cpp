@@ -10,7 +10,7 @@ namespace coastmesh {
 
 namespace {
 
-// All of the text but for spaces round it and a plus before it, as a number.
+// The whole text as a number; spaces around it and a plus before it are allowed.
 template <typename Number>
 std::optional<Number> numberIn(std::string_view text) {
   while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
@@ -22,7 +22,8 @@ std::optional<Number> numberIn(std::string_view text) {
   return number;
 }
 
-// What lies between commas; a comma at the end adds nothing. No stream, which would take memory that lacks for the end.
+// The parts between commas; a comma at the end adds none. Uses no stream, which would treat a failed allocation as the
+// end of the text.
 std::vector<std::string_view> parts(std::string_view text) {
   std::vector<std::string_view> found;
   while (!text.empty()) {

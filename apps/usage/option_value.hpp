@@ -15,9 +15,9 @@ enum class OptionKind { Flag, Number, Integer, Numbers, Text, File, Choice };
 // "--coarsen,!--no-coarsen" as the names that a user may type.
 std::vector<std::string> namesIn(const std::string& declared);
 
-// A text as a value of that kind, in the C locale whatever the program's is. What is no number becomes NaN, what is no
-// whole number or no list of numbers stays the text: OptionTable refuses them in the words of the option. An empty text
-// is an empty list.
+// A text as a value of that kind, always in the C locale. A text that is no number becomes NaN; one that is no whole
+// number or no list of numbers stays a text: OptionTable rejects both with the option's range. An empty text is an
+// empty list.
 OptionValue valueOf(const std::string& text, OptionKind kind);
 
 }  // namespace coastmesh

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// FROM, TO and SIZE; what is wrong with them, if anything.
+// Stores FROM, TO and SIZE; returns what is wrong with them, empty if nothing.
 std::string storeBand(const std::vector<double>& numbers, std::vector<DepthBand>& bands) {
   if (numbers.empty()) return "is not FROM,TO,SIZE";
   const DepthBand band{numbers[0], numbers[1], numbers[2]};
@@ -24,7 +24,7 @@ std::string storeBand(const std::vector<double>& numbers, std::vector<DepthBand>
   return {};
 }
 
-// Options that ask for sizes.
+// Options that request sizes.
 const std::vector<std::string> kSizes = {"--size",           "--size-shore",       "--size-features",
                                          "--size-raster",    "--channel-elements", "--wave-elements",
                                          "--slope-elements", "--depth-band"};

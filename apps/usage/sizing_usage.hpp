@@ -9,7 +9,7 @@
 
 namespace coastmesh {
 
-// What of the sizes was given, where it is not seen from their values.
+// Which options on sizes were given, if their values do not show it.
 struct SizingUsage {
   bool filter_given = false;
   bool coast_given = false;
@@ -17,14 +17,14 @@ struct SizingUsage {
   bool shore_rate_given = false;
 };
 
-// Declares the options that say how large elements should be; `sizes` and `usage` must outlive the parsing.
+// Declares the options on the size of elements; `sizes` and `usage` must outlive the parsing.
 void declareSizing(OptionTable& table, SizeOptions& sizes, SizingUsage& usage);
 
-// Once parsed: `depths` are where sizes find theirs. A sea for a model, `may_choose`, gets sizes that suit it where
-// none are asked for. Throws OptionError for what does not go together.
+// To be called once parsed. `depths`: where sizes find depths. `may_choose`: if no sizes are requested, sizes for a sea
+// model are chosen. Throws OptionError for options that cannot be combined.
 void settleSizing(const SizingUsage& usage, const DepthOptions& depths, bool may_choose, SizeOptions& sizes);
 
-// A note for each size, or growth of sizes, that is asked for and that a bound on all sizes overrides.
+// A note for each requested size, or growth of sizes, that a bound on all sizes overrides.
 std::vector<std::string> notesOnOverriddenSizes(const SizingUsage& usage, const SizeOptions& sizes);
 
 }  // namespace coastmesh

@@ -62,7 +62,7 @@ std::string rangeOf(const Json& option) {
   return high ? numberText(option["maximum"]) + " or less" : std::string{};
 }
 
-// Whether options of one section end and those of the next begin with `option`; `section` is that of the one before.
+// True if `option` begins a section; `section` is that of the option before, and becomes that of this one.
 bool beginsSection(const Json& option, std::string& section) {
   if (option["section"] == section) return false;
   section = option["section"];
@@ -275,7 +275,7 @@ std::string bash(const Json& usage) {
          "complete -F _coastmesh coastmesh\n";
 }
 
-// What stands in the brackets of _arguments may hold neither brackets nor colons.
+// Escapes what the brackets of _arguments may not hold: brackets, colons and backslashes.
 std::string zshHelp(const std::string& help) {
   std::string out;
   for (char c : help) {

@@ -5,11 +5,10 @@
 
 namespace coastmesh {
 
-// The forms in which the program's usage can be had, for manuals and shells: "man", "man:VERB", "markdown", "bash",
-// "zsh", "fish".
+// The forms of the program's usage, for manuals and shells: "man", "man:VERB", "markdown", "bash", "zsh", "fish".
 std::vector<std::string> usageForms(const std::string& usage_json);
 
-// The whole usage, as `coastmesh --json-usage` prints it, in one of these forms. Throws OptionError for another.
+// The whole usage, as `coastmesh --json-usage` prints it, in one of these forms. Throws OptionError for any other.
 std::string usageAs(const std::string& form, const std::string& usage_json);
 
 }  // namespace coastmesh

@@ -9,11 +9,11 @@
 
 namespace coastmesh {
 
-// What an edge of the boundary is. Edges of one boundary are alike in all of it.
+// The kind of a boundary edge. All edges of one boundary have the same.
 struct BoundaryKind {
   BoundaryRole role = BoundaryRole::Land;
   int ibtype = -1;            // as in Boundary
-  std::uint32_t segment = 0;  // tells boundaries of the same role apart that follow one another
+  std::uint32_t segment = 0;  // distinguishes adjacent boundaries of the same role
 
   friend bool operator==(const BoundaryKind&, const BoundaryKind&) = default;
 };
@@ -21,13 +21,13 @@ struct BoundaryKind {
 // The grid's boundary as closed loops of nodes with the mesh to the left; see `boundaryLoops`.
 std::vector<std::vector<std::uint32_t>> boundaryLoops(const Grid& grid);
 
-// Loops cut into boundaries where the kind of their edges changes. A loop of one kind stays closed; one of shore alone
-// is land or an island by `roleOfLoop`, whichever the kind says; the shore of a loop that opens somewhere is land.
+// Cuts loops into boundaries where the kind of their edges changes. A loop of one kind stays closed; if that is shore,
+// `roleOfLoop` decides whether it is land or an island. Shore in other loops is land.
 using BoundaryKindOf = std::function<BoundaryKind(std::uint32_t from, std::uint32_t to)>;
 std::vector<Boundary> cutLoops(const Grid& grid, const std::vector<std::vector<std::uint32_t>>& loops,
                                const BoundaryKindOf& kind_of);
 
-// The kinds of edges that the grid's boundaries say, whichever way they go.
+// The kinds of the edges of a grid's boundaries, in either direction.
 class EdgeKinds {
  public:
   explicit EdgeKinds(const Grid& grid);
@@ -40,8 +40,8 @@ class EdgeKinds {
   std::vector<BoundaryKind> kinds_;
 };
 
-// For files that say open nodes and no more: the boundary's edges between two of them are open, all others are shore.
-// `is_open` has one flag a node.
+// For files that only mark open nodes: boundary edges between two of them are open, all others are shore. `is_open` has
+// one flag for each node.
 std::vector<Boundary> boundariesOfOpenNodes(const Grid& grid, const std::vector<bool>& is_open);
 
 }  // namespace coastmesh

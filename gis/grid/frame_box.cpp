@@ -50,14 +50,14 @@ FrameMoves keepInFrame(Grid& grid, const Coastline& coastline, double min_angle_
     const auto& [a, b, c] = grid.triangles[t];
     return orientationOnGround(grid.nodes[a], grid.nodes[b], grid.nodes[c], grid.crs) <= 0;
   };
-  std::vector<std::uint8_t> was_short;  // one of `changed` each
+  std::vector<std::uint8_t> was_short;  // a flag for each of `changed`
   for (const std::size_t t : changed) was_short.push_back(isShort(t));
   std::vector<Point> before;
   for (const std::uint32_t n : outside) {
     before.push_back(grid.nodes[n]);
     grid.nodes[n] = inBox(grid.nodes[n]);
   }
-  // Nodes that go back may turn over what was looked at before; each can go back once.
+  // Nodes that are put back may invert triangles checked before. Each node is put back at most once.
   for (bool again = true; again;) {
     again = false;
     for (const std::size_t t : changed) {

@@ -69,7 +69,7 @@ struct Grid {
   std::vector<GridFeature> features;
   std::vector<Boundary> boundaries;
   std::vector<GridLine> lines;
-  std::vector<std::string> notes;  // what a file says of itself and is not so: "NETA is 12, but 11 nodes follow"
+  std::vector<std::string> notes;  // inconsistencies in the file: "NETA is 12, but 11 nodes follow"
 };
 
 // The arrays with one entry for each node, and for each triangle: edits of a grid use these. Each names every member of

@@ -44,13 +44,13 @@ void forEachEdge(std::span<const std::uint32_t> nodes, bool closed, auto&& use) 
   if (closed && nodes.size() > 1) use(nodes.back(), nodes.front());
 }
 
-// A stretch of a chain that is left: positions of its nodes.
+// A remaining stretch of a chain: positions of its nodes.
 struct Stretch {
   std::vector<std::size_t> at;
   bool closed = false;
 };
 
-// What is left of a chain of nodes where only the edges that `holds(from, to)` stay.
+// The stretches that remain of a chain of nodes if only edges with `holds(from, to)` are kept.
 std::vector<Stretch> stretchesOf(std::span<const std::uint32_t> nodes, bool closed, auto&& holds) {
   const std::size_t n = nodes.size(), edges = closed ? n : n - std::min<std::size_t>(n, 1);
   std::vector<bool> held;
@@ -63,7 +63,7 @@ std::vector<Stretch> stretchesOf(std::span<const std::uint32_t> nodes, bool clos
     whole.closed = closed;
     return stretches;
   }
-  // A loop is followed from behind a gap.
+  // A loop is followed from the end of a gap.
   const std::size_t first = closed ? static_cast<std::size_t>(lost - held.begin()) + 1 : 0;
   bool follows = false;
   for (std::size_t k = 0; k < edges; ++k) {
@@ -75,7 +75,7 @@ std::vector<Stretch> stretchesOf(std::span<const std::uint32_t> nodes, bool clos
   return stretches;
 }
 
-// The part of a chain's values, `each` of them a node, that belongs to a stretch.
+// The values of a stretch, from those of a chain with `each` values per node.
 template <typename T>
 std::vector<T> partOf(const std::vector<T>& values, std::size_t each, const Stretch& stretch) {
   std::vector<T> part;
@@ -93,7 +93,7 @@ void cutBoundaries(Grid& grid, auto&& keeps) {
       cut.push_back(std::move(boundary));
       continue;
     }
-    // Positions stand for nodes: a node may lack only across the weir.
+    // Positions are used instead of nodes, because the node across the weir may be the missing one.
     std::vector<std::uint32_t> positions;
     for (std::uint32_t i = 0; i < boundary.nodes.size(); ++i) positions.push_back(i);
     const auto stands = [&](std::uint32_t i) {
@@ -122,7 +122,7 @@ void cutLines(Grid& grid, auto&& holds) {
   grid.lines = std::move(cut);
 }
 
-// The edges of all lines, sorted, and how many triangles each has.
+// The edges of all lines, sorted, with their number of triangles.
 std::vector<std::pair<NodePair, int>> edgesOfLines(const Grid& grid) {
   std::vector<std::pair<NodePair, int>> edges;
   for (const GridLine& line : grid.lines)
@@ -156,7 +156,7 @@ void renumberNodes(Grid& grid, const auto& index_of) {
   for (GridLine& line : grid.lines) renumber(line.nodes);
 }
 
-// The new index of each, kNone for those that are gone.
+// The new index of each item, kNone for removed ones.
 std::vector<std::uint32_t> indexWithout(const std::vector<bool>& gone) {
   std::vector<std::uint32_t> index_of(gone.size(), kNone);
   std::uint32_t count = 0;
@@ -210,7 +210,7 @@ std::uint32_t addNode(Grid& grid, const Point& place) {
     if constexpr (std::is_same_v<T, Point>) {
       values.push_back(place);
     } else if constexpr (std::is_integral_v<T>) {
-      if (!values.empty()) values.push_back(0);  // some part has to own it
+      if (!values.empty()) values.push_back(0);  // a part must own it
     } else {
       static_assert(std::is_floating_point_v<T>, "say what is unknown");
       if (!values.empty()) values.push_back(kUnknown);
@@ -370,7 +370,7 @@ void appendGrid(Grid& whole, Grid&& part) {
     Grid& silent = whole.piece_of.empty() ? whole : part;
     silent.piece_of.assign(silent.triangles.size(), 0);
   }
-  // Parts are of a mesh as a whole.
+  // A partition is valid for the whole mesh only.
   for (Grid* grid : {&whole, &part}) {
     grid->part_of.clear();
     grid->node_part_of.clear();

@@ -15,8 +15,7 @@ namespace coastmesh {
 
 using GridCorners = std::array<std::uint32_t, 3>;
 
-// The point at `share` of the way from `a` to `b`, the short way around the Earth, in their range of
-// longitudes.
+// The point at `share` of the way from `a` to `b`, the short way around the Earth, in their range of longitudes.
 Point placeBetween(const Crs& crs, const Point& a, const Point& b, double share);
 // The mean of points less than half a turn apart, consistent with `placeBetween`. REQUIRES: at least one.
 Point meanPlace(const Crs& crs, std::span<const Point> places);

@@ -34,7 +34,7 @@ std::vector<NodePair> edgesOf(const GridLine& line) {
 
 namespace {
 
-// Edges from each of their ends, sorted.
+// Edges from both of their ends, sorted.
 class Star {
  public:
   explicit Star(std::vector<NodePair> edges) : from_(std::move(edges)) {
@@ -55,7 +55,7 @@ class Star {
     return last - first;
   }
 
-  // Goes on from an edge until lines end, or round to where it began.
+  // Follows edges until a line ends, or a loop closes.
   std::vector<std::uint32_t> follow(std::size_t first) {
     std::vector<std::uint32_t> nodes{from_[first][0]};
     for (std::size_t at = first; at < from_.size(); at = next(at)) {
@@ -79,7 +79,7 @@ class Star {
     used_[static_cast<std::size_t>(std::ranges::lower_bound(from_, back) - from_.begin())] = true;
   }
 
-  // The edge that is not used yet at the end of this one.
+  // An unused edge at the end of this one; `size()` if there is none.
   std::size_t next(std::size_t i) const {
     const auto [first, last] = range(from_[i][1]);
     for (std::size_t at = first; at < last; ++at)

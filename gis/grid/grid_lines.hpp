@@ -17,14 +17,14 @@ std::optional<LineKind> lineKindNamed(std::string_view name);
 // The edges of a line, in its direction.
 std::vector<NodePair> edgesOf(const GridLine& line);
 
-// Edges end to end as lines of `kind` and `name`, each from its lesser end on; a loop starts at its least node. Where
-// more than two edges meet, lines end. `edges` may repeat and go either way.
+// Joins edges end to end into lines of `kind` and `name`, each starting at its lesser end, a loop at its least node.
+// Lines end where more than two edges meet. `edges` may repeat, in either direction.
 std::vector<GridLine> chainLines(std::vector<NodePair> edges, LineKind kind, const std::string& name);
 
-// Edges that follow one another as one line; others, and those that turn back, as `chainLines` has them.
+// One line if the edges follow one another and do not turn back, otherwise the result of `chainLines`.
 std::vector<GridLine> linesAlong(const std::vector<NodePair>& edges, LineKind kind, const std::string& name);
 
-// Nodes along edges as a line; one whose last node is its first is closed, if that makes three edges.
+// A line of nodes along edges; closed if its last node is its first and it has at least three edges.
 GridLine lineOfNodes(LineKind kind, std::string name, std::vector<std::uint32_t> nodes);
 
 }  // namespace coastmesh

@@ -5,21 +5,21 @@
 
 namespace coastmesh {
 
-// What a grid may hold besides nodes, their depths, triangles, and which of its boundaries are open.
+// What a grid may hold besides nodes, their depths, triangles, and the open boundaries.
 enum class GridPart : std::uint8_t {
   Title,
-  Sizes,         // the length that edges were to have at each node
-  Features,      // which feature each triangle comes from
+  Sizes,         // the requested edge length at each node
+  Features,      // the feature of each triangle
   FeatureNames,  // names and sources of features
   Regions,       // names of regions, by triangle
   Pieces,        // the piece that a triangle was refined in
   Partition,     // the part of a triangle, for solvers
   NodePartition,
-  Lines,  // lines inside the mesh and what they are
+  Lines,  // lines inside the mesh, and their kinds
   LineNames,
   Rivers,     // which boundaries are rivers
-  Ibtypes,    // ADCIRC's types of boundaries, where the role alone does not say them
-  Weirs,      // nodes across, heights and coefficients of boundaries that are weirs
+  Ibtypes,    // ADCIRC's types of boundaries that do not follow from the role
+  Weirs,      // nodes across, heights and coefficients of weirs
   BareWeirs,  // boundaries of a weir's type without these
 };
 

@@ -18,8 +18,8 @@ struct Direction {
   double east, north;
 };
 
-// Where `to` lies as seen from `from` on the unit sphere: parts of its vector along the tangents there. Made of the
-// differences of longitudes and latitudes, they keep their digits however near the two are.
+// The direction from `from` to `to` on the unit sphere: components of the vector of `to` along the tangents at `from`.
+// They are computed from differences of longitudes and latitudes, so they stay precise however close the two are.
 Direction seenFrom(const LonLat& from, const LonLat& to) {
   double rest_lon, rest_lat;
   const double lon = Math::AngDiff(from.lon, to.lon, rest_lon), lat = Math::AngDiff(from.lat, to.lat, rest_lat);
@@ -46,7 +46,7 @@ int orientationOnGround(const Point& a, const Point& b, const Point& c, const Cr
 }
 
 std::vector<std::uint32_t> turnedTriangles(const Grid& grid, std::span<const double> area_m2, const ItemLoop& loop) {
-  // Square metres: more than areas between geodesics round half the globe may be wrong by.
+  // Square metres: more than the error of areas between geodesics around half the globe.
   constexpr double kSureArea = 1.0;
   return joined(overStretches(loop, grid.triangles.size(), [&](std::size_t first, std::size_t last) {
     std::vector<std::uint32_t> turned;

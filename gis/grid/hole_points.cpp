@@ -14,7 +14,8 @@ class HoleFinder {
  public:
   HoleFinder(const Pslg& pslg, const PlanarMap& map) : pslg_(pslg), map_(map) {}
 
-  // From the middle of one of the longest edges straight across the face, half of the way.
+  // Follows straight lines across the face from the midpoints of its five longest edges, and returns the middle of the
+  // longest line.
   Point pointIn(std::uint32_t face) const {
     constexpr std::size_t kTries = 5;
     std::vector<PlanarMap::HalfEdge> boundary(map_.around(face).begin(), map_.around(face).end());
@@ -44,7 +45,8 @@ class HoleFinder {
   const Point& head(PlanarMap::HalfEdge h) const { return tail(h ^ 1u); }
   double lengthOf(PlanarMap::HalfEdge h) const { return std::hypot(head(h).x - tail(h).x, head(h).y - tail(h).y); }
 
-  // How far the ray from `from` in the direction `across` goes until it meets another edge of the face.
+  // The length of the ray from `from` in the direction `across` to the next other edge of the face; infinite if there
+  // is none.
   double widthAcross(std::uint32_t face, PlanarMap::HalfEdge own, const Point& from, const Point& across) const {
     double width = std::numeric_limits<double>::infinity();
     for (const PlanarMap::HalfEdge h : map_.around(face)) {

@@ -7,7 +7,8 @@ namespace {
 
 constexpr auto kLand = BoundaryRole::Land, kIsland = BoundaryRole::Island, kRiver = BoundaryRole::River;
 
-// The tens tell conditions of slip apart: 0 essential, 1 none, 2 natural. 100 more is a river of a baroclinic run.
+// The tens are the condition: 0 no normal flow as an essential condition, 1 no slip either, 2 no normal flow as a
+// natural condition. 100 more is a river of a baroclinic run.
 constexpr Ibtype kIbtypes[] = {
     {0, kLand},           {1, kIsland},         {2, kRiver},   {3, kLand, 2, false},  // a weir on the outer shore
     {4, kLand, 3, true},                                                              // between two shores
@@ -15,9 +16,9 @@ constexpr Ibtype kIbtypes[] = {
     {10, kLand},          {11, kIsland},        {12, kRiver},  {13, kLand, 2, false},
     {20, kLand},          {21, kIsland},        {22, kRiver},  {23, kLand, 2, false},
     {24, kLand, 3, true}, {25, kLand, 6, true}, {30, kLand},  // waves radiate
-    {32, kRiver},                                             // the same beside a discharge
+    {32, kRiver},                                             // a discharge, and waves radiate
     {40, kLand},                                              // no gradient of the velocity
-    {41, kIsland},        {52, kRiver},                       // a periodic discharge, and waves that radiate
+    {41, kIsland},        {52, kRiver},                       // a periodic discharge, and waves radiate
     {64, kLand, 3, true},                                     // a wall that elements stand on
     {102, kRiver},        {112, kRiver},        {122, kRiver},
 };

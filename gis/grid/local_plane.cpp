@@ -21,7 +21,7 @@ void flattenLocally(const Crs& crs, std::span<const SphereVector> on_sphere, std
   for (const SphereVector& place : on_sphere)
     for (std::size_t k = 0; k < 3; ++k) middle[k] += place[k];
   middle = unit(middle);
-  // East of the middle is nowhere at a pole; any direction will do there.
+  // At a pole east is undefined; any direction will do.
   SphereVector east = cross({0.0, 0.0, 1.0}, middle);
   if (dot(east, east) < 1e-12) east = {1.0, 0.0, 0.0};
   east = unit(east);

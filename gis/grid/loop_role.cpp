@@ -16,11 +16,11 @@ namespace {
 
 using GeographicLib::Math;
 
-constexpr double kSphere = 4.0 * std::numbers::pi;  // the area of one of radius 1
+constexpr double kSphere = 4.0 * std::numbers::pi;  // the area of the unit sphere
 
 BoundaryRole roleInPlane(std::span<const Point> ring) {
-  // At its least vertex a loop turns left if it goes counter-clockwise, however often it passes there: the mesh lies to
-  // its left, and all of it on one side of that vertex.
+  // At its least vertex a counter-clockwise loop turns left, however often it passes there: the mesh lies to its left,
+  // and all of it on one side of that vertex.
   const std::size_t n = ring.size();
   const auto least = static_cast<std::size_t>(std::ranges::min_element(ring, lexLess) - ring.begin());
   const Point &before = ring[(least + n - 1) % n], &after = ring[(least + 1) % n];
@@ -41,8 +41,7 @@ std::vector<LonLat> onEllipsoid(std::span<const Point> ring) {
   return places;
 }
 
-// With longitudes that go on where the loop crosses ±180 or has points of other revolutions. They are moved by whole
-// revolutions alone.
+// Unwraps longitudes where the loop crosses ±180 or has points of other revolutions, by whole revolutions.
 std::vector<LonLat> unrolled(std::vector<LonLat> ring) {
   double turns = 0.0;
   for (std::size_t i = 1; i < ring.size(); ++i) {
@@ -52,8 +51,8 @@ std::vector<LonLat> unrolled(std::vector<LonLat> ring) {
   return ring;
 }
 
-// The area to the left of a ring with great circles as edges, on the sphere of radius 1. That between an edge and the
-// equator is Bevis and Cambareri's (1987), which holds over poles and for edges along a meridian too.
+// The area to the left of a ring of great circles, on the unit sphere. The area between an edge and the equator is from
+// Bevis and Cambareri (1987); it is valid over poles and for edges along a meridian too.
 double areaToTheLeft(std::span<const LonLat> ring) {
   GeographicLib::Accumulator<double> below, turn;
   for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -68,7 +67,7 @@ double areaToTheLeft(std::span<const LonLat> ring) {
   return area < 0.0 ? area + kSphere : area;
 }
 
-// Whether straight lines in degrees make the same loop as great circles, but for slivers.
+// True if straight lines in degrees make the same loop as great circles, except for slivers.
 bool isPlainInDegrees(std::span<const LonLat> unrolled_ring) {
   constexpr double kWidest = 180.0, kHighest = 89.0;
   const auto [west, east] = std::ranges::minmax(unrolled_ring, {}, &LonLat::lon);
@@ -81,7 +80,7 @@ bool isPlainInDegrees(std::span<const LonLat> unrolled_ring) {
 std::optional<BoundaryRole> roleByArea(std::span<const Point> nodes, std::span<const std::uint32_t> loop,
                                        const Crs& crs) {
   if (!crs.geographic) return std::nullopt;
-  constexpr double kSure = 1e-4;  // of the sphere of radius 1: beyond all that bent sides of slivers could be wrong by
+  constexpr double kSure = 1e-4;  // on the unit sphere: above any error from the bent sides of slivers
   const std::vector<LonLat> ring = unrolled(onEllipsoid(placesOf(nodes, loop)));
   const double left = areaToTheLeft(ring);
   if (isPlainInDegrees(ring) && std::min(left, kSphere - left) < kSure) return std::nullopt;

@@ -10,8 +10,7 @@ namespace {
 
 constexpr double kTurn = 360.0;
 
-// A point on the way round a triangle, longitudes going on past the map's end: `turn` whole turns away from where it is
-// on the map.
+// A point of a path around a triangle, with unwrapped longitudes: `turn` whole turns away from its place on the map.
 struct WayPoint {
   Point place;
   int turn = 0;
@@ -21,8 +20,8 @@ struct WayPoint {
 
 bool isPole(const Point& place) { return std::abs(place.y) == 90.0; }
 
-// The great circle's latitude at a longitude between two places' that are less than half a turn apart; along a pole's
-// line the pole's. Does not depend on their order.
+// The latitude of the great circle through two places, less than half a turn apart, at a longitude between theirs; on a
+// pole's line, that of the pole. Independent of their order.
 double latitudeAt(double lon, const WayPoint& from, const WayPoint& to) {
   const bool in_order = std::pair(from.place.x, from.place.y) <= std::pair(to.place.x, to.place.y);
   const WayPoint &a = in_order ? from : to, &b = in_order ? to : from;
@@ -37,16 +36,16 @@ double latitudeAt(double lon, const WayPoint& from, const WayPoint& to) {
 
 using Way = std::vector<WayPoint>;
 
-// How far east a step goes, within half a turn.
+// Degrees to the east, within half a turn.
 double stepBetween(const Point& from, const Point& to) { return std::remainder(to.x - from.x, kTurn); }
 
-// Puts `to` within half a turn of what comes before it.
+// Puts `to` within half a turn of the point before it.
 WayPoint following(const WayPoint& before, const Point& to) {
   const double lon = before.lon() + stepBetween(before.place, to);
   return {to, static_cast<int>(std::lround((lon - to.x) / kTurn))};
 }
 
-// Corners with a pole as a line of the map: a pole that is a corner, or lies on an edge, becomes two points.
+// The corners on the map, where a pole is a line: a pole at a corner, or on an edge, becomes two points.
 std::vector<Point> onMap(const std::array<Point, 3>& corners) {
   std::vector<Point> path;
   for (unsigned i = 0; i < 3; ++i) {
@@ -66,7 +65,7 @@ std::vector<Point> onMap(const std::array<Point, 3>& corners) {
   return path;
 }
 
-// The way starts and ends on a meridian at the map's end, and goes back along the pole's line.
+// Makes a path around a pole start and end on the meridian of the map's end, and return along the pole's line.
 Way roundPole(const Way& way, int turns, double end) {
   const std::size_t n = way.size();
   const auto at = [&](std::size_t i) {
@@ -91,7 +90,7 @@ Way roundPole(const Way& way, int turns, double end) {
   return way;
 }
 
-// What of the way lies on the side of the meridian `end` + a turn more or less `turn` that `sign` says.
+// The part of the path to the east (`sign` 1) or west (-1) of the meridian `end` + `turn` turns.
 Way clipped(const Way& way, double end, int turn, double sign) {
   const double meridian = end + kTurn * turn;
   const auto inside = [&](const WayPoint& point) { return sign * (point.lon() - meridian) >= 0.0; };
@@ -112,13 +111,13 @@ class LineParts {
 
   void interrupt() { is_open_ = false; }
 
-  // REQUIRES: they are less than half a turn apart.
+  // REQUIRES: `from` and `to` are less than half a turn apart.
   void add(const WayPoint& from, const WayPoint& to) {
     const double low = std::min(from.lon(), to.lon()), high = std::max(from.lon(), to.lon());
     const int turn = static_cast<int>(std::ceil((high - end_) / kTurn));
     const double meridian = end_ + kTurn * (turn - 1);
     if (low == high) {
-      // Along the map's end it lies on either side: where the line comes from, else where its nodes are.
+      // On the meridian of the map's end either side will do: the one that the line comes from, else that of its nodes.
       addWithin(from, to, low != end_ + kTurn * turn ? turn : is_open_ ? turn_ : from.turn);
     } else if (low < meridian) {
       const int before = from.lon() < to.lon() ? turn - 1 : turn, after = from.lon() < to.lon() ? turn : turn - 1;
@@ -167,7 +166,7 @@ MapCutter::MapCutter(const Grid& grid) : grid_(grid) {
     high = std::max(high, p.x);
   }
   if (high - low > kTurn) return;
-  // A map's end between the eastern end of the nodes and the western one, a turn on.
+  // `lon`, by whole turns, between the eastern end of the nodes and their western end a turn later, if it is there.
   const auto within = [&](double lon) {
     const double end = lon + kTurn * std::ceil((high - lon) / kTurn);
     return end <= low + kTurn ? std::optional(end) : std::nullopt;
@@ -237,7 +236,7 @@ std::vector<MapCutter::Ring> MapCutter::partsOf(const std::array<std::uint32_t, 
   for (std::size_t i = 1; i < path.size(); ++i) way.push_back(following(way.back(), path[i]));
   int turns = following(way.back(), path[0]).turn;
   if (path.size() > 3 && turns != 0) {
-    // Half a turn along the pole's line may go either way: it goes back the way that the rest of the path came.
+    // Half a turn along the pole's line may go either way: it must return the way that the rest of the path came.
     bool past_pole = false;
     for (std::size_t i = 1; i < way.size(); ++i) {
       past_pole = past_pole || (isPole(way[i].place) && isPole(way[i - 1].place));

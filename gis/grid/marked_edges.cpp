@@ -21,7 +21,7 @@ std::vector<MarkedEdge> markedEdges(const Grid& grid) {
 }
 
 void takeMarkedEdges(std::span<const MarkedEdge> edges, Grid& grid) {
-  // Edges of one marker that follow one another.
+  // Consecutive edges with the same marker.
   struct Run {
     std::int64_t marker = 0;
     std::variant<BoundaryRole, LineKind> kind;

@@ -9,8 +9,8 @@
 
 namespace coastmesh {
 
-// An edge of a boundary or of a line, with its `boundaryMarker` or `lineMarker`: for formats that hold edges with a
-// number each.
+// An edge of a boundary or of a line, with its `boundaryMarker` or `lineMarker`: for formats that have a number for
+// each edge.
 struct MarkedEdge {
   NodePair nodes;
   std::int64_t marker = 0;
@@ -18,11 +18,11 @@ struct MarkedEdge {
   friend bool operator==(const MarkedEdge&, const MarkedEdge&) = default;
 };
 
-// Those of the boundaries in their order, then those of the lines.
+// The edges of the boundaries, in order, then those of the lines.
 std::vector<MarkedEdge> markedEdges(const Grid& grid);
 
-// Makes boundaries and lines of edges in the order and with the markers that `markedEdges` gives them. Others say no
-// roles: then nothing is made.
+// Makes boundaries and lines of edges that have the order and markers of `markedEdges`. Makes nothing of other markers,
+// which define no roles.
 void takeMarkedEdges(std::span<const MarkedEdge> edges, Grid& grid);
 
 }  // namespace coastmesh

@@ -20,7 +20,8 @@ void forEachEdge(Triangles triangles, const Use& use) {
   }
 }
 
-// Nodes are dealt out by their numbers, in stretches of one length; an edge belongs to its lesser node.
+// Nodes are divided into stretches of consecutive numbers, of equal length. An edge belongs to the stretch of its
+// lesser node.
 struct Stretches {
   std::size_t nodes = 0, count = 0;
 
@@ -28,7 +29,7 @@ struct Stretches {
   std::size_t of(std::uint32_t node) const { return node * count / nodes; }
 };
 
-// Triangles that follow one another, and a bit for each stretch that one of their edges belongs to.
+// Consecutive triangles, and a bit for each stretch that one of their edges belongs to.
 struct Block {
   Triangles triangles;
   std::uint64_t stretches = 0;
@@ -57,7 +58,7 @@ std::uint64_t visitsOf(const std::vector<Block>& blocks) {
                                [](const Block& b) { return static_cast<std::uint64_t>(std::popcount(b.stretches)); });
 }
 
-// Two stretches at a time as one.
+// Merges stretches in pairs.
 void halve(std::vector<Block>& blocks, Stretches& stretches) {
   for (Block& block : blocks) {
     std::uint64_t halved = 0;
@@ -68,9 +69,9 @@ void halve(std::vector<Block>& blocks, Stretches& stretches) {
   stretches.count /= 2;
 }
 
-// The edges of a stretch: for each of its nodes the greater ones, once and in order.
+// The edges of a stretch: for each of its nodes the greater neighbours, each once, ascending.
 struct NodeEdges {
-  std::vector<std::uint32_t> begin;  // of each node's; then the end
+  std::vector<std::uint32_t> begin;  // the start for each node, then the end
   std::vector<std::uint32_t> greater;
 };
 
@@ -85,7 +86,7 @@ NodeEdges edgesOfStretch(const std::vector<Block>& blocks, const Stretches& stre
     }
   };
   NodeEdges edges;
-  std::vector<std::uint32_t>& begin = edges.begin;  // of each node its end, until all are put in
+  std::vector<std::uint32_t>& begin = edges.begin;  // each node's end, until all are stored
   begin.assign(nodes + 1, 0);
   forEachOwn([&](std::size_t node, std::uint32_t) { ++begin[node]; });
   std::inclusive_scan(begin.begin(), begin.end(), begin.begin());
@@ -108,8 +109,8 @@ NodeEdges edgesOfStretch(const std::vector<Block>& blocks, const Stretches& stre
 std::vector<std::array<std::uint32_t, 2>> uniqueEdges(std::size_t nodes, Triangles triangles, const ItemLoop& loop) {
   std::vector<std::array<std::uint32_t, 2>> edges;
   if (triangles.empty()) return edges;
-  // A block is looked at once for each stretch that it has an edge of: few where numbers follow the plane. Where they
-  // do not, stretches are fewer and longer.
+  // A block is visited once for each stretch that it has an edge in: few if numbers follow the plane. If they do not,
+  // stretches are made fewer and longer.
   constexpr std::size_t kMostStretches = 64, kMostVisits = 8;
   Stretches stretches{nodes, std::min(kMostStretches, std::bit_floor(nodes))};
   std::vector<Block> blocks = blocksOf(triangles, stretches, loop);

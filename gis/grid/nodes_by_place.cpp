@@ -59,7 +59,7 @@ bool LineNodes::joined(std::uint32_t a, std::uint32_t b) const {
 }
 
 std::vector<std::uint32_t> LineNodes::follow(const std::vector<std::vector<std::uint32_t>>& choices) const {
-  std::vector<std::map<std::uint32_t, std::uint32_t>> before(choices.size());  // a node, and the one before it
+  std::vector<std::map<std::uint32_t, std::uint32_t>> before(choices.size());  // by node: the one before it
   before[0].emplace(choices[0].front(), kNone);
   for (std::size_t i = 1; i < choices.size(); ++i)
     for (const std::uint32_t node : choices[i])

@@ -12,30 +12,30 @@
 
 namespace coastmesh {
 
-// The nodes at each place: more than one where a file has them (both shores of a wall, say). Places are equal bit for
-// bit, but 0 is -0.
+// The nodes at each place: a file may have several (both shores of a wall, say). Places are compared bit for bit,
+// except that 0 equals -0.
 class NodesByPlace {
  public:
   void add(const Point& place, std::uint32_t node);
 
-  std::uint32_t firstAt(const Point& place) const;  // kNone where there is none
+  std::uint32_t firstAt(const Point& place) const;  // kNone if there is none
   std::vector<std::uint32_t> allAt(const Point& place) const;
 
  private:
   std::unordered_map<Point, std::uint32_t, PointHash> first_;
-  std::vector<std::uint32_t> next_;  // one a node: another at its place
+  std::vector<std::uint32_t> next_;  // for each node: another one at its place
 };
 
-// Which nodes a line goes along where several are at a place: those that are joined by edges of the mesh.
+// Chooses the nodes of a line where several are at one place: those joined by edges of the mesh.
 class LineNodes {
  public:
-  enum class Along { Boundary, Inside };  // with the mesh to the left and nothing to the right, or with both
+  enum class Along { Boundary, Inside };  // with the mesh to the left only, or on both sides
 
   // REQUIRES: `grid` outlives it; no triangle is added meanwhile.
   LineNodes(const Grid& grid, Along along);
 
-  // One node of each set of choices. What is closed has the same choices at both ends and ends with its first node.
-  // Where no choice follows edges of the mesh: the first of each. REQUIRES: there is a choice everywhere.
+  // One node of each set of choices, so that they follow edges of the mesh; if that is impossible, the first of each. A
+  // closed line has the same choices at both ends, and ends with its first node if possible. REQUIRES: no set is empty.
   std::vector<std::uint32_t> of(std::vector<std::vector<std::uint32_t>> choices, bool closed);
 
  private:
@@ -45,7 +45,7 @@ class LineNodes {
 
   const Grid& grid_;
   Along along_;
-  std::set<NodePair> edges_;  // of triangles, in their direction; made when a line first has a choice
+  std::set<NodePair> edges_;  // of triangles, in their direction; made when first needed
 };
 
 }  // namespace coastmesh

@@ -6,25 +6,25 @@
 
 namespace coastmesh {
 
-// Places as models see them that take latitude, as it is, for that of a sphere: vectors of length 1, x towards
-// longitude 0 and z towards the north pole.
+// Places on the sphere for models that use latitudes unchanged as those of a sphere: unit vectors, x towards longitude
+// 0, z towards the north pole.
 using SphereVector = std::array<double, 3>;
 
 SphereVector onSphere(const LonLat& place);
-// Of a vector of any length but 0; longitudes within ±180, 0 at a pole.
+// The place of a vector of any length except 0; longitudes within ±180, 0 at a pole.
 LonLat placeOf(const SphereVector& vector);
 
 double dot(const SphereVector& a, const SphereVector& b);
 SphereVector cross(const SphereVector& a, const SphereVector& b);
 SphereVector scaled(const SphereVector& a, double by);
 SphereVector minus(const SphereVector& a, const SphereVector& b);
-SphereVector unit(const SphereVector& a);  // of a vector of any length but 0
+SphereVector unit(const SphereVector& a);  // of a vector of any length except 0
 
-// Angles in degrees of the flat triangle through three places, at each of its corners; 0 where two of them coincide.
+// Angles in degrees of the flat triangle through three places, at each of its corners; 0 if two of them coincide.
 std::array<double, 3> flatAnglesDeg(const SphereVector& a, const SphereVector& b, const SphereVector& c);
 
-// The place on the sphere that is as far from each of the three; of a counter-clockwise triangle the one on its side of
-// the sphere. REQUIRES: no two coincide.
+// The place on the sphere at equal distance from all three; for a counter-clockwise triangle the one on its side of the
+// sphere. REQUIRES: no two coincide.
 SphereVector circumcentreOnSphere(const SphereVector& a, const SphereVector& b, const SphereVector& c);
 
 }  // namespace coastmesh

@@ -10,16 +10,16 @@ namespace {
 using Corners = std::array<std::uint32_t, 3>;
 
 constexpr double kTurn = 360.0;
-constexpr double kMostEast = 540.0;  // beyond that readers take a longitude for a mistake
+constexpr double kMostEast = 540.0;  // readers reject longitudes beyond this
 
 bool isPole(const Point& place) { return std::abs(place.y) == 90.0; }
 
-// Longitudes that triangles cover: west within ±180, east from there on.
+// The longitudes of triangles: west within ±180, east not less than west.
 struct Arc {
   double west, east;
 };
 
-// Nothing for a triangle round a pole.
+// Returns nullopt for a triangle around a pole.
 std::optional<Arc> arcOf(std::span<const Point> nodes, const Corners& corners) {
   std::array<double, 3> lon;
   unsigned count = 0;
@@ -38,7 +38,7 @@ std::optional<Arc> arcOf(std::span<const Point> nodes, const Corners& corners) {
   return Arc{west - turns, east - turns};
 }
 
-// Those that meet made one, sorted.
+// Merges arcs that meet; sorted.
 std::vector<Arc> merged(std::vector<Arc> arcs) {
   std::ranges::sort(arcs, {}, &Arc::west);
   std::vector<Arc> apart;
@@ -51,7 +51,7 @@ std::vector<Arc> merged(std::vector<Arc> arcs) {
   return apart;
 }
 
-// Nothing where a triangle goes round a pole.
+// Returns nullopt if a triangle surrounds a pole.
 std::optional<std::vector<Arc>> arcsOf(std::span<const Point> nodes, std::span<const Corners> triangles,
                                        const ItemLoop& loop) {
   struct Stretch {
@@ -76,12 +76,12 @@ std::optional<std::vector<Arc>> arcsOf(std::span<const Point> nodes, std::span<c
   return merged(std::move(all));
 }
 
-// The middle of the widest gap between sorted arcs, as a longitude; nothing where there is none.
+// The longitude in the middle of the widest gap between sorted arcs; nullopt if there is none.
 std::optional<double> middleOfGap(const std::vector<Arc>& arcs) {
   double widest = 0.0, middle = 0.0, east = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < arcs.size(); ++i) {
     east = std::max(east, arcs[i].east);
-    // The last gap goes on to the first arc, a turn later.
+    // The last gap ends at the first arc, a turn later.
     const double next = i + 1 < arcs.size() ? arcs[i + 1].west : arcs[0].west + kTurn;
     if (next - east <= widest) continue;
     widest = next - east;
@@ -104,7 +104,7 @@ std::optional<std::vector<Point>> inOneTurn(std::span<const Point> nodes, std::s
                                             const ItemLoop& loop) {
   if (nodes.empty()) return std::nullopt;
   const auto [least, greatest] = std::ranges::minmax(nodes, {}, &Point::x);
-  if (!(greatest.x - least.x > kTurn / 2)) return std::nullopt;  // which saves a look at the triangles of most meshes
+  if (!(greatest.x - least.x > kTurn / 2)) return std::nullopt;  // skips the triangles of most meshes
   const auto any = overStretches(loop, triangles.size(), [&](std::size_t first, std::size_t last) {
     return std::ranges::any_of(triangles.subspan(first, last - first),
                                [nodes](const Corners& corners) { return longitudesJump(nodes, corners); });
@@ -113,7 +113,7 @@ std::optional<std::vector<Point>> inOneTurn(std::span<const Point> nodes, std::s
   const std::optional<std::vector<Arc>> arcs = arcsOf(nodes, triangles, loop);
   const std::optional<double> gap = arcs ? middleOfGap(*arcs) : std::nullopt;
   if (!gap) return std::nullopt;
-  // From the middle of the gap on, where no node is so near that rounding could put it on the other side.
+  // Turns begin in the middle of the gap, where no node is so close that rounding could put it on the other side.
   const auto turnsOf = [start = *gap](const Point& p) { return -std::floor((p.x - start) / kTurn); };
   double west = std::numeric_limits<double>::infinity(), east = -west, turns_of_west = 0.0;
   for (const Corners& corners : triangles) {

@@ -12,13 +12,13 @@ namespace {
 
 using Corners = std::array<std::uint32_t, 3>;
 
-// Another triangle at an edge, and whether both run along the edge in one direction.
+// The other triangle at an edge, and whether both list the edge in the same direction.
 struct Neighbour {
   std::uint32_t triangle = kNone;
   bool same_direction = false;
 };
 
-// One a side of each triangle; edges of one triangle, or of more than two, have none.
+// The neighbour at each side of each triangle; none at edges of one triangle, or of more than two.
 std::vector<std::array<Neighbour, 3>> neighboursOf(const std::vector<Corners>& triangles) {
   struct Side {
     std::uint32_t low, high, triangle;
@@ -54,7 +54,7 @@ void windTriangles(std::span<const Point> nodes, const Crs& crs, const std::vect
   const std::vector<std::array<Neighbour, 3>> neighbours = neighboursOf(triangles);
   std::vector<bool> seen = wound, turned(triangles.size(), false);
   std::vector<std::uint32_t> part;
-  // Adds to `part` all that hangs together with what is in it.
+  // Adds to `part` all triangles connected to it.
   const auto spread = [&] {
     for (std::size_t k = 0; k < part.size(); ++k) {
       for (const Neighbour& next : neighbours[part[k]]) {

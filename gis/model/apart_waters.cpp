@@ -13,7 +13,7 @@ namespace coastmesh {
 
 namespace {
 
-// For each triangle whether no connection leads to an open boundary, and the first triangle of its water. Empty if
+// For each triangle: whether it has no connection to an open boundary, and the first triangle of its water. Empty if
 // there is no such boundary.
 struct Apart {
   std::vector<bool> is_apart;
@@ -67,8 +67,8 @@ std::vector<ApartWater> apartWaters(const Grid& grid) {
 }
 
 bool isOneWater(const Grid& grid) {
-  // Connected through nodes, none of which is all that connects two parts: more than two edges of the boundary would
-  // end in it.
+  // Tests connections through nodes. They are connections through edges too unless a node alone connects two parts:
+  // more than two boundary edges would end in it.
   std::vector<std::uint8_t> ends(grid.nodes.size(), 0);
   for (const Boundary& boundary : grid.boundaries) {
     const std::size_t edges = boundary.closed ? boundary.nodes.size() : boundary.nodes.size() - 1;
@@ -86,7 +86,7 @@ bool isOneWater(const Grid& grid) {
 }
 
 DroppedWaters dropApartWaters(Grid& grid) {
-  constexpr double kLittle = 0.1;  // of all water: what is connected is not what is meant
+  constexpr double kLittle = 0.1;  // share of all water: less than this is hardly what the user means
   if (isOneWater(grid)) return {};
   const Apart apart = apartOf(grid);
   DroppedWaters dropped;

@@ -18,7 +18,7 @@ BoundaryEdges edgesOfLoops(const Grid& grid, const std::vector<std::vector<std::
       const BoundaryKind* const kind = before.find(edge[0], edge[1]);
       boundary.edges.push_back(edge);
       boundary.kinds.push_back(kind != nullptr ? BoundaryKind{kind->role, kind->ibtype} : BoundaryKind{});
-      // An island and a shore are told apart by their loops alone.
+      // Islands and shores are distinguished by their loops alone.
       if (boundary.kinds.back().role == BoundaryRole::Island) boundary.kinds.back().role = BoundaryRole::Land;
       boundary.outer.push_back(outer);
     }

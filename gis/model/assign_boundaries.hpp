@@ -5,7 +5,7 @@
 
 namespace coastmesh {
 
-// Changes the grid's boundaries as the options say. Throws InputError.
+// Changes the grid's boundaries according to the options. Throws InputError.
 BoundaryReport assignBoundaries(Grid& grid, const BoundaryOptions& options);
 
 }  // namespace coastmesh

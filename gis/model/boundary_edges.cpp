@@ -11,7 +11,7 @@
 namespace coastmesh {
 namespace {
 
-// Edges of a loop that follow one another and are of one kind.
+// Consecutive edges of a loop, of one kind.
 struct Run {
   std::size_t first = 0;  // edge of the loop
   std::size_t count = 0;
@@ -33,7 +33,8 @@ std::vector<Run> runsOf(const std::vector<BoundaryKind>& kinds, const std::vecto
   return runs;
 }
 
-// Gives runs shorter than `least`, the shortest first, to the longer of their neighbours; each round leaves a run less.
+// Merges runs shorter than `least`, the shortest first, into the longer of their neighbours; returns their number. Each
+// round leaves at least one run less.
 std::size_t mergeShortRuns(std::vector<Run>& runs, double least) {
   std::size_t merged = 0;
   while (runs.size() > 1) {
@@ -43,7 +44,7 @@ std::size_t mergeShortRuns(std::vector<Run>& runs, double least) {
     const std::size_t before = (r + n - 1) % n, after = (r + 1) % n;
     runs[r].kind = runs[runs[before].length >= runs[after].length ? before : after].kind;
     ++merged;
-    // Neighbours of one kind now are one run.
+    // Adjacent runs of one kind become one.
     std::vector<Run> joined;
     for (const Run& run : runs) {
       if (!joined.empty() && joined.back().kind == run.kind) {

@@ -35,7 +35,7 @@ std::string namesOfColumns() {
   return names;
 }
 
-// The feature's type as text; none where it has no such column, or nothing in it.
+// The feature's type as text; nullopt if it has no such column, or no value in it.
 std::optional<std::string> typeOf(const Feature& feature, const std::string& column) {
   const auto find = [&](const std::string& name) -> std::optional<std::string> {
     for (const auto& [key, value] : feature.attributes)
@@ -50,7 +50,7 @@ std::optional<std::string> typeOf(const Feature& feature, const std::string& col
 
 bool isOfTypes(const RawLayer& layer) { return layer.use == FeatureUse::Boundary; }
 
-// Those of tables, and what features of a cleaned file have kept.
+// The columns of tables, and attributes that features of a cleaned file have kept.
 std::set<std::string> columnsOf(const std::vector<RawLayer>& layers) {
   std::set<std::string> columns;
   for (const RawLayer& layer : layers) {
@@ -76,7 +76,7 @@ std::string inWords(const std::set<std::string>& columns) {
   return columns.size() > kShown ? text + " and " + std::to_string(columns.size() - kShown) + " more" : text;
 }
 
-// Even-odd over one ring: whether a ray from `p` eastwards crosses it an odd number of times.
+// Even-odd rule for one ring: true if a ray from `p` eastwards crosses it an odd number of times.
 bool crossesOddly(const Ring& ring, const Point& p) {
   bool odd = false;
   for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
@@ -95,7 +95,7 @@ bool contains(const Polygon& polygon, const Point& p) {
 // An edge of the boundary in the layer's CRS.
 struct PlacedEdge {
   Point a, b;
-  double share = 1.0;  // of the edge that it is a piece of
+  double share = 1.0;  // of the mesh edge that it is a piece of
 
   Point middle() const { return {(a.x + b.x) / 2.0, (a.y + b.y) / 2.0}; }
 };
@@ -107,7 +107,7 @@ double distanceToSegment(const Point& p, const Point& a, const Point& b, double 
   return std::hypot(px - t * dx, py - t * dy);
 }
 
-// Shifted by whole turns, so that edge and layer may count longitudes from different meridians.
+// Shifts to try, in degrees: longitudes of edge and layer may be in different turns.
 std::vector<double> turnsToTry(bool geographic) {
   return geographic ? std::vector<double>{0.0, -360.0, 360.0} : std::vector<double>{0.0};
 }
@@ -125,7 +125,7 @@ BoundaryKind kindOfText(const std::string& text, const std::string& what) {
   const bool whole = error == std::errc() && end == word.data() + word.size();
   const Ibtype* const type = whole ? findIbtype(number) : nullptr;
   if (type != nullptr && !type->isWeir()) {
-    // An island and a shore are told apart by their loops alone.
+    // Islands and shores are distinguished by their loops alone.
     const BoundaryRole role = type->role == BoundaryRole::River ? BoundaryRole::River : BoundaryRole::Land;
     return {role, isRolesOwn(number) ? -1 : number};
   }
@@ -138,7 +138,7 @@ std::string textOfKind(const BoundaryKind& kind) {
   return kind.ibtype >= 0 ? std::to_string(kind.ibtype) : std::string(toString(kind.role));
 }
 
-// The rules of a layer in its CRS, by numbers in the layer's order, the last of which counts.
+// The rules of a layer, in its CRS, numbered in the layer's order; the last that applies counts.
 class BoundaryRules::Layer {
  public:
   explicit Layer(const RawLayer& raw) : crs_(raw.crs) {}
@@ -159,7 +159,7 @@ class BoundaryRules::Layer {
     pieces_.push_back({kinds_.size() - 1, ring.back(), ring.front()});
   }
 
-  // To be called after the last was added.
+  // Call after the last rule is added.
   void build() {
     std::vector<Box> boxes;
     for (const Area& area : areas_) {
@@ -172,7 +172,7 @@ class BoundaryRules::Layer {
     piece_tree_ = BoxTree(boxes, BoxTree::Order::Hilbert);
   }
 
-  // Sets the kinds of those edges that it has rules for.
+  // Sets the kinds of edges that it has rules for.
   void apply(const Crs& crs, const std::vector<Point>& places, const std::vector<NodePair>& edges,
              const std::vector<bool>& outer, const std::vector<double>& share,
              std::vector<std::optional<BoundaryKind>>& kinds) const {
@@ -180,7 +180,7 @@ class BoundaryRules::Layer {
     std::optional<CrsMap> map;
     if (!as_is) map.emplace(toOgr(crs), toOgr(*crs_));
     const auto place = [&](std::uint32_t node) { return map ? map->forward(places[node]) : places[node]; };
-    // What has no place on Earth is not in degrees, whatever CRS a GeoJSON beside it implies.
+    // Coordinates in a plane are not degrees, whatever CRS a GeoJSON layer implies.
     const bool geographic = !crs.isPlane() && (crs_ ? crs_->geographic : crs.geographic);
     const std::vector<double> turns = turnsToTry(geographic);
     for (std::size_t e = 0; e < edges.size(); ++e) {
@@ -207,7 +207,7 @@ class BoundaryRules::Layer {
   };
 
   std::optional<std::size_t> lastLineAlong(const PlacedEdge& edge, double shrink) const {
-    constexpr double kFarthest = 0.2;  // of the edge's length
+    constexpr double kFarthest = 0.2;  // share of the edge's length
     const double length = std::hypot((edge.b.x - edge.a.x) * shrink, edge.b.y - edge.a.y);
     const double far = kFarthest * length / edge.share;
     std::vector<std::size_t> common;
@@ -248,7 +248,7 @@ class BoundaryRules::Layer {
   }
 
   std::optional<Crs> crs_;
-  std::vector<BoundaryKind> kinds_;  // one a rule
+  std::vector<BoundaryKind> kinds_;  // one for each rule
   std::vector<Area> areas_;
   std::vector<Piece> pieces_;
   BoxTree area_tree_, piece_tree_;
@@ -275,7 +275,7 @@ void BoundaryRules::requireInputColumn(const std::string& column) const {
 }
 
 void BoundaryRules::add(const std::vector<RawLayer>& layers, const std::string& column, bool all_have_it) {
-  // What a cleaned file says of its boundary edge by edge counts alone.
+  // If a cleaned file defines its boundary edge by edge, only that counts.
   const bool edge_by_edge = std::ranges::any_of(layers, isOfTypes);
   if (!edge_by_edge && !all_have_it && column.empty()) return;
   if (const std::set<std::string> columns = columnsOf(layers);
@@ -298,7 +298,7 @@ void BoundaryRules::add(const std::vector<RawLayer>& layers, const std::string& 
       const auto kind = kindOf(feature);
       if (!kind) continue;
       for (const Polygon& polygon : feature.polygons) {
-        // A polygon of the input is meshed: its own boundary is meant.
+        // A polygon of the input is meshed, so its type is meant for its own boundary.
         if (all_have_it) {
           layer->addArea(*kind, polygon);
         } else {

@@ -17,34 +17,34 @@ struct RawLayer;
 // level) and river (inflow, discharge, flow), case-insensitive, or a number: ADCIRC's IBTYPE, -1 for open. Throws
 // InputError that starts with `what`.
 BoundaryKind kindOfText(const std::string& text, const std::string& what);
-// A text that means this kind.
+// A text that `kindOfText` maps to this kind.
 std::string textOfKind(const BoundaryKind& kind);
 
-// What polygons and lines define about boundaries: an edge whose midpoint is in a polygon, or that runs along a line
-// (entirely within a fifth of its length), gets the type of the feature. If there are several, the last applies. Read
-// once, since a stream can be read only once; then searched by place, for any number of grids, from several threads.
-// Cheap to copy.
+// Boundary types defined by polygons and lines: an edge whose midpoint is in a polygon, or that runs along a line
+// (entirely within a fifth of its length), gets the type of the feature. If there are several, the last applies. The
+// rules are read once, since a stream can be read only once; then they are searched by place, for any number of grids,
+// from several threads. Cheap to copy.
 class BoundaryRules {
  public:
-  // Those of a file, all of whose features have a type in `column` (empty: the first named type, role, boundary, ibtype
-  // or kind). Throws InputError, with the columns that there are if it has none of that name.
+  // The rules of a file, all of whose features have a type in `column` (empty: the first named type, role, boundary,
+  // ibtype or kind). Throws InputError, listing the columns if none has that name.
   static BoundaryRules ofFile(const std::string& path, const std::string& column);
 
-  // Adds those of one input, as it was read: features with a type in `column`, whose polygons define their own shore.
-  // Of a file that `coastmesh clean` wrote with boundary types these alone count, for any column, even without one.
-  // Throws InputError.
+  // Adds the rules of one input, as it was read: features with a type in `column`; the type of a polygon is that of its
+  // own shore. In a file that `coastmesh clean` wrote with boundary types only these count, for any column, even
+  // without one. Throws InputError.
   void addInput(const std::vector<RawLayer>& layers, const std::string& column);
 
-  // To be called after all inputs were added. Throws InputError, with the columns that there are, if none of them has
-  // `column` or boundary types of its own.
+  // Call after all inputs are added. Throws InputError, listing the columns, if no input has `column` or boundary types
+  // of its own.
   void requireInputColumn(const std::string& column) const;
 
   bool empty() const { return layers_.empty(); }
 
-  // What they define about each of `edges`, which are pairs of `places` in `crs`; none where they define nothing.
-  // `outer` says of each edge whether its loop goes round the mesh: polygons open no others, since they often happen to
-  // contain islands; lines along islands are meant. `share`: which part each is of an edge, whose fifth is the distance
-  // from lines; empty: all are whole edges.
+  // The kinds of `edges`, which are pairs of `places` in `crs`; nullopt for those without a rule. `outer` is true for
+  // edges whose loop surrounds the mesh: polygons open no others, since they often contain islands by accident; lines
+  // along islands are intended. `share` is the fraction that each is of an edge of the mesh, a fifth of which is the
+  // distance allowed from lines; empty: all are whole edges.
   std::vector<std::optional<BoundaryKind>> kindsOf(const Crs& crs, const std::vector<Point>& places,
                                                    const std::vector<NodePair>& edges, const std::vector<bool>& outer,
                                                    const std::vector<double>& share = {}) const;

@@ -33,24 +33,24 @@ constexpr std::array<std::string_view, kTargetDefectKinds> kKindNames{
     "lone wall",       "valence",        "large angle",    "not orthogonal",        "small flow link",
     "courant",         "round the globe"};
 
-// The Courant number is that of long waves. SWAN computes none, FESOM2 and MPAS-Ocean step them apart.
+// The Courant number is that of long waves. SWAN computes none; FESOM2 and MPAS-Ocean step them separately.
 bool isOfLongWaves(Target target) {
   return target != Target::Swan && target != Target::Fesom && target != Target::Mpas;
 }
 
-// The others have no openings, or take dry ones.
+// The other models have no open boundaries, or accept dry nodes there.
 bool mindsDryOpenings(Target target) {
   return target == Target::Adcirc || target == Target::Schism || target == Target::Fvcom || target == Target::Telemac;
 }
 
-// The others take longitudes modulo a turn, or places on the sphere.
+// The other models use longitudes modulo a turn, or places on the sphere.
 bool mindsJumps(Target target) {
   return target == Target::Adcirc || target == Target::Telemac || target == Target::Swan;
 }
 
 bool isOpening(BoundaryRole role) { return role == BoundaryRole::Open || role == BoundaryRole::River; }
 
-// Courant numbers above what explicit schemes take, or below what SCHISM's wants; the worst first.
+// Triangles with Courant numbers above the limit of explicit schemes, or below that of SCHISM; the worst first.
 std::vector<TargetDefect> courantsBeyond(const Grid& grid, double time_step_s, bool from_below) {
   std::vector<TargetDefect> found;
   const std::vector<double> steps = timeSteps(grid);
@@ -65,7 +65,7 @@ std::vector<TargetDefect> courantsBeyond(const Grid& grid, double time_step_s, b
   return found;
 }
 
-// The largest angle where it is more than the model takes, else 0.
+// Degrees: the largest angle if the model rejects it, else 0.
 double angleBeyond(const Grid& grid, Target target, const std::array<std::uint32_t, 3>& corners) {
   const Point &a = grid.nodes[corners[0]], &b = grid.nodes[corners[1]], &c = grid.nodes[corners[2]];
   if (target == Target::Swan) {
@@ -135,14 +135,14 @@ class TargetCheck {
       } else if (target_ == Target::Fesom && neighbours < kFesomFewestNeighbours) {
         add(TargetDefectKind::OneNeighbour, middle(t), static_cast<std::int64_t>(t));
       }
-      // Near a pole no angle in degrees says anything, nor does a change of the mesh help.
+      // In a mesh around a pole, angles in degrees are meaningless, and no change of the mesh helps.
       if (target_ == Target::Swan && goes_round_) continue;
       if (const double largest = angleBeyond(grid_, target_, grid_.triangles[t]); largest > 0.0)
         add(TargetDefectKind::LargeAngle, middle(t), static_cast<std::int64_t>(t), -1, largest);
     }
   }
 
-  // Round a pole or the globe some triangle has to jump: ADCIRC has versions that take such meshes as they are.
+  // Around a pole or the globe some triangle must jump, and there are versions of ADCIRC that accept such meshes.
   void checkJumps() {
     for (std::size_t t = 0; t < grid_.triangles.size(); ++t)
       if (longitudesJump(grid_.nodes, grid_.triangles[t]))
@@ -231,7 +231,7 @@ class TargetCheck {
     const BoundaryRole by_shape = roleOfLoop(grid_.nodes, boundary.nodes, grid_.crs);
     const bool shore = !isOpening(boundary.role);
     if (shore && !turned && boundary.role != by_shape) add(TargetDefectKind::WrongShore, grid_.nodes[first], -1, first);
-    // Islands close themselves; for the others SCHISM wants two linked segments.
+    // The models close islands themselves; SCHISM needs other loops as two linked segments.
     if (boundary.repeats_first && (target_ == Target::Schism || boundary.role == BoundaryRole::Island))
       add(TargetDefectKind::LoopedBoundary, grid_.nodes[first], -1, first);
   }
@@ -263,7 +263,7 @@ class TargetCheck {
     }
   }
 
-  // TELEMAC refuses a single solid node between openings too, which is a wall of two edges: its first one is reported.
+  // TELEMAC also rejects a single solid node between openings, a wall of two edges: the first one is reported.
   void checkLoneWalls() {
     const bool of_telemac = target_ == Target::Telemac;
     std::vector<bool> on_opening(grid_.nodes.size(), false);
@@ -315,7 +315,7 @@ class TargetCheck {
   TriMesh mesh_;
   std::vector<EdgeConflict> conflicts_;
   std::vector<TargetDefect> defects_;
-  bool goes_round_ = false;  // a pole or the globe
+  bool goes_round_ = false;  // around a pole or the globe
 };
 
 }  // namespace

@@ -27,7 +27,7 @@ enum class TargetDefectKind {
   StrayBoundary,   // two consecutive nodes of a boundary without a boundary edge of the mesh between them
   BoundaryTwice,   // a boundary edge of the mesh that is in two boundaries
   BoundaryTurned,  // a boundary with the mesh to its right
-  LoopedBoundary,  // an open boundary, or the outer shore, that ends where it starts
+  LoopedBoundary,  // a loop that repeats its first node, which the model rejects
   WrongShore,      // an outer shore marked as an island, or the other way round
   TwoOpenEdges,    // a triangle with two open edges
   OpenAndSolid,    // a triangle with an open edge and a solid one
@@ -48,8 +48,8 @@ struct TargetDefect {
   Point place;                 // in the grid's CRS
   std::int64_t triangle = -1;  // index, -1 if none
   std::int64_t node = -1;      // the same
-  double value =
-      0.0;  // degrees, metres above the water, triangles round a node, a cosine, a share (`FlowLink`), a Courant number
+  // Degrees, metres above the water, triangles around a node, a cosine, a share (`FlowLink`), or a Courant number.
+  double value = 0.0;
   std::string text;     // of WrongCount, and of Overlap
   bool advice = false;  // the model runs, but not as well as it could
 };

@@ -17,12 +17,13 @@ namespace coastmesh {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-// Triangles round a node with fewer pixels than this say less than the four pixels round it.
+// If the triangles around a node have fewer pixels than this, the four pixels around the node are used.
 constexpr double kLeastPixels = 4.0;
-// Of the pixels in a node's triangles, this share has to have a value for their mean to count before other rasters.
+// The share of pixels in a node's triangles that must have a value for their mean to take precedence over other
+// rasters.
 constexpr double kMostPixels = 0.5;
 
-// The raster's values, as it has them, for nodes that have none yet.
+// Collects values of rasters, in their own sign and level, for nodes that have none yet.
 class ValueSearch {
  public:
   ValueSearch(const Grid& grid, const DepthOptions& options, const ItemLoop& loop, DepthReport& report)
@@ -98,10 +99,10 @@ class ValueSearch {
   std::vector<std::size_t> partial_file_;
 };
 
-// Of all nodes, or of the area: so much without a value is no edge of a raster any more.
+// Share of all nodes, or of the area: more without a value is not just the edge of a raster.
 constexpr double kMuchWithout = 0.05;
 
-// Of the grid's area, what lies at nodes without a value: a third of each triangle at each of them.
+// The share of the grid's area at nodes without a value: a third of each triangle at each of them.
 double shareWithout(const Grid& grid) {
   double without = 0.0, all = 0.0;
   for (const auto& corners : grid.triangles) {
@@ -118,7 +119,8 @@ double shareWithout(const Grid& grid) {
   return all > 0.0 ? without / all : 0.0;
 }
 
-// Unknown z become those of `before`, one a node or empty. Returns the number of nodes for which there is one.
+// Replaces unknown z by those of `before`, which has one for each node or is empty. Returns the number of replaced
+// ones.
 std::size_t keepFrom(const std::vector<double>& before, std::vector<double>& z) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < before.size(); ++i) {
@@ -129,7 +131,7 @@ std::size_t keepFrom(const std::vector<double>& before, std::vector<double>& z) 
   return kept;
 }
 
-// What to report of nodes for which no raster has a value; empty where they are few and lie in little of the mesh.
+// A warning about nodes for which no raster has a value; empty if they are few and lie in little of the mesh.
 std::string gapWarning(const Grid& grid, const DepthOptions& options) {
   const auto isUnknown = [](double z) { return std::isnan(z); };
   const auto count = static_cast<std::size_t>(std::ranges::count_if(grid.z, isUnknown));
@@ -147,7 +149,7 @@ std::string gapWarning(const Grid& grid, const DepthOptions& options) {
          "; give another --bathymetry that covers them";
 }
 
-// Numbers that stand for no value, in a raster that does not say so; empty where there are none.
+// A warning about numbers that mean no value in a raster that does not declare them; empty if there are none.
 std::string impossibleWarning(const Grid& grid, const DepthOptions& options) {
   if (grid.crs.isPlane()) return {};
   const std::optional<ImpossibleDepths> found = impossibleDepths(grid);
@@ -159,14 +161,14 @@ std::string impossibleWarning(const Grid& grid, const DepthOptions& options) {
          "); nodes near to one lie between it and depths";
 }
 
-// Where most nodes lie above the water: why that may be. `z` is that of all nodes.
+// A warning that most nodes lie above the water, with possible reasons. `z` is that of all nodes.
 std::string dryWarning(std::vector<double> z, std::size_t dry, const DepthOptions& options) {
   std::string text = std::to_string(dry) + " of " + std::to_string(z.size()) + " nodes lie above the water";
   const std::string by_sign = options.positive_down ? "do the rasters hold elevations, positive up? See --depth-sign"
                                                     : "do the rasters hold depths, positive down? See --depth-sign";
   std::erase_if(z, [](double height) { return std::isnan(height); });
   std::ranges::sort(z);
-  // But for a few, which may be anything.
+  // Without the extreme two percent at each end, which may be outliers.
   const double lowest = z[z.size() / 50], highest = z[z.size() - 1 - z.size() / 50];
   if (!(lowest > highest - lowest)) return text + "; " + by_sign;
   char heights[120];

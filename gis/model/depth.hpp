@@ -22,14 +22,14 @@ inline constexpr std::array kDepthMethodNames{"bilinear", "average"};
 
 // What to do with nodes for which no raster has a value.
 enum class DepthFill {
-  Neighbours,  // the mean of the neighbours that have one, from the known ones outwards
+  Neighbours,  // the mean of the neighbours, like a membrane between the known nodes
   Nearest,     // the value of the nearest node along the mesh's edges
-  None,        // unknown, which formats of models reject
+  None,        // left unknown, which formats of models reject
 };
 inline constexpr std::array kDepthFillNames{"neighbours", "nearest", "none"};
 
 struct DepthOptions {
-  std::vector<std::string> files{};  // rasters that GDAL reads, the first with a value is used; none: no depths
+  std::vector<std::string> files{};  // rasters that GDAL reads, the first with a value is used; empty: no depths
   DepthMethod method = DepthMethod::Bilinear;
   bool positive_down = false;  // the rasters hold depths; otherwise elevations, positive up
   double water_level_m = 0.0;  // metres: height of the still water above the rasters' zero
@@ -41,20 +41,20 @@ struct DepthOptions {
 
 struct DepthReport {
   std::vector<std::size_t> nodes_of_file;  // for each file: nodes that took their depth from it
-  std::size_t averaged = 0;                // of these, over their triangles
-  std::size_t partial = 0;                 // of these, from pixels some of which have no value
-  std::size_t kept = 0;                    // nodes without a value in any raster that kept what they had
+  std::size_t averaged = 0;                // of these, by the mean over their triangles
+  std::size_t partial = 0;                 // of these, from pixels of which some have no value
+  std::size_t kept = 0;                    // nodes without a value in any raster that kept their z
   std::size_t filled = 0;                  // nodes without a value in any raster, filled from others
   std::size_t unknown = 0;                 // nodes left without a value
   std::size_t lowered = 0;                 // to the minimum depth
   std::size_t above_water = 0;
   double least_m = 0.0;  // depth, positive down; of known nodes
   double greatest_m = 0.0;
-  std::vector<std::string> notes;  // what was made of what the rasters say of their places and values
+  std::vector<std::string> notes;  // how places and values of the rasters were interpreted
   std::vector<std::string> warnings;
 };
 
-// Whether the nodes' z says anything: formats that have to name a depth name 0 where there is none.
+// True if some z is known and not 0: formats that need a depth at every node have 0 if there is none.
 bool hasDepths(const Grid& grid);
 
 // Sets the grid's z from rasters in any CRS, read block by block, with constant memory. A raster without a CRS is

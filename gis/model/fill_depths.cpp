@@ -14,7 +14,7 @@
 namespace coastmesh {
 namespace {
 
-// Ascending; only of edges at nodes without a value.
+// Neighbours of each node, ascending, along edges with an end of unknown z.
 Neighbours neighboursOfUnknown(const Grid& grid, const ItemLoop& loop) {
   using Edge = std::pair<std::uint32_t, std::uint32_t>;
   const auto isUnknown = [&](std::uint32_t node) { return std::isnan(grid.z[node]); };
@@ -34,7 +34,7 @@ Neighbours neighboursOfUnknown(const Grid& grid, const ItemLoop& loop) {
           }};
 }
 
-// In metres or, in a plane, its units; near enough to tell which of two nodes is nearer.
+// In degrees of latitude, otherwise units of the CRS; exact enough to find the nearer of two nodes.
 double distance(const Grid& grid, std::uint32_t a, std::uint32_t b) {
   const Point &p = grid.nodes[a], &q = grid.nodes[b];
   if (!grid.crs.geographic) return std::hypot(p.x - q.x, p.y - q.y);
@@ -86,7 +86,7 @@ std::size_t fillFromNeighbours(Grid& grid, const ItemLoop& loop) {
   std::vector<bool> waiting(grid.nodes.size(), false);
   for (std::uint32_t node = 0; node < grid.nodes.size(); ++node)
     if (!isUnknown(node)) addUnknownNeighbours(node, waiting);
-  // From the edges of a gap inwards: a first guess.
+  // A first guess, from the edges of a gap inwards.
   std::vector<double> values;
   while (!ring.empty()) {  // a node enters once
     values.clear();
@@ -113,7 +113,7 @@ std::size_t fillFromNeighbours(Grid& grid, const ItemLoop& loop) {
 
 std::size_t fillFromNearest(Grid& grid, const ItemLoop& loop) {
   const Neighbours neighbours = neighboursOfUnknown(grid, loop);
-  using Entry = std::tuple<double, std::uint32_t, std::uint32_t>;  // distance, node, where its value comes from
+  using Entry = std::tuple<double, std::uint32_t, std::uint32_t>;  // distance, node, the node with its value
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   std::vector<bool> done(grid.nodes.size(), false);
   for (std::uint32_t node = 0; node < grid.nodes.size(); ++node) done[node] = !std::isnan(grid.z[node]);

@@ -7,11 +7,11 @@
 
 namespace coastmesh {
 
-// Sets unknown z so that each is the mean of its neighbours': as smooth as a membrane between the known nodes. Returns
+// Sets unknown z so that each is the mean of its neighbours, as smooth as a membrane between the known nodes. Returns
 // the number of nodes filled; connected parts of the mesh without a known node are unchanged.
 std::size_t fillFromNeighbours(Grid& grid, const ItemLoop& loop = inOrder);
 
-// Sets them to the z of the nearest known node along the mesh's edges.
+// Sets unknown z to that of the nearest known node along the mesh's edges. Returns the number of nodes filled.
 std::size_t fillFromNearest(Grid& grid, const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

@@ -18,7 +18,7 @@ Point circumcentre(const Point& a, const Point& b, const Point& c) {
 Point centreWithin(const Point& a, const Point& b, const Point& c) {
   const Point circle = circumcentre(a, b, c);
   const Point mass{(a.x + b.x + c.x) / 3.0, (a.y + b.y + c.y) / 3.0};
-  double reach = 1.0;  // how far from the centre of gravity to the other one the triangle goes
+  double reach = 1.0;  // share of the way from centroid to circumcentre that lies in the triangle
   for (const auto& [p, q] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
     const auto side = [&](const Point& x) { return (q.x - p.x) * (x.y - p.y) - (q.y - p.y) * (x.x - p.x); };
     const double from = side(mass), to = side(circle);

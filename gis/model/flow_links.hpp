@@ -4,9 +4,8 @@
 
 namespace coastmesh {
 
-// D-Flow FM computes flow along links from a triangle's centre to its neighbour's. A centre is the circumcentre,
-// or, if that is outside the triangle, the point where the line to it from the centroid crosses the triangle's
-// boundary.
+// D-Flow FM computes flow along links from a triangle's centre to its neighbour's. A centre is the circumcentre, or, if
+// that is outside the triangle, the point where the line to it from the centroid crosses the triangle's boundary.
 struct FlowLink {
   double cosine = 0.0;  // of the angle between the link and the edge it crosses, 0 if the link has no length
   // Over half the sum of the square roots of the triangles' areas; between the circumcentres if that is shorter, since

@@ -8,14 +8,13 @@
 
 namespace coastmesh {
 
-// Nodes that are deeper or higher, in metres, than any place on Earth: numbers that stand for no value, which whoever
-// wrote them did not say.
+// Nodes deeper or higher, in metres, than any place on Earth: probably no-data values that are not declared.
 struct ImpossibleDepths {
   std::size_t nodes = 0;
-  std::size_t worst = 0;  // a node
+  std::size_t worst = 0;  // the index of the most extreme node
 };
 
-// Nothing where there are none.
+// Returns nullopt if there are none.
 std::optional<ImpossibleDepths> impossibleDepths(const Grid& grid);
 
 // "3 of 40 nodes have depths that do not occur on Earth, such as 99999 m at (…)".

@@ -17,7 +17,7 @@
 namespace coastmesh {
 namespace {
 
-// Where the longitudes of a group are to lie: a whole turn that holds those of its input.
+// The range of a group's longitudes: a whole turn that contains those of its input.
 struct LongitudeRange {
   double west = -180.0;
 
@@ -34,7 +34,7 @@ LongitudeRange rangeOf(const std::vector<Point>& input) {
   return {(least.x + greatest.x) / 2.0 - 180.0};
 }
 
-// The index in the grid of each point of a mesh that is used, kNone for the others.
+// The index in the grid of each used point of a mesh, kNone for unused ones.
 struct NodeIndices {
   std::vector<std::uint32_t> of;
   std::uint32_t end = 0;  // one past the last
@@ -43,7 +43,7 @@ struct NodeIndices {
 NodeIndices nodeIndices(const TriMesh& mesh, std::uint32_t next, const ItemLoop& loop) {
   struct Stretch {
     std::size_t first, last;
-    std::uint32_t used;  // in the end the index of the first that is
+    std::uint32_t used;  // the number of used points, then the index of the first
   };
   const std::vector<std::uint8_t> used = usedVertices(mesh, loop);
   std::vector<Stretch> stretches = overStretches(loop, used.size(), [&](std::size_t first, std::size_t last) {
@@ -68,7 +68,7 @@ void appendNodes(const MeshedDomain& part, bool geographic, const NodeIndices& i
   const TriMesh& mesh = *part.mesh;
   const std::vector<std::uint32_t>& index_of = indices.of;
   assert(domain.input_points.size() == mesh.input_vertices);
-  // Coordinates that were meshed as they are stay as they are.
+  // Coordinates meshed without a projection stay unchanged.
   const bool shifts = geographic && !domain.projection.isIdentity();
   const LongitudeRange range = shifts && !domain.input_points.empty() ? rangeOf(domain.input_points) : LongitudeRange{};
   nodes.resize(indices.end);
@@ -86,7 +86,7 @@ void appendNodes(const MeshedDomain& part, bool geographic, const NodeIndices& i
   });
 }
 
-// Appends corners, in the mesh's own numbers.
+// Appends triangles, with the mesh's own numbers of corners.
 void appendCorners(const TriMesh& mesh, const ItemLoop& loop, Grid& grid) {
   const std::size_t before = grid.triangles.size();
   grid.triangles.resize(before + mesh.triangles.size());
@@ -94,7 +94,8 @@ void appendCorners(const TriMesh& mesh, const ItemLoop& loop, Grid& grid) {
                      [&](std::size_t t) { grid.triangles[before + t] = mesh.triangles[t].v; });
 }
 
-// Of the triangles from `before` on, whose corners it numbers as the grid does. The mesh's triangles are gone.
+// Renumbers the corners of triangles from `before` on as nodes of the grid, and sets their features and angles. The
+// mesh's triangles may be gone.
 void finishTriangles(const TriMesh& mesh, const GroundPlaces* ground, const std::vector<std::uint32_t>& index_of,
                      const std::vector<std::uint32_t>& feature_index, const ItemLoop& loop, std::size_t before,
                      Grid& grid) {
@@ -112,15 +113,15 @@ void finishTriangles(const TriMesh& mesh, const GroundPlaces* ground, const std:
   });
 }
 
-// The features that triangles belong to, in the coastline's order; the result is the new index of each of the
-// coastline's, and empty where it has none (a .poly).
+// Appends the features that triangles belong to, in the coastline's order. Returns the new index of each feature of the
+// coastline; empty if it has none (a .poly).
 std::vector<std::uint32_t> appendFeatures(const std::vector<MeshedDomain>& parts, const Coastline& coastline,
                                           const ItemLoop& loop, std::vector<GridFeature>& features) {
   std::vector<std::uint32_t> index_of(coastline.features.size(), kNone);
   if (index_of.empty()) return index_of;
   for (const MeshedDomain& part : parts) {
     const std::vector<RegionId>& regions = part.mesh->regions;
-    // Triangles beside one another mostly lie in the same region.
+    // Consecutive triangles mostly lie in the same region.
     for (const RegionId region : joined(overStretches(loop, regions.size(), [&](std::size_t first, std::size_t last) {
            std::vector<RegionId> some;
            for (std::size_t t = first; t < last; ++t)
@@ -145,7 +146,8 @@ LineKind kindOf(FeatureUse use) {
   return use == FeatureUse::Region ? LineKind::RegionBorder : LineKind::Constraint;
 }
 
-// The domain's lines as the mesh has them, in their order; those of one feature go on where a region's border joins.
+// Appends the domain's lines along edges of the mesh, in order. A feature's line stays one line where a region's border
+// runs along a part of it.
 void appendLines(const Domain& domain, const TriMesh& mesh, const std::vector<std::uint32_t>& index_of,
                  std::vector<GridLine>& lines) {
   if (domain.lines.empty()) return;
@@ -157,7 +159,7 @@ void appendLines(const Domain& domain, const TriMesh& mesh, const std::vector<st
       if (triangle.adj[i] == kNone || segment >= domain.pslg.segments.size()) continue;
       const std::int32_t tag = domain.pslg.segments[segment].tag;
       if (!isLineTag(tag) || lineOfTag(tag) >= domain.lines.size()) continue;
-      if (triOf(triangle.adj[i]) < t) continue;  // once of both sides
+      if (triOf(triangle.adj[i]) < t) continue;  // each edge once
       edges_of[lineOfTag(tag)].push_back({index_of[triangle.v[next3(i)]], index_of[triangle.v[prev3(i)]]});
     }
   }
@@ -170,7 +172,7 @@ void appendLines(const Domain& domain, const TriMesh& mesh, const std::vector<st
   }
 }
 
-// Edges of the boundary that lie on the frame's, with the mesh to the left, sorted.
+// Boundary edges on the frame, with the mesh to the left, sorted.
 std::vector<NodePair> openEdges(const Domain& domain, const TriMesh& mesh, const ItemLoop& loop) {
   auto open = joined(overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
     std::vector<NodePair> some;

@@ -41,7 +41,7 @@ std::vector<MemberRegion> regionsOf(const Coastline& coastline, const std::vecto
   return regions;
 }
 
-// For each triangle the first region that holds it, or kNoRegion. A tree finds those whose boxes do: there may be as
+// The first region that contains each triangle, or kNoRegion. Candidates come from a tree of boxes: there may be as
 // many regions as triangles.
 std::vector<std::uint32_t> regionOfTriangles(const std::vector<MemberRegion>& regions, const TriMesh& mesh,
                                              const ItemLoop& loop) {

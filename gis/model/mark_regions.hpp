@@ -10,10 +10,10 @@
 
 namespace coastmesh {
 
-// Triangles in a region belong to a part of their feature that says so: `mesh.regions`, which index `names.features`,
-// then refer to parts appended there, numbered in the order of the triangles. `members` are the group's features in
-// `coastline`. Borders of regions are edges of the mesh, so that each triangle lies in one as a whole; of several
-// regions the first counts.
+// Assigns triangles inside a region to a copy of their feature with the region's name. Copies are appended to
+// `names.features`, which `mesh.regions` index, in the order of the triangles. `members` are the group's features in
+// `coastline`. Borders of regions are edges of the mesh, so that no triangle lies partly inside; of several regions the
+// first counts.
 void markRegions(const Coastline& coastline, const std::vector<std::size_t>& members, const Projection& projection,
                  TriMesh& mesh, Coastline& names, const ItemLoop& loop = inOrder);
 

@@ -20,7 +20,7 @@ std::vector<std::uint32_t> repeatedNodes(const Grid& grid) {
 }
 
 std::vector<std::uint32_t> hangingNodes(const Grid& grid, const TriMesh& mesh) {
-  constexpr double kOnEdge = 1e-7;  // of the edge's length
+  constexpr double kOnEdge = 1e-7;  // share of the edge's length
   std::vector<NodePair> edges;
   std::vector<Box> boxes;
   std::vector<std::uint32_t> nodes, found;
@@ -44,7 +44,7 @@ std::vector<std::uint32_t> hangingNodes(const Grid& grid, const TriMesh& mesh) {
       const Point &a = grid.nodes[edges[e][0]], &b = grid.nodes[edges[e][1]];
       if (edges[e][0] == node || edges[e][1] == node || p == a || p == b) return;
       const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
-      if (grid.crs.geographic && std::abs(dx) > 180) return;  // across the antimeridian, not all round the globe
+      if (grid.crs.geographic && std::abs(dx) > 180) return;  // across the antimeridian, not around the globe
       const double off = std::abs(dx * (p.y - a.y) - dy * (p.x - a.x)) / square;
       const double along = (dx * (p.x - a.x) + dy * (p.y - a.y)) / square;
       hangs = hangs || (off < kOnEdge && along > 0.0 && along < 1.0);

@@ -8,9 +8,9 @@
 
 namespace coastmesh {
 
-// Nodes where triangles meet and do not hang together. Coordinates are compared as they are.
+// Nodes where triangles touch without being connected. Coordinates are compared unchanged.
 
-// Nodes at the place of another one: all but one of those there, in the order of places.
+// Nodes at the place of another one: all but the first at each place, ordered by place.
 std::vector<std::uint32_t> repeatedNodes(const Grid& grid);
 
 // Nodes of the boundary that lie on one of its edges without being an end of it, ascending. `mesh` is the grid's, from

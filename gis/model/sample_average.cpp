@@ -12,7 +12,7 @@
 namespace coastmesh {
 namespace {
 
-// A triangle in pixels, its corners in one turn of longitudes.
+// A triangle in pixels, with unwrapped longitudes.
 using PixelTriangle = std::array<Point, 3>;
 
 std::optional<PixelTriangle> pixelTriangle(const RasterBand& raster, std::span<const Point> pixels,
@@ -27,7 +27,7 @@ std::optional<PixelTriangle> pixelTriangle(const RasterBand& raster, std::span<c
   return corners;
 }
 
-// Where the row's line of centres crosses the edge; the same for both triangles at the edge.
+// The x at which the line of a row's centres crosses an edge; the same for both triangles at the edge.
 double crossing(Point a, Point b, double y) {
   if (std::tuple(b.y, b.x) < std::tuple(a.y, a.x)) std::swap(a, b);
   return a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x);
@@ -58,10 +58,10 @@ double areaOf(const PixelTriangle& c) {
 }
 
 struct PixelBox {
-  std::int64_t left = 0, right = 0, top = 0, bottom = 0;  // up to, without, right and bottom
+  std::int64_t left = 0, right = 0, top = 0, bottom = 0;  // right and bottom excluded
 };
 
-// A triangle and a tile that hold pixels in common.
+// A triangle and a tile with common pixels.
 struct Overlap {
   StoredTile tile;
   std::uint32_t triangle = 0;
@@ -86,7 +86,7 @@ class AverageSampler {
     constexpr std::size_t kWorthAShare = 1 << 11;
     forEachTile(raster_, ends, kWorthAShare, loop_, control,
                 [&](const RasterBand& raster, std::size_t first, std::size_t last) { addTile(raster, first, last); });
-    // One after another: the same sums for any number of threads.
+    // Added one after another, for the same sums with any number of threads.
     for (const Overlap& overlap : overlaps_) {
       sums_[overlap.triangle].sum += overlap.sum;
       sums_[overlap.triangle].values += overlap.values;
@@ -96,7 +96,7 @@ class AverageSampler {
   struct Sum {
     double sum = 0.0;
     double values = 0.0;  // pixels with a value
-    double pixels = 0.0;  // of the triangle's area
+    double pixels = 0.0;  // the triangle's area
   };
   const Sum& sumOf(std::size_t triangle) const { return sums_[triangle]; }
 
@@ -104,7 +104,7 @@ class AverageSampler {
   PixelBox boxOf(const PixelTriangle& corners, std::int64_t shift) const {
     const auto [west, east] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
     const auto [north, south] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
-    // Clamped before it is made whole: a corner may lie anywhere.
+    // Clamped before conversion to an integer: a corner may lie anywhere.
     const auto whole = [](double x, std::int64_t most) {
       return firstCentre(std::clamp(x, 0.0, static_cast<double>(most) + 1.0));
     };

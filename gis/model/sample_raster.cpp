@@ -27,7 +27,7 @@ std::optional<Corner> cornerAt(const RasterBand& raster, const Point& pixel) {
   const auto width = static_cast<double>(raster.columns()), height = static_cast<double>(raster.rows());
   const bool inside =
       pixel.x >= -kRounding && pixel.x <= width + kRounding && pixel.y >= -kRounding && pixel.y <= height + kRounding;
-  if (!inside) return std::nullopt;  // also what is not finite
+  if (!inside) return std::nullopt;  // also if not finite
   double x = pixel.x - 0.5, y = std::clamp(pixel.y - 0.5, 0.0, height - 1.0);
   if (!raster.wraps()) x = std::clamp(x, 0.0, width - 1.0);
   Corner corner{static_cast<std::int64_t>(std::floor(x)), static_cast<std::int64_t>(y)};
@@ -55,7 +55,7 @@ RasterSample blend(const std::array<double, 4>& values, const Corner& corner) {
   return {sum / weights, weights > kAll ? 1.0 : weights};
 }
 
-// A place in the raster, by its number.
+// A place in the raster: its tile, and its number.
 struct Visit {
   StoredTile tile;
   std::size_t index = 0;
@@ -82,7 +82,7 @@ class Visits {
   std::size_t size() const { return in_order_.size(); }
   const Visit& operator[](std::size_t k) const { return in_order_[k]; }
   Corner corner(std::size_t k) const { return *cornerAt(raster_, pixels_[which_[in_order_[k].index]]); }
-  // Where those of each tile end.
+  // The end of each tile's visits.
   std::vector<std::size_t> ends() const {
     return endsOfTiles(in_order_.size(), [this](std::size_t k) { return in_order_[k].tile; });
   }
@@ -99,7 +99,7 @@ std::vector<std::array<double, 4>> cornersByReaders(const RasterBand& raster, co
                                                     const PixelReaders& readers, const ItemLoop& loop) {
   const RasterGeometry& geometry = raster.geometry();
   const PixelCuts cuts = partsOf(geometry);
-  // One pixel of a visit, or up to four that lie side by side: which of the four is the first.
+  // One to four adjacent pixels of a visit; `first` is the number of the first among the four.
   struct Piece {
     std::size_t cell, visit;
     unsigned first;
@@ -128,7 +128,7 @@ std::vector<std::array<double, 4>> cornersByReaders(const RasterBand& raster, co
   std::ranges::stable_sort(pieces, {}, &Piece::cell);
   std::vector<RasterPart> parts;
   std::vector<PixelTask> tasks;
-  constexpr std::size_t kMostWindows = 1 << 16;  // of a task
+  constexpr std::size_t kMostWindows = 1 << 16;  // windows of a task
   std::size_t last = cuts.cells();
   for (const Piece& piece : pieces) {
     if (piece.cell != last || tasks.back().windows.size() >= kMostWindows) {
@@ -154,7 +154,7 @@ std::vector<std::array<double, 4>> cornersByReaders(const RasterBand& raster, co
   return corners;
 }
 
-// Of one tile's visits, `first` up to `last`.
+// Samples the visits of one tile, `first` up to `last`.
 void sampleTile(const RasterBand& raster, const Visits& visits, std::size_t first, std::size_t last,
                 std::vector<RasterSample>& samples) {
   std::int64_t left = std::numeric_limits<std::int64_t>::max(), right = -left, top = left, bottom = -left;
@@ -188,7 +188,7 @@ std::vector<Point> pixelsOf(const Grid& grid, const RasterBand& raster, const It
   const bool as_is = grid.crs.isPlane() || raster.crs().isPlane() || sameCrs(grid.crs, raster.crs());
   std::optional<CrsMap> map;
   if (!as_is) map.emplace(toOgr(grid.crs), toOgr(raster.crs()));
-  // A raster without a CRS does not know that its columns are longitudes.
+  // Columns of a raster without a CRS may be longitudes of another turn.
   const bool tries_turns = grid.crs.geographic && raster.crs().isPlane();
   const auto isInside = [&raster](const Point& pixel) {
     return pixel.x >= 0.0 && pixel.x <= static_cast<double>(raster.columns());

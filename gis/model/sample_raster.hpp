@@ -18,8 +18,8 @@ struct RasterSample {
   double share = 0.0;  // share of the pixels used there that have a value; 0 if none has
 };
 
-// Places of the grid in the raster's pixels. A grid in a plane, and a raster without a CRS, are assumed to share their
-// CRS. Not finite if a place is outside the raster's CRS.
+// Places of the grid in the raster's pixels. If the grid is in a plane, or the raster has no CRS, both are assumed to
+// have the same. Not finite if a place is outside the raster's CRS.
 std::vector<Point> pixelsOf(const Grid& grid, const RasterBand& raster, const ItemLoop& loop);
 
 // Bilinear values at `pixels[i]` for each i of `which`, in its order. Each tile of the raster is read once, several at

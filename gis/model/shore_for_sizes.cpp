@@ -15,9 +15,9 @@ namespace coastmesh {
 
 namespace {
 
-constexpr double kMostPieces = 1024.0;      // of a segment
-constexpr double kMostOfAll = 4'000'000.0;  // of a domain
-constexpr double kPiecesUnbounded = 16.0;   // of a segment, where nothing says how long elements are
+constexpr double kMostPieces = 1024.0;      // pieces of a segment
+constexpr double kMostOfAll = 4'000'000.0;  // pieces of a domain
+constexpr double kPiecesUnbounded = 16.0;   // pieces of a segment if the length of elements is unknown
 
 // The segment between two vertices, by their numbers.
 class SegmentSearch {
@@ -39,7 +39,7 @@ class SegmentSearch {
 
 // A piece of a segment, as shares of the way from its first end in the loop to its last.
 struct Piece {
-  SegmentId segment = kNone;  // none: an edge of the boundary without one
+  SegmentId segment = kNone;  // kNone: a boundary edge without one
   VertexId from = kNone, to = kNone;
   double begin = 0.0, end = 1.0;
 };
@@ -63,7 +63,7 @@ class PiecedBoundary {
   }
 
   BoundaryEdges edges;
-  std::vector<Piece> pieces;  // one an edge
+  std::vector<Piece> pieces;  // one for each edge
 
   const std::vector<Point>& places() const { return places_; }
 
@@ -108,11 +108,11 @@ class PiecedBoundary {
   const Crs& crs_;
   ElementLengths lengths_;
   SegmentSearch search_;
-  std::vector<Point> places_;  // those of the domain's points first
+  std::vector<Point> places_;  // first those of the domain's points
   double most_ = 1.0;          // pieces of a segment
 };
 
-// Depths as the grid's are going to be, but for gaps and means over triangles, which are not there yet.
+// Depths as the grid will have them, except for filled gaps and means over triangles, which do not exist yet.
 std::vector<double> depthsAt(const std::vector<Point>& places, const Crs& crs, const DepthOptions& depths,
                              const RunControl& control, const ItemLoop& loop) {
   Grid nodes;
@@ -125,7 +125,7 @@ std::vector<double> depthsAt(const std::vector<Point>& places, const Crs& crs, c
   return std::move(nodes.z);
 }
 
-// What is left of the graph without the open pieces. `open`: of each piece.
+// The graph without the open pieces. `open` has a flag for each piece.
 Pslg without(const Pslg& pslg, const std::vector<Piece>& pieces, const std::vector<bool>& open) {
   std::vector<bool> opens(pslg.segments.size(), false);
   for (std::size_t p = 0; p < pieces.size(); ++p)
@@ -179,7 +179,7 @@ std::optional<Pslg> shoreForSizes(const Domain& domain, const Crs& crs, const Bo
            edges.kinds[e].role == BoundaryRole::Open;
   };
   for (std::size_t e = 0; e < open.size(); ++e) open[e] = isOpened(e);
-  // Short shores that are merged into openings are shores nevertheless.
+  // Short shores that are merged into openings remain shores here.
   mergeShort(at, options.least_length_m, edges);
   for (std::size_t e = 0; e < open.size(); ++e) open[e] = open[e] && isOpened(e);
   if (std::ranges::none_of(open, [](bool each) { return each; })) return std::nullopt;

@@ -15,12 +15,12 @@ struct ElementLengths {
   double most_m = std::numeric_limits<double>::infinity();
 };
 
-// The domain's graph without those parts of its boundary that `assignBoundaries` is going to open by files or depths,
-// and that are no shore for sizes therefore; none if it opens nothing. Rivers stay: their mouths are as fine as the
-// shore. Segments are cut where that changes, to `least_m` but for the longest. It is decided by the same function:
-// long segments stand for the elements that they are going to be cut into, depths are bilinear at their ends, and where
-// no raster has one nothing is opened. A boundary shorter than `least_length_m` is not opened. Throws InputError,
-// BadPslg, Cancelled.
+// The domain's graph without the parts of its boundary that `assignBoundaries` will open by files or depths, and that
+// are therefore no shore for sizes; nullopt if it opens nothing. Rivers stay: their mouths are as fine as the shore.
+// Segments are divided where openings begin or end, to within `least_m`, the longest less finely. The decision is that
+// of the same function (`defineKinds`): pieces stand for the elements that segments will be divided into, depths are
+// bilinear at their ends, and nothing is opened without a depth. A boundary shorter than `least_length_m` is not
+// opened. Throws InputError, BadPslg, Cancelled.
 std::optional<Pslg> shoreForSizes(const Domain& domain, const Crs& crs, const BoundaryOptions& boundaries,
                                   const DepthOptions& depths, const ElementLengths& lengths,
                                   const RunControl& control = {}, const ItemLoop& loop = inOrder);

@@ -21,7 +21,7 @@ void forEachTile(const RasterBand& raster, const std::vector<std::size_t>& ends,
                  const ItemLoop& loop, const RunControl& control,
                  const std::function<void(const RasterBand& raster, std::size_t first, std::size_t last)>& use) {
   if (ends.empty()) return;
-  // Shares of whole tiles: where each begins.
+  // The first tile of each share; shares consist of whole tiles.
   constexpr std::size_t kMostShares = 16;
   const std::size_t length = std::max(least_items, ends.back() / kMostShares + 1);
   const auto beginOf = [&](std::size_t tile) { return tile == 0 ? 0 : ends[tile - 1]; };

@@ -23,12 +23,12 @@ struct StoredTile {
 // The tile of a pixel.
 StoredTile tileAt(const RasterBand& raster, std::int64_t column, std::int64_t row);
 
-// Items in the order of their tiles: where those of each tile end. `tile_of(i)` is the tile of item i.
+// The end of each tile's items, for items ordered by tile. `tile_of(i)` is the tile of item i.
 std::vector<std::size_t> endsOfTiles(std::size_t count, const std::function<StoredTile(std::size_t i)>& tile_of);
 
 // Calls `use(raster, first, last)` for the items of each tile, `first` up to `last`. If there are more items than
-// `least_items`, tiles are read at the same time by rasters of their own, since GDAL's are for one thread. Throws what
-// `use` throws, InputError, and Cancelled.
+// `least_items`, tiles are read concurrently by separately opened rasters, since a GDAL data set serves one thread
+// only. Throws what `use` throws, InputError, and Cancelled.
 void forEachTile(const RasterBand& raster, const std::vector<std::size_t>& ends, std::size_t least_items,
                  const ItemLoop& loop, const RunControl& control,
                  const std::function<void(const RasterBand& raster, std::size_t first, std::size_t last)>& use);

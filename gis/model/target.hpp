@@ -13,7 +13,7 @@ inline constexpr std::array kTargetNames{"adcirc", "schism", "fvcom", "telemac",
 // "adcirc|schism|…"
 std::string allTargetNames();
 
-// Whether the model treats latitudes as those of a sphere.
+// Returns whether the model uses latitudes as those of a sphere.
 bool isOnSphere(Target target);
 
 // The models with these names, each once, in the order of Target. Throws OptionError for an unknown name.

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Of the corner that is deepest, metres; NaN where none is known.
+// Metres: the depth of the deepest corner; NaN if none is known.
 double deepestOf(const Grid& grid, std::uint32_t t) {
   if (grid.z.empty()) return std::numeric_limits<double>::quiet_NaN();
   double deepest = std::numeric_limits<double>::quiet_NaN();
@@ -28,7 +28,7 @@ double stepOf(double shortest_m, double depth_m) {
   return depth_m > 0.0 ? shortest_m / longWaveSpeed(depth_m) : kInfinity;
 }
 
-// Which edges and nodes cannot move apart, since the shore or a line holds them.
+// The edges and nodes that the shore or a line keeps in place.
 class HeldEdges {
  public:
   HeldEdges(const Grid& grid, const ItemLoop& loop) : on_shore_(grid.nodes.size(), false) {
@@ -42,7 +42,7 @@ class HeldEdges {
       return some;
     }));
     sortOn(loop, edges_);
-    std::vector<NodePair> boundary;  // of one triangle alone
+    std::vector<NodePair> boundary;  // edges of only one triangle
     for (std::size_t i = 0, end = 0; i < edges_.size(); i = end) {
       for (end = i; end < edges_.size() && edges_[end] == edges_[i];) ++end;
       if (end - i == 1) boundary.push_back(edges_[i]);
@@ -68,7 +68,7 @@ class HeldEdges {
   std::vector<bool> on_shore_;
 };
 
-// Why an edge of the triangle is shorter than `least_m`: of several edges the one held most says it.
+// The cause of edges of the triangle shorter than `least_m`; of several causes the first in the order of ShortCause.
 ShortCause causeIn(const Grid& grid, const HeldEdges& held, const std::array<double, 3>& lengths, std::uint32_t t,
                    double least_m) {
   ShortCause cause = ShortCause::Interior;
@@ -92,7 +92,7 @@ std::vector<double> timeSteps(const Grid& grid, const ItemLoop& loop) {
 StepReport measureStep(const Grid& grid, const ItemLoop& loop) {
   StepReport report;
   if (grid.triangles.empty()) return report;
-  // The first of the shortest, whatever stretches are looked at first.
+  // The first of the shortest, in whatever order stretches are processed.
   struct Shortest {
     double length = kInfinity, step = kInfinity;
     std::size_t of_length = 0, of_step = 0;  // triangles

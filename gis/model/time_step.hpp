@@ -26,7 +26,7 @@ struct StepReport {
   Point step_place;                                         // the middle of that triangle
 };
 
-StepReport measureStep(const Grid& grid, const ItemLoop& loop = inOrder);  // for a grid without triangles: as above
+StepReport measureStep(const Grid& grid, const ItemLoop& loop = inOrder);  // the defaults for a grid without triangles
 
 // The reason why an edge is short.
 enum class ShortCause {
@@ -42,7 +42,7 @@ struct ShortStep {
   std::uint32_t triangle = 0;
   Point place;            // its middle
   double step_s = 0.0;    // for a Courant number of 1
-  double needed_m = 0.0;  // shortest of its edges
+  double needed_m = 0.0;  // the length that its shortest edge needs
   ShortCause cause = ShortCause::Interior;
 };
 

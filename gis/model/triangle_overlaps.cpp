@@ -10,9 +10,11 @@
 namespace coastmesh {
 namespace {
 
-// Of the longest side: what coordinates of a file leave of nodes on a side, and of the sides of two pieces.
+// Share of the longest side: the rounding of coordinates in files, for nodes on a side and for common sides of two
+// pieces.
 constexpr double kRounding = 1e-6;
-// A side that is straight in one plane bends in others, by the square of its length over the Earth's radius, or less.
+// Share of the square of a side's length over the Earth's radius: at most this far, a side that is straight in one
+// plane bends in others.
 constexpr double kBend = 0.25;
 constexpr double kEarthRadius = 6.4e6;  // metres
 
@@ -35,7 +37,8 @@ class Places {
 
   bool isCounterClockwise(const Corners& p) const { return dot(leftOf(p[0], p[1]), minus(p[2], p[0])) > 0.0; }
 
-  // How far the interiors reach into one another along the way that parts them soonest is more than allowed.
+  // True if the interiors penetrate each other by more than the tolerance, along the direction that separates them
+  // soonest.
   bool overlap(const Corners& a, const Corners& b) const {
     const double longest = std::max(longestSide(a), longestSide(b));
     const double allowed = longest * std::max(kRounding, bend_ * longest);
@@ -43,7 +46,7 @@ class Places {
   }
 
  private:
-  // Square to the side, towards its left; as long as it.
+  // The normal of a side, to its left; as long as the side.
   SphereVector leftOf(const SphereVector& from, const SphereVector& to) const {
     return cross(on_sphere_ ? from : SphereVector{0.0, 0.0, 1.0}, minus(to, from));
   }
@@ -57,7 +60,7 @@ class Places {
     return std::sqrt(square);
   }
 
-  // Whether all of `b` lies beyond a side of `a`.
+  // True if all of `b` lies beyond a side of `a`.
   bool isParted(const Corners& a, const Corners& b, double allowed) const {
     for (std::size_t i = 0; i < 3; ++i) {
       const SphereVector left = leftOf(a[i], a[(i + 1) % 3]);
@@ -74,10 +77,10 @@ class Places {
   std::vector<SphereVector> places_;
 };
 
-// The longitudes and latitudes of a triangle whose sides are great circles; those of its first corner are within ±180.
+// The box in longitudes and latitudes of a triangle of great circles; its first corner's longitude is within ±180.
 Box boxOnSphere(const Grid& grid, std::uint32_t t) {
   constexpr double kWide = 60.0;     // degrees: sides this long may pass near a pole
-  constexpr double kSagitta = 2e-3;  // degrees of latitude for the square of degrees of longitude
+  constexpr double kSagitta = 2e-3;  // degrees of latitude per squared degree of longitude
   const auto& corners = grid.triangles[t];
   std::array<Point, 3> p;
   for (std::size_t i = 0; i < 3; ++i) p[i] = grid.nodes[corners[i]];

@@ -12,13 +12,13 @@ struct TriangleOverlap {
   std::uint32_t triangle = 0, other = 0;
 };
 
-// Triangles that overlap others by more than rounding, each once with one of those, ascending: sheets that lie on top
-// of each other, strips that wind over themselves, copies. `mesh` is the grid's, from `linkTriangles`. In degrees sides
-// are great circles, so that ±180 and poles do not matter. Triangles that are not counter-clockwise are not looked at.
+// Triangles that overlap others by more than rounding, each once with one of those, ascending: sheets on top of each
+// other, strips wound over themselves, copies. `mesh` is the grid's, from `linkTriangles`. In degrees sides are great
+// circles, so ±180 and poles do not matter. Triangles that are not counter-clockwise are ignored.
 //
-// Where no triangle is turned, as many lie on one side of an edge as on the other, unless the edge has no neighbour:
-// what is covered twice ends at such edges, and one of their triangles is part of it. So only these are looked up, by
-// all: O(n log n).
+// If no triangle is inverted, as many lie on one side of an edge as on the other, unless the edge has no neighbour. An
+// area that is covered twice therefore ends at such edges, and one of their triangles is part of it. So each triangle
+// is tested only against these: O(n log n).
 std::vector<TriangleOverlap> triangleOverlaps(const Grid& grid, const TriMesh& mesh);
 
 }  // namespace coastmesh

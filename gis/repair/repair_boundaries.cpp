@@ -5,7 +5,7 @@
 namespace coastmesh {
 namespace {
 
-// Like the opening at the node.
+// The kind of the open or river boundary at the node.
 BoundaryKind openingAt(const RepairState& state, std::uint32_t node) {
   BoundaryKind opening{BoundaryRole::Open};
   for (const std::uint32_t t : state.links.triangles_at[node]) {

@@ -4,18 +4,18 @@
 
 namespace coastmesh {
 
-// Repairs of boundaries: they are taken apart into edges of the mesh, and reassembled.
+// Repairs boundaries: they are taken apart into edges of the mesh and reassembled.
 
-// The kind of each boundary edge of the mesh, by the grid's boundaries; land if they do not say.
+// The kind of each boundary edge of the mesh, from the grid's boundaries; land if an edge is in none.
 BoundaryKinds takeBoundaryKinds(const Grid& grid);
 
-// The solid edge of the boundary that starts at the defect's node becomes like the open boundary before it.
+// Gives the solid boundary edge that starts at the defect's node the kind of the open boundary there.
 void openLoneWall(RepairState& state, const FoundDefect& found);
 
-// The grid's boundaries from the kinds of edges.
+// Sets the grid's boundaries from the kinds of edges.
 void rebuildBoundaries(RepairState& state);
 
-// Reports `pending`, the reasons for this rebuilding: one repair for each model and kind.
+// Reports the rebuilding: one repair for each model and kind of defect in `pending`, the defects that caused it.
 void reportRebuilt(RepairState& state, std::span<const FoundDefect> pending, std::size_t boundaries_before);
 
 }  // namespace coastmesh

@@ -7,7 +7,7 @@ namespace coastmesh {
 void lowerDryOpening(RepairState& state, const FoundDefect& found) {
   const auto node = static_cast<std::uint32_t>(found.defect.node);
   Grid& grid = state.grid;
-  double highest = 0.0;  // below water
+  double highest = 0.0;  // z of the shallowest neighbour below water; 0 if there is none yet
   for (const std::uint32_t t : state.links.triangles_at[node])
     for (const std::uint32_t other : grid.triangles[t])
       if (grid.z[other] < 0.0 && (highest == 0.0 || grid.z[other] > highest)) highest = grid.z[other];

@@ -4,8 +4,8 @@
 
 namespace coastmesh {
 
-// A node of an open boundary that is above the water gets the depth of the shallowest neighbour below it; if there is
-// none yet, a later round may find one.
+// Gives a node of an open boundary that is above the water the depth of its shallowest neighbour below water. Does
+// nothing if there is none yet: a later round may find one.
 void lowerDryOpening(RepairState& state, const FoundDefect& found);
 
 }  // namespace coastmesh

@@ -5,19 +5,20 @@
 namespace coastmesh {
 
 struct RepairOptions {
-  // Seconds: triangles with a shorter time step (`timeSteps`) are repaired too; 0: not used.
+  // Seconds: triangles with a shorter time step (`timeSteps`) are repaired too; 0: none.
   double time_step_s = 0.0;
   bool shore_moves = false;  // nodes of the shore may slide along it, and be removed
   // Degrees: the minimum angle of the mesh, which repairs should keep; 0: unknown.
   double min_angle_deg = 0.0;
-  // Degrees: the maximum angle, which repairs for the time step keep: models may need what other repairs mend.
+  // Degrees: the maximum angle of the mesh. Repairs for the time step, and the final increase of small angles, keep it;
+  // other repairs may exceed it, since models may need them.
   double max_angle_deg = 180.0;
 };
 
-// What repairs learned about a grid, which saves later ones attempts that would fail again.
+// Failed attempts of earlier repairs of a grid, which later ones skip.
 struct RepairMemory {
-  std::vector<bool> stuck;  // for each triangle: nothing at its corners helps it to reach the time step
-  std::vector<double> z;    // those of the nodes for which this is so
+  std::vector<bool> stuck;  // for each triangle: no edit at its corners lets it reach the time step
+  std::vector<double> z;    // the grid's, when `stuck` was determined
 };
 
 }  // namespace coastmesh

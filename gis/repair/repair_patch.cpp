@@ -9,7 +9,7 @@ namespace {
 
 std::uint32_t featureOf(const Grid& grid, std::uint32_t t) { return grid.feature_of.empty() ? 0 : grid.feature_of[t]; }
 
-// An inner edge that has to stay: it is part of a line, or features meet there.
+// True if an inner edge must stay: it is part of a line, or features meet there.
 bool isFixed(const RepairView& view, std::uint32_t a, std::uint32_t b, std::uint32_t left, std::uint32_t right) {
   return view.links.line_edges.contains(edgeKey(a, b)) || featureOf(view.grid, left) != featureOf(view.grid, right);
 }

@@ -12,11 +12,11 @@
 namespace coastmesh {
 namespace {
 
-constexpr double kMoveApart = 0.05;  // of the way into the fan of triangles that gets a node of its own
+constexpr double kMoveApart = 0.05;  // share of the way to the mean of the fan's corners
 
 using Fan = std::vector<std::uint32_t>;
 
-// The triangles round a node in fans that share edges, the largest first.
+// The triangles around a node as fans connected by edges, the largest first.
 std::vector<Fan> fansAt(const GridLinks& links, std::uint32_t node) {
   std::vector<Fan> fans;
   std::set<std::uint32_t> left(links.triangles_at[node].begin(), links.triangles_at[node].end());
@@ -36,7 +36,7 @@ std::vector<Fan> fansAt(const GridLinks& links, std::uint32_t node) {
   return fans;
 }
 
-// The edges of the boundary between the fan and the node are now at its twin.
+// Moves the kinds of the fan's boundary edges at `node` to those at `twin`.
 void moveKinds(GridLinks& links, const Fan& fan, std::uint32_t node, std::uint32_t twin) {
   for (const std::uint32_t t : fan) {
     for (unsigned i = 0; i < 3; ++i) {

@@ -4,13 +4,13 @@
 
 namespace coastmesh {
 
-// Repairs of a mesh's topology.
+// Repairs the topology of a mesh.
 
-// A node where the mesh touches itself: each fan of triangles there except the largest gets its own node, moved into
-// it.
+// Repairs a node where the mesh touches itself: each fan of triangles except the largest gets a copy of the node, moved
+// into the fan.
 void doublePinchedNode(RepairState& state, const FoundDefect& found);
 
-// A triangle without a neighbour; the last one is kept.
+// Removes a triangle without a neighbour, unless it is the grid's only one.
 void takeOutOrphan(RepairState& state, const FoundDefect& found);
 
 }  // namespace coastmesh

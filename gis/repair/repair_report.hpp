@@ -13,9 +13,9 @@ namespace coastmesh {
 // One repair of a grid for a model.
 struct Repair {
   TargetDefectKind kind;         // of the defect
-  std::optional<Target> target;  // the model that rejects it; none: the time step is missed, for any model
+  std::optional<Target> target;  // the model that rejects it; nullopt: the time step is missed, for any model
   Point place;                   // in the grid's CRS
-  std::string what;              // "node doubled, and moved apart by 12.5 m"
+  std::string what;              // "node duplicated and moved apart by 12.5 m"
 };
 
 struct RepairReport {

@@ -19,7 +19,7 @@
 namespace coastmesh {
 namespace {
 
-// The grid as an edit leaves it; as it is, for an edit of nothing.
+// The grid after an edit; as it is, for `kNoEdit`.
 class EditedView {
  public:
   EditedView(const RepairView& of, const PatchEdit& by) : view(of), edit(by) {
@@ -60,10 +60,10 @@ class EditedView {
 
 const PatchEdit kNoEdit;
 
-// Depths of nodes that an edit places come from rasters later on: a little is left for what these say.
+// A margin for the depths of nodes that an edit places: they are sampled from rasters later.
 constexpr double kStepMargin = 1.02;
 
-// How long the edges between these nodes have to be for the time step, in metres; 0 where any will do.
+// The length in metres that edges between these nodes need for the time step; 0 if any will do.
 double neededLength(const EditedView& edited, std::span<const std::uint32_t> nodes) {
   const RepairView& view = edited.view;
   if (view.step.time_step_s <= 0.0 || view.grid.z.empty()) return 0.0;
@@ -73,7 +73,8 @@ double neededLength(const EditedView& edited, std::span<const std::uint32_t> nod
   return deepest > 0.0 ? kStepMargin * view.step.time_step_s * longWaveSpeed(deepest) : 0.0;
 }
 
-// Whether the triangle, in a plane, leaves a shorter time step than is asked for. `source` is what it is cut from.
+// True if the triangle, with corners `p` in its plane, allows only a shorter time step than required. It is cut from
+// triangle `source`.
 bool missesStep(const EditedView& edited, const GridCorners& v, std::uint32_t source, const std::array<Point, 3>& p) {
   const double needed = neededLength(edited, v);
   if (needed <= 0.0) return false;
@@ -81,12 +82,13 @@ bool missesStep(const EditedView& edited, const GridCorners& v, std::uint32_t so
   return shortest * edited.view.step.metres_per_unit[source] < needed;
 }
 
-// Planes that are flat at a triangle no longer than this bend what lies in it by less than that.
+// The local plane of a triangle shorter than `kLittle` distorts its lengths and angles by less than `kBent` and
+// `kBentDeg`.
 constexpr double kLittle = 1e5;  // metres
-constexpr double kBent = 1e-3;   // of a length
+constexpr double kBent = 1e-3;   // relative
 constexpr double kBentDeg = 0.1;
 
-// What straight lines through the Earth say of a triangle, in a fraction of the time that a plane of its own takes.
+// Bounds on a triangle from chords through the sphere, at a fraction of the cost of its local plane.
 class RoughTriangle {
  public:
   RoughTriangle(const EditedView& edited, const GridCorners& v) {
@@ -101,29 +103,29 @@ class RoughTriangle {
 
   bool isSmall() const { return radius_m_ * radius_m_ * std::ranges::max(squared_) < kLittle * kLittle; }
 
-  // An edge is certainly shorter, in units of a plane.
+  // True if an edge is certainly shorter than `length`, in units of the local plane.
   bool hasEdgeBelow(double length) const {
     const double bound = length * (1.0 - kBent);
     return radius_m_ * radius_m_ * std::ranges::min(squared_) < bound * bound;
   }
 
-  // An angle is certainly smaller. `squared_cosine` is that of the angle less `kBentDeg`.
+  // True if an angle is certainly smaller than a limit; `squared_cosine` is that of the limit less `kBentDeg`.
   bool hasAngleBelow(double squared_cosine) const {
     for (unsigned i = 0; i < 3; ++i) {
       const double one = squared_[next3(i)], other = squared_[prev3(i)];
-      const double twice = one + other - squared_[i];  // the product of the sides and the cosine
+      const double twice = one + other - squared_[i];  // twice the product of both sides and the cosine between them
       if (twice > 0.0 && twice * twice > 4.0 * squared_cosine * one * other) return true;
     }
     return false;
   }
 
  private:
-  std::array<double, 3> squared_{};  // lengths of the edges opposite the corners, of a sphere of radius 1
+  std::array<double, 3> squared_{};  // squared lengths of the edges opposite the corners, on the unit sphere
   double radius_m_ = 0.0;
 };
 
-// Whether a triangle that runs counter-clockwise in its local plane certainly does so on the ground: lengths in metres,
-// places there are rounded to some nanometres, and the plane bends those of less than a hundred kilometres by little.
+// True if a triangle that is counter-clockwise in its local plane certainly is so on the ground. Metres: places in the
+// plane are rounded to some nanometres, and it distorts less than a hundred kilometres by little.
 bool isClearOfRounding(const std::array<Point, 3>& p) {
   constexpr double kShort = 1.0, kLong = 1e5, kClear = 1e-3;
   const double longest =
@@ -131,12 +133,12 @@ bool isClearOfRounding(const std::array<Point, 3>& p) {
   return longest > kShort * kShort && longest < kLong * kLong && cross(p[1] - p[0], p[2] - p[0]) > kClear * longest;
 }
 
-// Whether the triangle, in a plane, runs counter-clockwise there and on the ground.
+// True if the triangle, with corners `p` in its plane, is counter-clockwise there and on the ground.
 bool isUpright(const EditedView& edited, const GridCorners& v, const std::array<Point, 3>& p) {
   if (orient2d(p[0], p[1], p[2]) <= 0) return false;
   const Crs& crs = edited.view.grid.crs;
   if (crs.geographic && isClearOfRounding(p)) return true;
-  // The plane is rounded: what is flat to within that is asked of the places themselves, as the report does.
+  // The plane is rounded, so nearly flat triangles are tested by the nodes' own places, as `turnedTriangles` does.
   const auto on_ground = edited.placesOf(v);
   return orientationOnGround(on_ground[0], on_ground[1], on_ground[2], crs) > 0;
 }
@@ -172,7 +174,7 @@ std::ranges::minmax_result<double> anglesOf(const std::array<Point, 3>& p) {
   return std::ranges::minmax(anglesDeg(p[0], p[1], p[2]));
 }
 
-// Of a triangle as it is; none where it is clockwise, or without area.
+// The score of a triangle as it is; nullopt if it is clockwise or without area.
 std::optional<TriangleScore> scoreTriangle(const RepairView& view, std::uint32_t t) {
   const EditedView now(view, kNoEdit);
   const GridCorners& v = view.grid.triangles[t];
@@ -182,14 +184,14 @@ std::optional<TriangleScore> scoreTriangle(const RepairView& view, std::uint32_t
   return TriangleScore{triangleDefects(now, v, t, p), least, largest};
 }
 
-// As the triangle is now.
+// The same, cached in `scale`.
 const std::optional<TriangleScore>& scoreBefore(const RepairView& view, const PatchScale& scale, std::uint32_t t) {
   const auto known = std::ranges::find(scale.replaced, t, [](const auto& entry) { return entry.first; });
   if (known != scale.replaced.end()) return known->second;
   return scale.replaced.emplace_back(t, scoreTriangle(view, t)).second;
 }
 
-// The triangles that are no more as they were, ascending.
+// The triangles that the edit changes or removes, ascending.
 std::vector<std::uint32_t> replacedBy(const PatchEdit& edit) {
   std::vector<std::uint32_t> replaced;
   for (const EditedTriangle& triangle : edit.triangles)
@@ -207,7 +209,7 @@ int edgeDefects(const EditedView& edited, const NodePair& edge, std::span<const 
   return (link.cosine > kDflowfmLargestCosine ? 1 : 0) + (link.length < kDflowfmSmallestLink ? 1 : 0);
 }
 
-// Of the edges that have another triangle beside them after the edit than before.
+// The change in defects of the edges of triangles that the edit makes or replaces.
 int edgeDefectsAdded(const EditedView& edited, const GridPatch& patch, std::span<const std::uint32_t> replaced) {
   const auto& [view, edit] = std::tie(edited.view, edited.edit);
   const EditedView now(view, kNoEdit);
@@ -242,7 +244,7 @@ int edgeDefectsAdded(const EditedView& edited, const GridPatch& patch, std::span
   return added;
 }
 
-// Triangles too many or too few round the nodes that get more or fewer.
+// The change in the number of triangles too many or too few around nodes.
 int badValencesAdded(const RepairView& view, const PatchEdit& edit, std::span<const std::uint32_t> replaced) {
   std::vector<std::pair<std::uint32_t, int>> changes;
   for (const EditedTriangle& triangle : edit.triangles)
@@ -269,7 +271,8 @@ int badValencesAdded(const RepairView& view, const PatchEdit& edit, std::span<co
   return added;
 }
 
-// Whether the edit is certainly below the bar. `score` is what is known without the triangles that it makes.
+// True if the edit is certainly below the bar. `score` leaves out the triangles that the edit makes; `may_mend_more` is
+// true if defects of edges or nodes, counted later, may still decrease.
 bool isRoughlyBelow(const EditedView& edited, const EditScore& score, const ScoreBar& bar, bool may_mend_more) {
   const RepairView& view = edited.view;
   if (!view.grid.crs.geographic) return false;
@@ -332,8 +335,8 @@ std::optional<EditScore> scoreAbove(const RepairView& view, const GridPatch& pat
   const auto kept = std::ranges::find_if(scale.angles, isKept, &std::pair<double, std::uint32_t>::second);
   if (kept != scale.angles.end()) score.min_angle = std::min(score.min_angle, kept->first);
 
-  // Each triangle adds defects and makes angles smaller at most, so that what falls short of the bar stays below it.
-  // Defects of edges and nodes are counted at the end, and may be fewer: where these count all but angles has to wait.
+  // A further triangle can only add defects and make angles worse, so a score below the bar stays below it. Defects of
+  // edges and nodes are counted last, and may decrease: if models limit these, only angles can rule out an edit early.
   const bool of_edges = view.isFor(Target::Dflowfm), of_nodes = view.isFor(Target::Swan) || view.isFor(Target::Fesom);
   const auto mayReach = [&] {
     EditScore hoped = score;

@@ -11,16 +11,16 @@
 
 namespace coastmesh {
 
-// What an edit leaves of a patch: first angles that are not small, since what is left of the defects may be mended by
-// another edit; then fewer defects, and then a larger smallest angle.
+// The outcome of an edit of a patch. Edits are ranked by grade first, since another edit may repair the defects that
+// are left, then by fewest defects, then by largest smallest angle.
 struct EditScore {
-  int defects = 0;         // more than the patch has now; less than 0 where it gets better
+  int defects = 0;         // change of the patch's defects; negative: fewer
   double min_angle = 0.0;  // degrees, of the whole patch
-  // Degrees, of the triangles that the edit makes, and of those that they take the place of.
+  // Degrees: the smallest angle of the triangles that the edit makes, and of those that they replace.
   double made_angle = 180.0, replaced_angle = 180.0;
-  double made_largest = 0.0, replaced_largest = 0.0;  // their largest
+  double made_largest = 0.0, replaced_largest = 0.0;  // their largest angles
 
-  // How many of these the smallest angle reaches.
+  // The number of these thresholds, in degrees, that the smallest angle reaches.
   int grade() const {
     int reached = 0;
     for (const double angle : {20.0, 25.0, 30.0, 33.0}) reached += min_angle >= angle;
@@ -40,22 +40,22 @@ struct TriangleScore {
   double min_angle = 0.0, max_angle = 180.0;  // degrees
 };
 
-// What is measured once, so that an edit costs what it changes.
+// Measurements of a patch, made once, so that scoring an edit costs only as much as the edit changes.
 struct PatchScale {
-  std::vector<std::pair<double, std::uint32_t>> angles;  // the smallest of each triangle, ascending
+  std::vector<std::pair<double, std::uint32_t>> angles;  // the smallest angle of each triangle, ascending
   std::vector<std::uint32_t> turned;                     // triangles that are clockwise, or without area
-  // Triangles that an edit took the place of, as they are; none for one of `turned`. Grows while edits are scored.
+  // Cached scores, before any edit, of triangles that edits replace; nullopt for those in `turned`.
   mutable std::vector<std::pair<std::uint32_t, std::optional<TriangleScore>>> replaced{};
 };
 
 PatchScale scaleOf(const RepairView& view, const GridPatch& patch);
 
-// What an edit has to reach to be of use.
+// The least that an edit must achieve to be useful.
 struct ScoreBar {
-  int defects = kTurnedOver;         // fewer than these
-  double least_angle_deg = 0.0;      // no smaller angles made, unless what they take the place of has smaller ones
+  int defects = kTurnedOver;         // fewer defects than this
+  double least_angle_deg = 0.0;      // no smaller angles, unless the replaced triangles have smaller ones
   const EditScore* best = nullptr;   // better than this
-  double largest_angle_deg = 180.0;  // no larger angles made, unless what they take the place of has larger ones
+  double largest_angle_deg = 180.0;  // no larger angles, unless the replaced triangles have larger ones
 
   bool isReachedBy(const EditScore& score) const {
     return score.made_angle >= std::min(least_angle_deg, score.replaced_angle) &&
@@ -64,16 +64,17 @@ struct ScoreBar {
   }
 };
 
-// Of the patch as it is.
+// The score of the patch as it is, and after an edit; its defects are `kTurnedOver` if a triangle is clockwise or has
+// no area.
 EditScore scoreOf(const PatchScale& scale);
 EditScore scoreOf(const RepairView& view, const GridPatch& patch, const PatchScale& scale, const PatchEdit& edit);
 
-// The same where the edit reaches the bar; none as soon as it is clear that it does not.
+// The score of the edit if it reaches the bar; nullopt as soon as it is certain that it does not.
 std::optional<EditScore> scoreAbove(const RepairView& view, const GridPatch& patch, const PatchScale& scale,
                                     const PatchEdit& edit, const ScoreBar& bar);
 
-// Whether moves of the node may leave fewer defects than there are: not where the edges across from it, which stay, are
-// all that is wrong. REQUIRES: the node's triangles are of the patch.
+// False if no move of the node can reduce defects, because all of them are due to edges opposite the node, which stay.
+// REQUIRES: the node's triangles are in the patch.
 bool moveMayMend(const RepairView& view, const PatchScale& scale, std::uint32_t node);
 
 }  // namespace coastmesh

@@ -6,16 +6,15 @@
 namespace coastmesh {
 namespace {
 
-// Asked last: it takes a search for what lies near.
+// Checked last because it needs a spatial search.
 bool keepsShores(const RepairView& view, const PatchEdit& edit) {
   return view.shores == nullptr || view.shores->keepsApart(view, edit);
 }
 
-// The best of what is offered that is better than the patch as it is; the first of those as good.
+// The best of the offered edits that reduce the patch's defects; the first of equally good ones.
 class Contest {
  public:
-  // Triangles with a smaller angle than `least_angle_deg`, or a larger one than `largest_angle_deg`, are made only of
-  // such.
+  // Triangles with an angle below `least_angle_deg` or above `largest_angle_deg` may only replace such triangles.
   Contest(const RepairView& view, const GridPatch& patch, double least_angle_deg = 0.0,
           double largest_angle_deg = 180.0)
       : view_(view),
@@ -47,7 +46,7 @@ class Contest {
   std::optional<PatchEdit> best_;
 };
 
-// Towards nodes of the ring and the middles between two of them; on the shore along it.
+// Moves towards nodes of the ring and midpoints of consecutive ones; on the shore, along it.
 void forEachMove(const RepairView& view, std::uint32_t node, auto&& use) {
   for (const std::uint32_t other : boundaryNeighbours(view, node))
     for (const double share : {0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5}) use(moveOf(view, node, other, other, share));

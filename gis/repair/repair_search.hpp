@@ -7,36 +7,36 @@
 
 namespace coastmesh {
 
-// The best edit is that which leaves the fewest defects in `patch`; among these the largest smallest angle. None where
-// each leaves as many as there are.
+// Searches return the best edit by `EditScore::betterThan` of those that leave fewer defects in `patch`, or nullopt if
+// no edit does.
 
-// What is tried.
+// The edits to try.
 struct SearchReach {
-  std::span<const double> shares;          // at which edges are split
-  std::span<const std::uint32_t> movable;  // nodes that are moved a little
+  std::span<const double> shares;          // where edges are split
+  std::span<const std::uint32_t> movable;  // nodes that may be moved a little
 };
 
-// A node moved, or an edge of `inside` flipped or split. REQUIRES: the patch is that round `inside` and the triangles
-// of the movable nodes.
+// Moves a node, or flips or splits an edge of `inside`. REQUIRES: `patch` surrounds `inside` and the triangles of the
+// movable nodes (`patchRound`).
 std::optional<PatchEdit> bestReshaping(const RepairView& view, std::span<const std::uint32_t> inside,
                                        const SearchReach& reach, const GridPatch& patch);
 
-// For a triangle that leaves too short a time step: a node moved, or one of its edges collapsed. REQUIRES: the patch is
-// that round the triangles at the movable nodes and at the triangle's own.
+// For a triangle with too short a time step: moves a node, or collapses one of the triangle's edges. REQUIRES: `patch`
+// surrounds the triangles at the movable nodes and at the triangle's corners (`patchRound`).
 std::optional<PatchEdit> bestLengthening(const RepairView& view, std::uint32_t t,
                                          std::span<const std::uint32_t> movable, const GridPatch& patch);
 
-// Whether nothing but the triangles at its corners says if there is a lengthening of a triangle: not where shores,
-// edges or nodes count that other triangles share, or where triangles of the patch have turned over.
+// True if the triangles at its corners alone decide whether a triangle can be lengthened. False if models limit flow
+// links or valences, shores may move, or a triangle of the patch is clockwise: then other triangles matter too.
 bool mendsByCornersAlone(const RepairView& view, const GridPatch& patch);
 
-// For a triangle with a small angle: the move, flip or collapse that leaves the largest smallest angle in what it
-// changes, and no defect more. REQUIRES: as above.
+// For a triangle with a small angle: the move, flip or collapse that makes the largest smallest angle, more than 0.1
+// degrees above that of the triangles it replaces, and adds no defect. REQUIRES: `patch` as for `bestLengthening`.
 std::optional<PatchEdit> bestRelaxing(const RepairView& view, std::uint32_t t, std::span<const std::uint32_t> movable,
                                       const GridPatch& patch);
 
-// An inner node split in two: half of its triangles get a node of their own, between it and their
-// other ends.
+// Splits an inner node in two: half of its triangles get a new node, between the old one and the middle of their other
+// corners. Returns nullopt also for a node with fewer than eight triangles.
 std::optional<PatchEdit> bestNodeSplit(const RepairView& view, std::uint32_t node, const GridPatch& patch);
 
 }  // namespace coastmesh

@@ -14,13 +14,13 @@ namespace coastmesh {
 namespace {
 
 constexpr std::array kShares{0.5, 0.4, 0.6, 0.3, 0.7};
-// Where these do not help: at a sharp corner of the input an edge is to be cut near its end.
+// Tried if these fail: at a sharp corner of the input, an edge must be split near its end.
 constexpr std::array kFarShares{0.2, 0.8, 0.15, 0.85, 0.1, 0.9, 0.05, 0.95};
 
-// The patch round the triangles, none where part of it has been changed in this round: then another one will do.
+// The patch around the triangles; nullopt if part of it has changed in this round: a later round tries again.
 std::optional<GridPatch> untouchedPatch(const RepairState& state, std::span<const std::uint32_t> middle) {
   if (state.anyTaken(middle)) return std::nullopt;
-  // Node by node: after a change beside a node of many triangles all other attempts there are over at once.
+  // Checked node by node, so that after a change beside a node with many triangles all other attempts there end early.
   const auto isTaken = [&](std::uint32_t node) { return state.anyTaken(state.links.triangles_at[node]); };
   if (std::ranges::any_of(nodesOf(state.grid, middle), isTaken)) return std::nullopt;
   return patchRound(state.view(), middle);
@@ -77,7 +77,7 @@ void applyRepair(RepairState& state, const GridPatch& patch, const PatchEdit& ed
   addRepair(state, found, found.defect.place, std::string(textOf(edit.kind)));
 }
 
-// Whether the attempt was made; `done` says whether it did anything.
+// `made`: edits were searched for; `done`: one was applied.
 struct Attempt {
   bool made = false, done = false;
 };
@@ -90,7 +90,7 @@ Attempt splitNode(RepairState& state, std::uint32_t node, const FoundDefect& fou
   return {true, chosen.has_value()};
 }
 
-// These, and what lies across their edges.
+// The triangles and those across their edges.
 std::vector<std::uint32_t> withNeighbours(const TriMesh& mesh, std::span<const std::uint32_t> triangles) {
   std::set<std::uint32_t> concerned(triangles.begin(), triangles.end());
   for (const std::uint32_t t : triangles)
@@ -135,12 +135,12 @@ std::vector<std::uint32_t> roundOf(const RepairState& state, std::uint32_t t) {
   return round;
 }
 
-// An inner node of three triangles goes, and these become one.
+// Removes an inner node of three triangles, which become one.
 void takeOutNode(RepairState& state, std::uint32_t node, const FoundDefect& found) {
   const std::vector<std::uint32_t>& round = state.links.triangles_at[node];
   if (round.size() < 3 || !fixedNeighbours(state.view(), node).empty() || state.anyTaken(round)) return;
   GridCorners corners = state.grid.triangles[round[0]];
-  // What the other two have and the first has not takes the node's place.
+  // The corner of the others that the first lacks replaces the node.
   for (const std::uint32_t other : state.grid.triangles[round[1]])
     if (std::ranges::count(corners, other) == 0) std::ranges::replace(corners, node, other);
   state.grid.triangles[round[0]] = corners;
@@ -149,7 +149,8 @@ void takeOutNode(RepairState& state, std::uint32_t node, const FoundDefect& foun
   addRepair(state, found, found.defect.place, "node removed");
 }
 
-// The smallest angle round an inner node put at `place`; 0 or less where a triangle is turned. Degrees.
+// Degrees: the smallest angle of the triangles around an inner node moved to `place`; 0 if one is not
+// counter-clockwise.
 double leastAngleRound(const Grid& grid, std::span<const std::uint32_t> ring, const Point& place) {
   double least = 180.0;
   for (std::size_t k = 0; k < ring.size(); ++k) {
@@ -161,7 +162,7 @@ double leastAngleRound(const Grid& grid, std::span<const std::uint32_t> ring, co
   return least;
 }
 
-// The move of an inner node that leaves the largest of these angles, more than `least`.
+// The move of an inner node that leaves the largest such angle, if larger than `least`, which is raised to it.
 std::optional<PatchEdit> bestUnfolding(const RepairView& view, std::uint32_t node, double& least) {
   constexpr std::size_t kMostNeighbours = 16;
   std::optional<PatchEdit> best;

@@ -4,23 +4,24 @@
 
 namespace coastmesh {
 
-// Repairs of triangles' shapes, and of their number around a node: flips, splits and moves of nodes.
+// Repairs the shapes of triangles, and their number around a node: flips, splits and moves of nodes.
 
-// A triangle with an angle, an edge or neighbours that the model rejects.
+// Repairs a triangle with an angle, an edge or neighbours that the model rejects: flips and splits, then small moves of
+// nodes too.
 void reshapeTriangle(RepairState& state, const FoundDefect& found);
 
-// An edge with the centres of its triangles too close to one another: a small move of a node is tried too.
+// Repairs an edge whose triangles have their centres too close together. Small moves of nodes are tried at once.
 void lengthenFlowLink(RepairState& state, const FoundDefect& found);
 
-// A node with too few or too many triangles. A triangle with too short a time
-// step.
+// Repairs a triangle with too short a time step: moves of its nodes and collapses of its edges.
 void lengthenEdges(RepairState& state, const FoundDefect& found);
 
-// A clockwise triangle that lies over its neighbours: one of its nodes is where it should not be. A node that nothing
-// holds is moved to the middle between two of its neighbours from where all triangles round it are counter-clockwise.
+// Repairs a clockwise triangle that overlaps its neighbours because one of its nodes is misplaced. Moves an inner node
+// without fixed edges to the midpoint between two of its neighbours that makes all triangles around it
+// counter-clockwise, with the largest smallest angle.
 void unfoldTriangle(RepairState& state, const FoundDefect& found);
 
-// Whether the triangle's smallest angle can be increased.
+// Increases the triangle's smallest angle if an edit can; returns whether one did.
 bool relaxTriangle(RepairState& state, std::uint32_t t);
 
 void mendValence(RepairState& state, const FoundDefect& found);

@@ -11,14 +11,14 @@
 namespace coastmesh {
 namespace {
 
-constexpr double kApart = 0.5;  // of an edge's length
+constexpr double kApart = 0.5;  // share of an edge's length
 
 bool crosses(const std::array<Point, 4>& p) {
   return orient2d(p[0], p[1], p[2]) * orient2d(p[0], p[1], p[3]) <= 0 &&
          orient2d(p[2], p[3], p[0]) * orient2d(p[2], p[3], p[1]) <= 0;
 }
 
-// Between two edges, in a plane; 0 where they cross.
+// The distance between two edges, p[0] to p[1] and p[2] to p[3], in a plane; 0 if they cross.
 double apart(const std::array<Point, 4>& p) {
   if (crosses(p)) return 0.0;
   return std::sqrt(std::min({squaredDistanceToSegment(p[0], p[2], p[3]), squaredDistanceToSegment(p[1], p[2], p[3]),
@@ -39,10 +39,10 @@ ShoreIndex::ShoreIndex(const RepairView& view) {
 bool ShoreIndex::keepsApart(const RepairView& view, const PatchEdit& edit) const {
   const Grid& grid = view.grid;
   if (edit.placed == kNone || edit.placed >= grid.nodes.size()) return true;
-  // Edges as they will be: those that are made, and those at the node that moves.
+  // The boundary edges after the edit that are new, or end at the node that moves.
   std::vector<NodePair> changed;
   for (const auto& [edge, kind] : edit.made) changed.push_back(edge);
-  std::set<std::uint32_t> before{edit.placed};  // nodes whose edges these take the place of
+  std::set<std::uint32_t> before{edit.placed};  // nodes whose edges these replace
   for (const NodePair& edge : edit.gone) before.insert(edge.begin(), edge.end());
   for (const std::uint32_t node : boundaryNeighbours(view, edit.placed)) {
     const NodePair edge = edgeKey(edit.placed, node);
@@ -102,7 +102,7 @@ std::optional<PatchEdit> collapseOf(const RepairView& view, std::uint32_t gone, 
     std::ranges::replace(v, gone, kept);
     edit.triangles.push_back({v, t, t});
   }
-  // Where the ends have other neighbours in common, two triangles would come to lie on one another.
+  // If the ends had other common neighbours, two triangles would coincide.
   const std::set<std::uint32_t> of_gone = neighboursOf(view, gone), of_kept = neighboursOf(view, kept);
   std::set<std::uint32_t> common;
   std::ranges::set_intersection(of_gone, of_kept, std::inserter(common, common.end()));

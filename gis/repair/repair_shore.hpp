@@ -7,15 +7,15 @@
 
 namespace coastmesh {
 
-// Edits that move the shore of a grid, or remove nodes of it.
+// Edits that move nodes of a grid's shore, or remove them.
 
-// The shores, to keep them from getting too close to one another.
+// The boundary edges of a grid, to keep shores from getting too close to one another.
 class ShoreIndex {
  public:
   explicit ShoreIndex(const RepairView& view);
 
-  // Whether the boundary edges that the edit makes or moves keep half of their lengths from all others, or are no
-  // closer to them than before.
+  // True if the boundary edges that the edit makes or moves stay at least half of their lengths away from all others,
+  // or get no closer to them.
   bool keepsApart(const RepairView& view, const PatchEdit& edit) const;
 
  private:
@@ -23,8 +23,8 @@ class ShoreIndex {
   BoxTree tree_;
 };
 
-// Collapses the node `gone` into its neighbour `kept`, which moves `share` of the way towards it. None if an end may
-// not move, or the mesh would become invalid.
+// Collapses the node `gone` into its neighbour `kept`, which moves `share` of the way towards it. Returns nullopt if
+// one of them would have to move but may not, or the mesh would become invalid.
 std::optional<PatchEdit> collapseOf(const RepairView& view, std::uint32_t gone, std::uint32_t kept, double share);
 
 }  // namespace coastmesh

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kUnmeasured = std::numeric_limits<double>::quiet_NaN();
 
-// What was tried in vain as near to a change as an attempt looks is worth another.
+// Forgets the failed attempts whose search would reach a changed triangle.
 void forgetNear(RepairState& state) {
   const Grid& grid = state.grid;
   std::vector<bool> is_near(grid.nodes.size(), false);
@@ -46,7 +46,7 @@ void forgetNear(RepairState& state) {
   for (const std::uint32_t node : near) state.hopeless_nodes[node] = false;
 }
 
-// Lengths on the ground over those of planes that are flat at each triangle: of those that are new, or have changed.
+// Computes `metres_per_unit` of new and changed triangles, from their shortest edge.
 void measureGround(RepairState& state) {
   const Grid& grid = state.grid;
   state.metres_per_unit.resize(grid.triangles.size(), kUnmeasured);
@@ -77,7 +77,8 @@ void measureGround(RepairState& state) {
   }
 }
 
-// The nodes' depths, in a mesh that `memory` knows, may have changed since: what lies at such is worth another attempt.
+// Takes over the failed attempts of `memory` if the mesh has the same size. Those at nodes whose depth has changed
+// since are to be repeated.
 void recall(const RepairMemory& memory, RepairState& state) {
   const Grid& grid = state.grid;
   if (memory.stuck.size() != grid.triangles.size() || memory.z.size() != grid.z.size()) return;
@@ -89,7 +90,7 @@ void recall(const RepairMemory& memory, RepairState& state) {
     state.disturbed[t] = !grid.z.empty() && std::ranges::any_of(grid.triangles[t], isOther);
 }
 
-// Values of what got another index; `none` of what was added since.
+// The values by new index; `none` for items added since.
 template <typename T>
 std::vector<T> renumbered(const std::vector<T>& values, const std::vector<std::uint32_t>& index_of, std::size_t count,
                           T none) {
@@ -132,7 +133,7 @@ RepairMemory memoryOf(const RepairState& state) {
 void startRound(RepairState& state) {
   const Grid& grid = state.grid;
   GridLinks& links = state.links;
-  if (!state.targets.empty()) {  // the time step looks at nodes alone
+  if (!state.targets.empty()) {  // repairs for the time step do not use `mesh`
     std::vector<EdgeConflict> conflicts;
     links.mesh = linkTriangles(grid.nodes, grid.triangles, conflicts);
   }

@@ -34,7 +34,7 @@ std::vector<FoundDefect> findDefects(const Grid& grid, std::span<const Target> t
   return found;
 }
 
-// No repair parts triangles that overlap, so that they are looked for apart, not in each round.
+// No repair removes overlaps, so they are searched for once, not in every round.
 std::vector<FoundDefect> findOverlaps(const Grid& grid, std::span<const Target> targets) {
   std::vector<FoundDefect> found;
   if (targets.empty()) return found;
@@ -47,7 +47,7 @@ std::vector<FoundDefect> findOverlaps(const Grid& grid, std::span<const Target> 
   return found;
 }
 
-// Each once: several models may mind the same.
+// Each defect once: several models may reject the same.
 std::vector<FoundDefect> withoutRepeats(const std::vector<FoundDefect>& defects) {
   std::vector<FoundDefect> once;
   std::set<std::pair<TargetDefectKind, std::int64_t>> seen;
@@ -63,7 +63,7 @@ bool hasWeirs(const Grid& grid) {
   return std::ranges::any_of(grid.boundaries, [](const Boundary& boundary) { return !boundary.weir.empty(); });
 }
 
-// What is wrong with counts alone is right once the mesh is written again.
+// Wrong counts need no repair: they are right once the mesh is written again.
 void refuseWeirs(const std::vector<FoundDefect>& defects) {
   const auto wanting = [](const FoundDefect& found) { return found.defect.kind != TargetDefectKind::WrongCount; };
   const auto first = std::ranges::find_if(defects, wanting);
@@ -98,12 +98,12 @@ bool isOfBoundaries(TargetDefectKind kind) {
   }
 }
 
-// All but boundaries, which are put together at the end of a round.
+// Repairs a defect. Boundaries are rebuilt at the end of a round instead.
 void mend(RepairState& state, const FoundDefect& found) {
   switch (found.defect.kind) {
     case TargetDefectKind::WrongCount:
       return addRepair(state, found, found.defect.place, "counted anew: " + found.defect.text);
-    case TargetDefectKind::UnusedNode:  // goes when the round ends
+    case TargetDefectKind::UnusedNode:  // removed by `compact`
       return addRepair(state, found, found.defect.place, "node removed");
     case TargetDefectKind::PinchedNode:
       return doublePinchedNode(state, found);
@@ -125,7 +125,7 @@ void mend(RepairState& state, const FoundDefect& found) {
       return mendValence(state, found);
     case TargetDefectKind::Courant:
       return lengthenEdges(state, found);
-    case TargetDefectKind::Clockwise:  // before all others
+    case TargetDefectKind::Clockwise:  // repaired before all others
     case TargetDefectKind::NoBoundary:
     case TargetDefectKind::StrayBoundary:
     case TargetDefectKind::BoundaryTwice:
@@ -137,23 +137,23 @@ void mend(RepairState& state, const FoundDefect& found) {
     case TargetDefectKind::RepeatedNode:
     case TargetDefectKind::HangingNode:
     case TargetDefectKind::UnknownDepth:
-    case TargetDefectKind::RoundTheGlobe:  // longitudes are in one turn here
+    case TargetDefectKind::RoundTheGlobe:  // longitudes are already unwrapped if they can be
       return;
   }
 }
 
-// Whether no repair changes an edge of the boundary: they are put together anew once then, when all is done.
+// True if no repair changes a boundary edge; boundaries are then rebuilt once, at the end.
 bool keepsBoundaries(const RepairState& state) { return state.targets.empty() && !state.options.shore_moves; }
 
-// Returns whether another round may find more to do. Boundaries that `cutLoops` cannot make right stay so: they are
-// worth one round alone.
+// Returns whether another round may find more to do. Defects of boundaries alone warrant one more round only, since
+// those that `cutLoops` cannot repair remain.
 bool mendRound(RepairState& state, const std::vector<FoundDefect>& defects, bool& boundaries_done) {
   startRound(state);
   const std::size_t repairs_before = state.report.repairs.size();
   std::vector<FoundDefect> of_boundaries;
   const std::vector<FoundDefect> once = withoutRepeats(defects);
   mendClockwise(state, once);
-  // Edges that hang together by now were loose when the other defects were found: these are looked for again.
+  // The other defects were found while these triangles were not linked to their neighbours: search again.
   if (state.report.repairs.size() > repairs_before) return true;
   for (const FoundDefect& found : once) {
     if (isOfBoundaries(found.defect.kind)) of_boundaries.push_back(found);
@@ -198,7 +198,7 @@ std::vector<std::uint32_t> sharpened(const RepairState& state) {
   return found;
 }
 
-// Repairs take what mends, though angles get smaller by it: what is around gives way a little then.
+// Repairs may leave small angles; this pass changes the triangles and nodes around to enlarge them.
 void relax(RepairState& state) {
   for (int round = 0; round < kRelaxRounds; ++round) {
     const std::vector<std::uint32_t> small = sharpened(state);
@@ -254,7 +254,7 @@ RepairReport repairInOneTurn(Grid& grid, std::span<const Target> targets, const 
 
 RepairReport repairForTargets(Grid& grid, std::span<const Target> targets, const RepairOptions& options,
                               RepairMemory* memory) {
-  // As files for models have them: where longitudes jump, shapes in degrees are not those that a model sees.
+  // Longitudes are unwrapped as in the files that models read: across a jump of 360°, shapes in degrees would be wrong.
   const TurnedNodes turned(grid);
   RepairReport report = repairInOneTurn(grid, targets, options, memory);
   turned.putBack(grid);

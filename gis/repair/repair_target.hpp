@@ -11,16 +11,16 @@
 
 namespace coastmesh {
 
-// Changes as little of the grid as takes away what `checkTarget` finds for the models, in rounds: nodes in which the
-// mesh touches itself are doubled and moved apart, triangles without a neighbour and unused nodes taken out, clockwise
-// triangles turned, edges flipped or split, or nodes moved that no boundary, line or feature holds, where a triangle, a
-// node or a flow link is not as a model wants it, and boundaries put together anew. Depths of new and moved nodes lie
-// between those of the nodes there were. Where triangles leave too short a time step, edges are made longer or
-// collapsed. Of edits that mend, that which leaves the larger angles is taken; where angles are smaller than the mesh
-// keeps afterwards, nodes around give way. Angles and areas of what was changed are measured again. Where longitudes
-// jump they are put into one turn, and back in the end. Throws InputError for a grid with weirs that has defects.
-// `memory` is of the last call with these options, and of the grid that this left, the nodes of which may have other
-// depths by now; it becomes that of this call.
+// Repairs the defects that `checkTarget` finds for the models, in rounds, changing as little of the grid as possible:
+// nodes where the mesh touches itself are duplicated and moved apart, triangles without a neighbour, copies of
+// triangles and unused nodes removed, clockwise triangles turned, dry nodes of open boundaries lowered. If a triangle,
+// a node or a flow link violates a limit of a model, edges are flipped or split, or nodes moved that no boundary, line
+// or feature holds. Boundaries are rebuilt. Depths of new and moved nodes are interpolated. If triangles allow too
+// short a time step, edges are lengthened or collapsed. Of edits that repair a defect, the one with the larger angles
+// is chosen; if angles end up below `min_angle_deg`, the nodes around them are adjusted. Angles and areas of changed
+// triangles are measured again. Longitudes that jump are unwrapped during repairs, and restored at the end. Throws
+// InputError if the grid has weirs and defects other than wrong counts, or if no triangle is left. `memory` comes from
+// the last call with the same options, on the grid that it left, whose depths may have changed since. It is updated.
 RepairReport repairForTargets(Grid& grid, std::span<const Target> targets, const RepairOptions& options = {},
                               RepairMemory* memory = nullptr);
 

@@ -18,7 +18,7 @@ int orientationOf(const Grid& grid, const GridCorners& corners) {
   return orient2d(p[0], p[1], p[2]);
 }
 
-// Others with both ends of the edge, whichever way they list them.
+// The other triangles with both ends of the edge, in either direction.
 std::vector<std::uint32_t> othersAt(const RepairState& state, std::uint32_t t, std::uint32_t a, std::uint32_t b) {
   std::vector<std::uint32_t> others;
   for (const std::uint32_t other : state.links.triangles_at[a])
@@ -27,7 +27,7 @@ std::vector<std::uint32_t> othersAt(const RepairState& state, std::uint32_t t, s
   return others;
 }
 
-// Two triangles at an edge lie on the same side of it.
+// True if two triangles at an edge lie on the same side of it.
 bool liesOver(const Grid& grid, std::uint32_t t, std::uint32_t other, std::uint32_t a, std::uint32_t b) {
   std::array<std::uint32_t, 4> nodes{a, b, a, a};
   for (const std::uint32_t node : grid.triangles[t])
@@ -38,10 +38,10 @@ bool liesOver(const Grid& grid, std::uint32_t t, std::uint32_t other, std::uint3
   return orient2d(p[0], p[1], p[2]) * orient2d(p[0], p[1], p[3]) > 0;
 }
 
-// The clockwise triangles that hang together with one of them.
+// Clockwise triangles connected by edges.
 struct Piece {
   std::vector<std::uint32_t> triangles;
-  bool folded = false;  // a neighbour lies over one of them
+  bool folded = false;  // a neighbour overlaps one of them
 };
 
 Piece pieceFrom(const RepairState& state, std::uint32_t first, std::vector<bool>& waiting) {

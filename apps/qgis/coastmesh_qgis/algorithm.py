@@ -26,7 +26,7 @@ from .sources import Sources, takes_selection
 from .styles import style_for
 from .verbs import NEVER_SHOWN, VERBS
 
-MESH_ENDINGS = (".nc", ".2dm")  # what QGIS opens as a mesh layer
+MESH_ENDINGS = (".nc", ".2dm")  # formats that QGIS opens as a mesh layer
 LAYER_FILE = "GeoPackage (*.gpkg)"
 
 # Layers inside the GeoPackages that verbs write, top one first: output, layer, title.
@@ -35,7 +35,7 @@ LAYERS = {
              ("NODES", "nodes", "Nodes")],
     "clean": [("EDITS", "edits", "Edits"), ("PSLG", "pslg", "Plane graph")],
 }
-SHOWN_LAYERS = ("BOUNDARIES", "TRIANGLES", "EDITS", "PSLG")  # nodes are too many to be looked at
+SHOWN_LAYERS = ("BOUNDARIES", "TRIANGLES", "EDITS", "PSLG")  # nodes are too many to show
 FIGURES = {"TRIANGLE_COUNT": "triangles", "VERTEX_COUNT": "vertices", "MIN_ANGLE_REACHED": "min_angle_deg"}
 
 

@@ -90,7 +90,7 @@ def _number(option, name, title, optional):
         whole = option["type"] == "integer"
         type_ = QgsProcessingParameterNumber.Integer if whole else QgsProcessingParameterNumber.Double
         parameter = QgsProcessingParameterNumber(name, title, type_, default, optional)
-    # Processing keeps six decimals in its boxes and knows no open ranges: an end that is itself out of range, the program refuses.
+    # Processing's boxes have six decimals and no open ranges: the program rejects an excluded bound.
     if low is not None:
         parameter.setMinimum(low)
     if high is not None:
@@ -100,7 +100,7 @@ def _number(option, name, title, optional):
 
 def _file(option, name, title, optional):
     if option.get("role") == "output":
-        # Without a folder to write it to there is nothing to write.
+        # Without a path, the file is not written.
         return QgsProcessingParameterFileDestination(name, title, _filter_of(option), None, True, False)
     kinds = {"vector": QgsProcessing.TypeVector, "raster": QgsProcessing.TypeRaster}
     kind = kinds.get(option.get("role"), QgsProcessing.TypeMapLayer)
@@ -147,7 +147,7 @@ def arguments_of(option, algorithm, parameters, context, path_of_layer, crs):
         values = [line for line in text.splitlines() if line.strip()] if option.get("multiple") else [text]
     if not option.get("multiple") and _is_default(option, values[0]):
         return []
-    # In one word, so that a value that begins with a dash is none of the options.
+    # One word, so that a value that begins with a dash is not taken for an option.
     return [f"{flag}={value}" for value in values]
 
 
@@ -177,7 +177,7 @@ def _crs(algorithm, parameters, name, context):
         return value
     crs = algorithm.parameterAsCrs(parameters, name, context)
     if not crs.isValid():
-        return str(value)  # the program says what is wrong with it
+        return str(value)  # the program reports what is wrong
     return crs.authid() if crs.authid() and not crs.authid().startswith("USER:") else crs.toWkt()
 
 

@@ -102,7 +102,7 @@ class Sources:
     def _features(source):
         if isinstance(source, QgsVectorLayer):
             return source.getFeatures()
-        # What is wrong with a geometry, the program mends and reports.
+        # The program repairs and reports invalid geometries.
         from qgis.core import QgsProcessingFeatureSource
 
         return source.getFeatures(QgsFeatureRequest(), QgsProcessingFeatureSource.FlagSkipGeometryValidityChecks)
@@ -138,5 +138,5 @@ def _own_file(layer):
     data = ogr.Open(path)
     if data is None or data.GetLayerCount() != 1:
         return None
-    # A CRS that was given to the layer in QGIS stands in no file.
+    # A CRS that was assigned to the layer in QGIS is in no file.
     return path if QgsVectorLayer(layer.source(), "", "ogr").crs() == layer.crs() else None

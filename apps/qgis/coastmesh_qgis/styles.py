@@ -71,7 +71,7 @@ def paint_mesh(layer):
             scalar = settings.scalarSettings(group)
             scalar.setColorRampShader(_angle_shader())
             scalar.setClassificationMinimumMaximum(0, LARGEST)
-            # One colour a triangle: an average over neighbours would hide the bad ones. (None is a word of Python's.)
+            # One colour per triangle: averaging over neighbours would hide the bad ones. (None is a keyword of Python.)
             scalar.setDataResamplingMethod(getattr(QgsMeshRendererScalarSettings, "None", 0))
             settings.setScalarSettings(group, scalar)
             settings.setActiveScalarDatasetGroup(group)

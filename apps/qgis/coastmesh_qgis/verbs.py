@@ -20,8 +20,7 @@ VERBS = {
     "convert": Verb("Convert a mesh", reads_mesh=True, tags=["export", "grid", "ugrid", "adcirc", "gmsh", "2dm"]),
 }
 
-# How the program is run is the provider's affair
-# (which layer and which of its features, QGIS knows already).
+# Options that the provider sets, and options that QGIS covers itself: layers and filters of features.
 NEVER_SHOWN = ("--output", "--overwrite", "--progress", "--quiet", "--assume-crs", "--layer", "--where", "--shard",
                "--skip-existing", "--checkpoint", "--per-feature", "--name-field")
 
