@@ -6,7 +6,7 @@
 
 namespace coastmesh {
 
-// Whether a number is 0 or in the range of coordinates and distances, so that nothing overflows later.
+// True if a number is 0 or in the range of coordinates and distances, so that nothing overflows later.
 inline bool isComputable(double value) {
   return value == 0.0 || (std::abs(value) >= kLeastDistance && std::abs(value) <= kLargestCoordinate);
 }

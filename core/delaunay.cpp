@@ -68,7 +68,7 @@ void insertSegments(const Pslg& pslg, DelaunayBuilder& builder) {
   }
 }
 
-// Nearest neighbours are joined in a Delaunay triangulation.
+// Edges suffice, since a Delaunay triangulation joins nearest neighbours.
 void checkDistances(const Pslg& pslg, const DelaunayBuilder& builder) {
   for (TriId t = 0; t < builder.triangles().size(); ++t) {
     if (builder.isGhost(t)) continue;
@@ -83,7 +83,7 @@ void checkDistances(const Pslg& pslg, const DelaunayBuilder& builder) {
 
 constexpr RegionId kUnvisited = kUnlabelled;
 
-// Decides for every triangle which region it belongs to, by flooding from what is known up to the segments.
+// Assigns a region to every triangle: floods from labels, holes and the outside, up to the segments.
 class Carver {
  public:
   Carver(const Pslg& pslg, const DelaunayBuilder& builder)
@@ -126,7 +126,7 @@ class Carver {
     }
   }
 
-  // The label that edge i gives to triangle t is not the one that it has: looks for a segment that gave it this one.
+  // Reports that edge i labels triangle t differently from its region; searches for a segment that gave it that region.
   [[noreturn]] void refuseLabel(TriId t, unsigned i) {
     const SegmentId here = triangles_[t].seg[i];
     const RegionId given = region_[t];
@@ -151,7 +151,7 @@ class Carver {
            "two segments label the same place differently", other);
   }
 
-  // What the segment on edge i says of triangle t.
+  // The label that the segment on edge i gives to triangle t.
   RegionId labelOn(TriId t, unsigned i) const {
     const Segment& segment = pslg_.segments[triangles_[t].seg[i]];
     return triangles_[t].v[next3(i)] == segment.a ? segment.left : segment.right;
@@ -180,7 +180,8 @@ class Carver {
   std::vector<TriId> stack_;
 };
 
-// The new numbers of the triangles that are kept, along Hilbert's curve by their last corner; kNone for the others.
+// The new numbers of the triangles that are kept, ordered by their last corner along Hilbert's curve; kNone for the
+// others.
 std::vector<TriId> numberAlongCurve(const DelaunayBuilder& builder, const std::vector<RegionId>& region, TriId& count) {
   const std::span<const Triangle> triangles = builder.triangles();
   std::vector<std::uint32_t> place(builder.alongCurve().size());

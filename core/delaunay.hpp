@@ -9,7 +9,7 @@
 
 namespace coastmesh {
 
-// What makes a PSLG unusable, and where.
+// A defect that makes a PSLG unusable.
 struct PslgDefect {
   enum class Kind {
     NotFinite,   // of a point or a hole

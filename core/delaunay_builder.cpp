@@ -17,8 +17,8 @@ namespace coastmesh {
 
 namespace {
 
-// The round in which a point goes in, by its number: each round has four times the points of the one before it (Amenta,
-// Choi, Rote, "Incremental constructions con BRIO", 2003; we differ: a hash in place of chance).
+// The number of rounds after that of a point. Each round has four times the points of the previous one (Amenta, Choi,
+// Rote, "Incremental constructions con BRIO", 2003; we differ: a hash replaces chance).
 std::uint32_t roundsLeft(VertexId v) {
   std::uint32_t h = v * 0x9E3779B1u;
   h = (h ^ h >> 15) * 0x85EBCA77u;
@@ -46,7 +46,7 @@ DelaunayBuilder::DelaunayBuilder(std::span<const Point> points, const Surface& s
   for (std::size_t i = 3; i < order.size(); ++i) insertPoint(order[i]);
 }
 
-// The first triangle, of the first three points that are not on a line; they move to the front.
+// Makes the first triangle, of the first three points not on a line; they move to the front. False if there are none.
 bool DelaunayBuilder::startWith(std::vector<VertexId>& order) {
   if (order.size() < 2) return false;
   const Point &p = points_[order[0]], &q = points_[order[1]];
@@ -79,8 +79,7 @@ TriId DelaunayBuilder::makeTriangle(VertexId a, VertexId b, VertexId c) {
   return t;
 }
 
-// A triangle that is to go where x comes in: its circle holds x; of a ghost, the half-plane beyond its edge, or the
-// edge itself.
+// True if inserting x removes the triangle: its circumcircle contains x. For a ghost: x is beyond its edge or on it.
 bool DelaunayBuilder::isInConflict(TriId t, const Point& x) const {
   const auto& v = mesh_.triangles[t].v;
   if (!isGhost(t)) return inCircle(points_[v[0]], points_[v[1]], points_[v[2]], x) > 0;
@@ -90,7 +89,7 @@ bool DelaunayBuilder::isInConflict(TriId t, const Point& x) const {
   return side > 0 || (side == 0 && dot(a - x, b - x) < 0.0);
 }
 
-// Without segments in the way the walk ends; with them it might go round in circles.
+// Without segments the walk always ends; with them it may cycle: kNone after too many steps.
 TriId DelaunayBuilder::walkTo(const Point& x, TriId from) const {
   TriId t = from;
   if (isGhost(t)) t = triOf(mesh_.triangles[t].adj[mesh_.cornerOf(t, ghost_)]);
@@ -125,7 +124,7 @@ TriId DelaunayBuilder::locate(const Point& x, TriId near) const {
   return ghost;
 }
 
-// Bowyer and Watson: the triangles in conflict make room for a fan.
+// Bowyer-Watson: a fan around the point replaces the triangles in conflict.
 void DelaunayBuilder::insertPoint(VertexId v) {
   const Point x = points_[v];
   const TriId start = walkTo(x, static_cast<TriId>(mesh_.triangles.size() - 1));
@@ -146,7 +145,7 @@ void DelaunayBuilder::insertPoint(VertexId v) {
       cavity_edges_.push_back({mesh_.origin(e), mesh_.target(e), beyond});
     }
   }
-  // Two more triangles than before. The last one made is where the next point starts to look.
+  // The fan has two triangles more than the cavity. The next walk starts at the last one made.
   TriId last = kNone, first = kNone;
   for (std::size_t i = 0; i < cavity_edges_.size(); ++i) {
     const CavityEdge& r = cavity_edges_[i];
@@ -170,7 +169,7 @@ void DelaunayBuilder::insertPoint(VertexId v) {
   triangle_of_[v] = last;
 }
 
-// The edge from a to b; kNone where there is none.
+// The edge from a to b; kNone if there is none.
 EdgeRef DelaunayBuilder::findEdge(VertexId a, VertexId b) const {
   const TriId home = triangle_of_[a];
   TriId t = home;
@@ -182,8 +181,8 @@ EdgeRef DelaunayBuilder::findEdge(VertexId a, VertexId b) const {
   return kNone;
 }
 
-// The triangles between a and b into cavity_, and what is beside them into sides_. No segment may be in the way, and no
-// vertex.
+// Collects the triangles between a and b in cavity_ and the edges beside them in sides_. Throws Clash if a segment or a
+// vertex is in the way.
 void DelaunayBuilder::openChannel(VertexId a, VertexId b) {
   const Point from = points_[a], to = points_[b];
   cavity_.clear();
@@ -195,7 +194,7 @@ void DelaunayBuilder::openChannel(VertexId a, VertexId b) {
     sides_[side].corners.push_back(v);
     sides_[side].edges.push_back({inside, mesh_.twin(inside), mesh_.segment(inside), kNoPartner});
   };
-  // The triangle at a that the way leaves through the edge from right to left.
+  // Finds the triangle at a that the segment leaves, through the edge e from right to left.
   EdgeRef e = kNone;
   const TriId home = triangle_of_[a];
   TriId t = home;
@@ -227,7 +226,7 @@ void DelaunayBuilder::openChannel(VertexId a, VertexId b) {
     if (side <= 0) extend(1, v, on_right);
     e = side > 0 ? on_right : on_left;
   }
-  // An edge that ends within has both its sides there.
+  // An edge that dangles into the cavity has both its sides inside.
   std::vector<TriId> inside = cavity_;
   std::ranges::sort(inside);
   for (Side& side : sides_) {
@@ -241,7 +240,7 @@ void DelaunayBuilder::openChannel(VertexId a, VertexId b) {
   filled_ = 0;
 }
 
-// Links an edge of a new triangle with what lies beyond.
+// Links an edge of a new triangle to what is beyond, or leaves that to its partner.
 void DelaunayBuilder::attach(EdgeRef inside, unsigned side, std::size_t edge) {
   std::vector<SideEdge>& edges = sides_[side].edges;
   const SideEdge& beyond = edges[edge];
@@ -253,7 +252,7 @@ void DelaunayBuilder::attach(EdgeRef inside, unsigned side, std::size_t edge) {
   }
 }
 
-// Triangulates what is between a side and the new segment: every corner sees the segment, so Graham's scan does it
+// Triangulates the polygon between a side and the new segment. Every corner sees the segment, so Graham's scan suffices
 // (Toussaint, Avis, "On a convex hull algorithm for polygons and its application to triangulation problems", 1982).
 // Returns the edge along the segment.
 EdgeRef DelaunayBuilder::fillSide(unsigned side) {
@@ -299,7 +298,7 @@ void DelaunayBuilder::insertSegment(VertexId a, VertexId b, SegmentId seg) {
   restoreDelaunay();
 }
 
-// Lawson's flips, from the edges on the stack on.
+// Lawson's flips, starting with the edges on the stack.
 void DelaunayBuilder::restoreDelaunay() {
   flipWaiting(
       points_, mesh_.triangles, stack_,

@@ -16,7 +16,7 @@ namespace coastmesh {
 // points are on one line there is no triangulation.
 class DelaunayBuilder {
  public:
-  // Thrown if a point or a segment meets what it must not touch.
+  // Thrown if a point or segment meets another that it must not touch.
   struct Clash : std::runtime_error {
     enum class Kind { PointsCoincide, PointOnSegment, SegmentsCross, SegmentsCoincide };
     Clash(Kind k, VertexId v, SegmentId s)

@@ -34,7 +34,7 @@ EditMesh::EditMesh(TriMesh&& mesh)
 }
 
 TriMesh EditMesh::release(Renumbering& by, bool along_curve) {
-  // Along Hilbert's curve what lies near in the plane lies near in memory.
+  // Along Hilbert's curve, neighbours in the plane are close in memory.
   std::vector<VertexId> order;
   if (along_curve) {
     order = hilbertOrder(points_);
@@ -55,7 +55,7 @@ TriMesh EditMesh::release(Renumbering& by, bool along_curve) {
   points_.resize(input_vertices_ + steiner.size());
   std::ranges::copy(steiner, points_.begin() + input_vertices_);
 
-  // Triangles follow their last vertex.
+  // Triangles are ordered by their last vertex.
   std::vector<TriId> first(points_.size() + 1, 0);
   for (Triangle& t : triangles) {
     if (t.v[0] == kNone) continue;
@@ -80,13 +80,13 @@ TriMesh EditMesh::release(Renumbering& by, bool along_curve) {
   return mesh;
 }
 
-// Puts every live triangle into its slot, of which there are `count`.
+// Moves every live triangle to its slot; there are `count` slots.
 void EditMesh::moveTriangles(const std::vector<TriId>& slot, std::size_t count) {
   const auto linkedAnew = [&](const Triangle& t) {
     return renumbered(
         t, [&](TriId n) { return slot[n]; }, std::identity());
   };
-  // A copy takes a third of the time; in place takes no memory, which matters where there is much of it.
+  // Copying takes a third of the time; moving in place takes no memory, which matters for large meshes.
   constexpr std::size_t kMostCopied = 2'000'000;
   if (count <= kMostCopied) {
     std::vector<Triangle> in_order(count);
@@ -97,7 +97,7 @@ void EditMesh::moveTriangles(const std::vector<TriId>& slot, std::size_t count) 
   }
   for (TriId t = 0; t < triangles.size(); ++t)
     if (slot[t] != kNone) triangles[t] = linkedAnew(triangles[t]);
-  // What one triangle drives out goes next.
+  // Follows the permutation's cycles: the displaced triangle moves next.
   std::vector<bool> moved(triangles.size(), false);
   for (TriId start = 0; start < triangles.size(); ++start) {
     if (slot[start] == kNone || moved[start]) continue;
@@ -126,7 +126,7 @@ StarKind EditMesh::star(VertexId v, std::vector<EdgeRef>& opposite, std::size_t 
   const TriId home = triangle_of_[v];
   const StarKind kind = walkRound(v, home, most, [&](EdgeRef e) { opposite.push_back(e); });
   if (kind != StarKind::Open) return kind;
-  // The boundary is met: what lies clockwise of the first triangle comes before it.
+  // The walk met the boundary: triangles clockwise of the first one come before it.
   const auto counter_clockwise = static_cast<std::ptrdiff_t>(opposite.size());
   for (EdgeRef before = triangles[home].adj[prev3(cornerOf(home, v))]; before != kNone;) {
     if (opposite.size() == most) return StarKind::TooMany;
@@ -155,7 +155,7 @@ bool EditMesh::gatherPatch(std::span<const VertexId> vertices, Patch& patch) con
     if (walkRound(v, triangle_of_[v], kNone, gather) != StarKind::Closed) return false;
   }
   if (vertices.size() == 1) return true;
-  // An edge between two triangles of the patch is no boundary (three vertices in a ring can have that); chain the rest.
+  // Fails at an edge with patch triangles on both sides, which three vertices in a ring can have; chains the others.
   for (std::size_t i = 0; i < patch.boundary.size(); ++i) {
     if (patch.boundary[i].beyond != kNone &&
         std::ranges::find(patch.triangles, triOf(patch.boundary[i].beyond)) != patch.triangles.end())
@@ -167,7 +167,7 @@ bool EditMesh::gatherPatch(std::span<const VertexId> vertices, Patch& patch) con
     std::iter_swap(patch.boundary.begin() + i + 1, follower);
   }
   if (patch.boundary.empty() || patch.boundary.back().b != patch.boundary.front().a) return false;
-  // Euler's formula: a patch with more triangles holds a vertex that is not among those given.
+  // By Euler's formula, a patch with more triangles contains a vertex that is not among those given.
   if (patch.triangles.size() != patch.boundary.size() + 2 * vertices.size() - 2) return false;
   // A vertex that the loop passes twice pinches the patch.
   for (std::size_t i = 0; i < patch.boundary.size(); ++i)
@@ -203,7 +203,7 @@ EditMesh::Place EditMesh::locate(const Point& x, TriId from) const {
   return {};
 }
 
-// Goes through the triangles beyond the edges on the stack, last one first, so that the boundary comes out in order.
+// Visits the triangles beyond the edges on the stack, depth first, so that the boundary is found in order.
 void EditMesh::collectConflicts(const Point& x, std::span<const EdgeRef> across, Patch& cavity) const {
   stack_.assign(across.rbegin(), across.rend());
   while (!stack_.empty()) {
@@ -233,8 +233,8 @@ bool EditMesh::findCavity(const Point& x, TriId start, Patch& cavity) const {
                              [&](const BoundaryEdge& r) { return orient2d(points_[r.a], points_[r.b], x) > 0; });
 }
 
-// What a point on a subsegment changes on one side of it. Returns false where rounding has put the point so far off a
-// flat triangle that it lies outside its circumcircle: then that triangle alone, and the fan needs flips.
+// Appends one side of the cavity of a point on a subsegment. Returns false if rounding has moved the point outside the
+// circumcircle of a flat triangle: the side is then that triangle alone, and the fan needs flips.
 bool EditMesh::appendSide(EdgeRef side, const Point& x, Patch& cavity) const {
   const TriId t = triOf(side);
   const EdgeRef others[2] = {edgeRef(t, next3(indexOf(side))), edgeRef(t, prev3(indexOf(side)))};
@@ -299,13 +299,13 @@ void EditMesh::noteCorners(TriId t) {
   }
 }
 
-// Before a live triangle gets other corners, or none.
+// To be called before a live triangle gets other corners or none.
 void EditMesh::forgetCorners(TriId t) {
   for (const VertexId v : triangles[t].v) --triangles_round_[v];
 }
 
-// Triangles (x, a, b) over the boundary edges a -> b, linked to what lies beyond and to one another, but not first to
-// last.
+// Makes triangles (x, a, b) on the boundary edges a -> b, linked to the triangles beyond and to one another, but not
+// the first to the last.
 void EditMesh::fillFan(VertexId x, const Patch& cavity, std::vector<TriId>& fan) {
   fan.clear();
   for (const TriId t : cavity.triangles) forgetCorners(t);
@@ -364,7 +364,7 @@ void EditMesh::replace(const Patch& patch, std::span<const Corners> fresh, std::
     noteCorners(slots[i]);
   }
   for (std::size_t i = fresh.size(); i < patch.triangles.size(); ++i) kill(patch.triangles[i]);
-  // An edge finds its other side either on the boundary or among the fresh edges that still wait for theirs.
+  // Each edge finds its other side either on the boundary or among the fresh edges that are still unlinked.
   std::vector<EdgeRef>& waiting = stack_;
   waiting.clear();
   for (const TriId t : slots) {

@@ -181,7 +181,8 @@ class EditMesh : private LinkedTriangles {
 
 namespace detail {
 
-// The point of a chain, other than its ends, whose circle through the ends contains no other. 0 if all are behind.
+// The index of a chain's point whose circle through the ends contains no other; 0 if all are behind the edge between
+// these.
 std::size_t delaunayApex(const EditMesh& mesh, std::span<const VertexId> chain);
 
 // Triangulates a chain that is closed by the edge from its last point to its first.

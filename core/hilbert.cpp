@@ -9,7 +9,7 @@ namespace coastmesh {
 
 namespace {
 
-// How the curve lies in a square: coordinates turned over (both), exchanged, or both.
+// Orientation of the curve in a square: both coordinates mirrored, x and y exchanged, or both.
 struct Pose {
   bool over = false;
   bool exchanged = false;
@@ -17,8 +17,8 @@ struct Pose {
 
 constexpr Pose poseOf(unsigned state) { return {(state & 1u) != 0, (state & 2u) != 0}; }
 
-// Four levels of the curve at once: by pose and four bits of either coordinate, eight bits of the index, and the pose
-// below in the bits above these.
+// Four levels of the curve at once. Key: the pose, four bits of each coordinate. Value: eight bits of the index and,
+// above these, the pose on the next level.
 constexpr std::array<std::uint16_t, 1024> makeSteps() {
   std::array<std::uint16_t, 1024> steps{};
   for (unsigned key = 0; key < steps.size(); ++key) {
@@ -28,7 +28,7 @@ constexpr std::array<std::uint16_t, 1024> makeSteps() {
       const bool x = (key >> 4 & bit) != 0, y = (key & bit) != 0;
       const bool right = (pose.exchanged ? y : x) != pose.over, upper = (pose.exchanged ? x : y) != pose.over;
       index = index << 2 | ((right ? 3u : 0u) ^ (upper ? 1u : 0u));
-      // The lower quadrants hold the curve turned by a quarter.
+      // In the lower quadrants the curve is rotated by a quarter turn.
       if (upper) continue;
       if (right) pose.over = !pose.over;
       pose.exchanged = !pose.exchanged;
@@ -40,7 +40,7 @@ constexpr std::array<std::uint16_t, 1024> makeSteps() {
 
 constexpr std::array<std::uint16_t, 1024> kSteps = makeSteps();
 
-// The numbers of the points by their indices; of the same index the lesser first.
+// The numbers of the points in order of their indices; equal ones by number.
 std::vector<std::uint32_t> sortedByIndex(std::span<const std::uint32_t> indices) {
   std::vector<std::uint64_t> keys(indices.size());
   for (std::size_t i = 0; i < keys.size(); ++i) keys[i] = std::uint64_t{indices[i]} << 32 | i;
@@ -69,7 +69,7 @@ std::vector<std::uint32_t> hilbertIndices(std::span<const Point> points) {
   const auto [lower, upper] = std::ranges::minmax(points, {}, &Point::y);
   const double extent = std::max(right.x - left.x, upper.y - lower.y);
   const double scale = extent > 0.0 ? 65535.0 / extent : 0.0;
-  // Too far apart or too near for doubles: any order will do.
+  // Too far apart or too close for doubles: any order will do.
   if (!std::isfinite(extent) || !std::isfinite(scale)) return indices;
   for (std::size_t i = 0; i < points.size(); ++i)
     indices[i] = hilbertIndex(static_cast<std::uint32_t>((points[i].x - left.x) * scale),
@@ -78,13 +78,13 @@ std::vector<std::uint32_t> hilbertIndices(std::span<const Point> points) {
 }
 
 std::vector<std::uint32_t> hilbertOrder(std::span<const Point> points) {
-  // Counting digits costs thousands of steps however few the points are: a fifth of all that a lake of ten takes.
+  // Radix sort takes thousands of steps even for few points: a fifth of the total time for a lake of ten points.
   constexpr std::size_t kWorthCounting = 512;
   const std::vector<std::uint32_t> indices = hilbertIndices(points);
   if (points.size() < kWorthCounting) return sortedByIndex(indices);
   std::vector<std::uint32_t> order(points.size()), sorted(points.size());
   std::iota(order.begin(), order.end(), 0u);
-  // By their digits, last digit first; each pass keeps what the one before it did.
+  // Radix sort, last digit first; each pass is stable.
   constexpr unsigned kDigitBits = 11;
   for (unsigned shift = 0; shift < 32; shift += kDigitBits) {
     std::array<std::uint32_t, (1u << kDigitBits) + 1> first{};

@@ -6,7 +6,7 @@ namespace coastmesh {
 
 bool mayBeSmall(const TriMesh& mesh, TriId t, unsigned i, const TriangleBound& bound) {
   if (bound.max_angle < std::numbers::pi) return true;
-  constexpr double kHair = 0.01;  // at 45 degrees right angles cannot be divided, however their pieces are rounded
+  constexpr double kHair = 0.01;  // cosine; a bound of 45 degrees cannot divide right angles, rounded or not
   const VertexId v = mesh.triangle(t).v[i];
   const Point along = mesh.point(mesh.triangle(t).v[next3(i)]) - mesh.point(v);
   while (true) {

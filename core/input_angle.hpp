@@ -9,9 +9,8 @@ namespace coastmesh {
 struct Sector {
   double angle = 0.0;      // radians; 2 pi for a vertex without constraints
   unsigned triangles = 0;  // triangles in the sector
-  EdgeRef right =
-      kNone;  // the constrained edge that leaves the vertex, the sector to its left; kNone without constraints
-  EdgeRef left = kNone;  // the constrained edge that enters the vertex, the sector to its left
+  EdgeRef right = kNone;   // the constrained edge that leaves the vertex, the sector to its left; kNone if none
+  EdgeRef left = kNone;    // the constrained edge that enters the vertex, the sector to its left; kNone if none
 };
 
 // The sector that contains corner `i` of triangle `t`. Works on TriMesh and EditMesh.
@@ -55,9 +54,9 @@ Sector sectorAt(const Mesh& mesh, TriId t, unsigned i) {
   return sector;
 }
 
-// Whether the sector that begins at corner `i` of triangle `t`, with a constrained edge to its right, can be too small
-// for the bounds or may need splits on shells. Without a maximum angle only sectors below a right angle can, so that
-// the others need no trigonometry.
+// True if the sector that begins at corner `i` of triangle `t`, with a constrained edge to its right, may be too small
+// for the bounds or may need splits on shells. Without a maximum angle only sectors up to a right angle qualify, so
+// that the others need no trigonometry.
 bool mayBeSmall(const TriMesh& mesh, TriId t, unsigned i, const TriangleBound& bound);
 
 }  // namespace coastmesh

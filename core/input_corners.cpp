@@ -15,20 +15,20 @@ namespace coastmesh {
 
 namespace {
 
-// Edges of a file's mesh that bend less go straight on: what rounding, and the projection into another plane, make of
-// it.
+// In a mesh from a file, edges that bend less (radians) are one straight constraint: rounding and reprojection bend
+// lines.
 constexpr double kStraight = toRadians(0.1);
 
-// No corner is wider: a straight line is not to blame, nor what rounding makes of one.
+// Largest angle of a corner (radians): a straight line, even a rounded one, is no cause.
 constexpr double kLargest = std::numbers::pi - 1e-6;
 
-// A constrained edge, each once.
+// A constrained edge, listed once.
 struct Link {
   VertexId a = kNone, b = kNone;
-  SegmentId segment = kNone;  // kNone where the boundary has none
+  SegmentId segment = kNone;  // kNone if a boundary edge has none
 };
 
-// The constraints of a mesh, and how they hang together.
+// The constrained edges of a mesh and the chains that they form.
 class Constraints {
  public:
   Constraints(const TriMesh& mesh, const ItemLoop& loop) : mesh_(mesh) {
@@ -42,7 +42,7 @@ class Constraints {
         }
       return some;
     }));
-    // What lattices make comes last and has none.
+    // Vertices of lattices come last and have no constraints.
     VertexId end = 0;
     for (const Link& l : links_) end = std::max({end, l.a + 1, l.b + 1});
     reserveOn(loop, first_, std::size_t{end} + 1);
@@ -51,7 +51,7 @@ class Constraints {
       ++first_[l.a];
       ++first_[l.b];
     }
-    // The ends first, from which those of each are put in backwards.
+    // first_ holds ends now; filling backwards turns them into starts.
     for (VertexId v = 0; v < end; ++v) first_[v + 1] += first_[v];
     at_.resize(2 * links_.size());
     for (auto l = static_cast<std::uint32_t>(links_.size()); l-- > 0;)
@@ -75,7 +75,7 @@ class Constraints {
     return angleAt(mesh_.point(v), mesh_.point(across(here[0], v)), mesh_.point(across(here[1], v))) <
            std::numbers::pi - kStraight;
   }
-  // The other end of the constraint that leaves input vertex v by a link.
+  // The other end of the constraint that leaves input vertex v along a link.
   VertexId farEnd(std::uint32_t link, VertexId v) const {
     const VertexId from = v;
     follow(link, v, [](std::uint32_t) {});
@@ -83,7 +83,7 @@ class Constraints {
   }
 
  private:
-  // Goes on from v along a link up to an input vertex, or round to where it began.
+  // Follows links from v to the next input vertex, or around a ring back to the first link.
   template <typename Visit>
   void follow(std::uint32_t link, VertexId& v, const Visit& visit) const {
     const std::uint32_t begin = link;
@@ -105,19 +105,19 @@ class Constraints {
     for (std::uint32_t l = 0; l < links_.size(); ++l)
       for (const VertexId v : {links_[l].a, links_[l].b})
         if (isInput(v)) name(l, v);
-    // Rings without a bend.
+    // Rings without an input vertex.
     for (std::uint32_t l = 0; l < links_.size(); ++l) name(l, links_[l].a);
   }
 
   const TriMesh& mesh_;
   std::vector<Link> links_;
   std::vector<std::uint32_t> first_, at_;  // the links at vertex v: at_[first_[v]] up to at_[first_[v + 1]]
-  std::vector<std::uint32_t> chain_;       // one a link: the constraint that it is a piece of
+  std::vector<std::uint32_t> chain_;       // for each link: the constraint that it is part of
 };
 
-// What a local feature size is measured to.
+// A vertex or constraint to which distances are measured.
 struct Feature {
-  VertexId a = kNone, b = kNone;  // the same where it is a vertex
+  VertexId a = kNone, b = kNone;  // equal for a vertex
   std::uint32_t chain = kNone;
 };
 
@@ -129,7 +129,7 @@ std::vector<Feature> featuresOf(const TriMesh& mesh, const Constraints& constrai
       features.push_back({link.a, link.b, constraints.chainOf(l)});
       continue;
     }
-    // As the input has it, not as its pieces were rounded; once, from its lesser end.
+    // The whole input segment, since its pieces are rounded; once, from its end with the smaller number.
     for (const VertexId v : {link.a, link.b}) {
       if (!constraints.isInput(v)) continue;
       const VertexId end = constraints.farEnd(l, v);
@@ -147,14 +147,14 @@ std::vector<Feature> featuresOf(const TriMesh& mesh, const Constraints& constrai
 }
 
 struct Apex {
-  VertexId vertex, right, left;  // and the next vertices on both sides
+  VertexId vertex, right, left;  // the apex, and the next vertices on both sides
 };
 
-// The sectors that may be corners: which are is for the whole constraints to say, whose pieces are rounded.
+// The sectors that may be corners, by rounded subsegments; the whole constraints decide later.
 std::vector<Apex> smallSectors(const TriMesh& mesh, const TriangleBound& bound, const ItemLoop& loop) {
   constexpr double kRounding = 0.01;
   const double largest = std::min(bound.max_angle, std::numbers::pi - 2.0 * bound.min_angle);
-  // Too large for so many pieces, too small for one more.
+  // True if the angle is too large for n pieces and too small for n + 1.
   const auto mayBeCorner = [&](double angle) {
     for (int pieces = 0; pieces * largest < angle + kRounding; ++pieces)
       if (angle - kRounding < (pieces + 1) * bound.min_angle) return angle < std::numbers::pi + kRounding;
@@ -204,7 +204,7 @@ InputCorners::InputCorners(const TriMesh& mesh, const TriangleBound& bound, cons
   const std::vector<Apex> candidates = smallSectors(mesh, bound, loop);
   if (candidates.empty()) return;
   const Constraints constraints(mesh, loop);
-  // In a file's mesh a chain may be a little bent: there the way out counts.
+  // In a mesh from a file a chain may bend slightly: its direction at the apex counts.
   const auto endOf = [&](VertexId v, VertexId next) {
     if (mesh.input_vertices == 0) return next;
     const auto links = constraints.at(v);
@@ -257,7 +257,8 @@ Excuse InputCorners::excuseOf(const Point& a, const Point& b, const Point& c) co
   const std::array<Point, 3> vertices{a, b, c};
   const auto fills = [&](const InputCorner& corner) {
     if (std::ranges::find(vertices, corner.apex) == vertices.end()) return false;
-    // The way to the middle of the triangle, by differences: far from the origin a centroid is rounded too much.
+    // Three times the vector to the centroid, from differences: far from the origin the centroid itself is rounded too
+    // much.
     const Point way = (a - corner.apex) + (b - corner.apex) + (c - corner.apex);
     return cross(corner.right - corner.apex, way) > 0.0 && cross(way, corner.left - corner.apex) > 0.0;
   };

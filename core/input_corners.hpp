@@ -15,13 +15,13 @@ namespace coastmesh {
 // cannot be divided within the bounds: some triangle at the apex has to miss them.
 struct InputCorner {
   Point apex;
-  Point right, left;  // the other ends of the constraints; the corner is to the left of the direction to `right`
+  Point right, left;  // other ends of the constraints; the corner is to the left of the direction to `right`
   double radius;      // kNearShare of the local feature size at the apex
 };
 
-// How far from the apex a corner excuses triangles other than those that fill it, in local feature sizes. Within one of
-// them there is only what meets at the apex, so nothing else can be the cause. No triangle of the coasts in data/ needs
-// this up to 42 degrees; with fans of tiny angles most that do are within a quarter.
+// Radius around the apex, in local feature sizes, within which a corner excuses triangles that do not fill it. One
+// local feature size contains only what meets at the apex, so nothing else can be the cause. No triangle of the coasts
+// in data/ needs this up to 42 degrees; with fans of tiny angles most that do are within a quarter.
 inline constexpr double kNearShare = 1.0 + 1e-9;  // shells end at exactly that size, up to rounding
 
 // The reason why a triangle may miss the bounds.
@@ -56,7 +56,7 @@ class InputCorners {
   InputCorners() = default;
   // Cheap if there are none.
   InputCorners(const TriMesh& mesh, const TriangleBound& bound, const ItemLoop& loop = inOrder);
-  // From the list that `all` of another returned.
+  // From the list returned by `all` of another instance.
   explicit InputCorners(std::vector<InputCorner>&& corners);
 
   std::span<const InputCorner> all() const { return corners_; }

@@ -7,7 +7,7 @@
 
 namespace coastmesh {
 
-// Calls `work(i)` for every i below `count`, in any order or in parallel: with the threads of the caller.
+// Calls `work(i)` for every i below `count`, in any order, possibly in parallel on the caller's threads.
 using ItemLoop = std::function<void(std::size_t count, const std::function<void(std::size_t)>& work)>;
 
 inline void inOrder(std::size_t count, const std::function<void(std::size_t)>& work) {
@@ -46,8 +46,8 @@ void forEachByStretches(const ItemLoop& loop, std::size_t count, const Work& wor
   });
 }
 
-// Resizes a list to `count` items, its memory touched by all threads: the first write to a page is much more expensive
-// than later ones, and `resize` alone would do all of them on one thread. Reserves room for `spare` more items, whose
+// Reserves memory for `count` items and touches it with all threads: the first write to a page is much more expensive
+// than later ones, and a later `resize` would do all of them on one thread. Reserves room for `spare` more items, whose
 // memory is not touched and so costs nothing until used.
 template <typename Item>
 void reserveOn(const ItemLoop& loop, std::vector<Item>& items, std::size_t count, std::size_t spare = 0) {
@@ -87,7 +87,7 @@ std::vector<Item> joined(std::vector<std::vector<Item>>&& lists) {
   return all;
 }
 
-// Sorts items of which equal ones are the same: ranges of them first, then merges those in pairs.
+// Sorts items, of which equal ones must be identical: ranges of them first, then merges those in pairs.
 template <typename Item>
 void sortOn(const ItemLoop& loop, std::vector<Item>& items) {
   constexpr std::size_t kRanges = 64, kWorthRanges = 1 << 15;

@@ -10,7 +10,7 @@ namespace coastmesh {
 
 namespace {
 
-// The region that every triangle is in, where segments name no other; kUnlabelled where they name several.
+// The region of all triangles if segments name at most one (0 if none); kUnlabelled if they name several.
 RegionId onlyRegion(const Pslg& pslg) {
   RegionId only = kUnlabelled;
   for (const Segment& s : pslg.segments) {
@@ -36,7 +36,8 @@ void labelRegions(TriMesh& mesh, const Pslg& pslg, const ItemLoop& loop) {
       const SegmentId s = mesh.triangles[t].seg[i];
       if (s >= pslg.segments.size()) continue;  // none, or frozen
       const Segment& segment = pslg.segments[s];
-      // Pieces of a segment run with it or against it: decided by its longer side alone, since products underflow.
+      // Subsegments run along their segment or against it, decided by the longer difference alone, since products
+      // underflow.
       const Point &a = pslg.points[segment.a], &b = pslg.points[segment.b];
       const Point &from = mesh.points[mesh.origin(edgeRef(t, i))], &to = mesh.points[mesh.target(edgeRef(t, i))];
       const bool by_x = std::abs(b.x - a.x) >= std::abs(b.y - a.y);

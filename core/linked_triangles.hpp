@@ -16,7 +16,7 @@ namespace coastmesh {
 //           edge 2
 using EdgeRef = std::uint32_t;
 
-// So many vertices a mesh may have: there are twice as many triangles, and four EdgeRefs for each.
+// Most vertices of a mesh: it has twice as many triangles, with four EdgeRefs each.
 inline constexpr std::uint64_t kMostVertices = kNone / 16;
 
 constexpr EdgeRef edgeRef(TriId t, unsigned i) { return 4 * t + i; }
@@ -25,7 +25,7 @@ constexpr unsigned indexOf(EdgeRef e) { return e & 3u; }
 constexpr unsigned next3(unsigned i) { return i == 2 ? 0 : i + 1; }
 constexpr unsigned prev3(unsigned i) { return i == 0 ? 2 : i - 1; }
 
-// Replaces a segment: a boundary edge of a patch that must not change while the patch is worked on.
+// Stands for a segment on a boundary edge of a patch that must not change while the patch is worked on.
 inline constexpr SegmentId kFrozen = kNone - 1;
 
 struct Triangle {
@@ -34,7 +34,7 @@ struct Triangle {
   std::array<SegmentId, 3> seg{kNone, kNone, kNone};  // the input segment that contains edge i
 };
 
-// Triangles that know their neighbours. Only core/links.hpp changes the links.
+// Triangles with links to their neighbours. Only core/links.hpp changes the links.
 struct LinkedTriangles {
   std::vector<Triangle> triangles;
 

@@ -19,14 +19,14 @@ inline void setTwins(std::span<Triangle> triangles, EdgeRef e, EdgeRef f) {
   other.adj[indexOf(f)] = e;
 }
 
-// Makes an edge, on both its sides, part of a segment, or of none.
+// Makes both sides of an edge part of segment `seg`, or of none (kNone).
 inline void setSegment(std::span<Triangle> triangles, EdgeRef e, SegmentId seg) {
   Triangle& own = triangles[triOf(e)];
   own.seg[indexOf(e)] = seg;
   if (const EdgeRef f = own.adj[indexOf(e)]; f != kNone) triangles[triOf(f)].seg[indexOf(f)] = seg;
 }
 
-// Both at once; `f` is kNone if `e` is on the boundary of the mesh.
+// Sets twins and segment at once; `f` is kNone if `e` is on the boundary of the mesh.
 inline void link(std::span<Triangle> triangles, EdgeRef e, EdgeRef f, SegmentId seg) {
   assert(e != kNone);
   if (f == kNone) {
@@ -41,9 +41,8 @@ inline void link(std::span<Triangle> triangles, EdgeRef e, EdgeRef f, SegmentId 
 // A new triangle, with edges still to be linked.
 inline Triangle unlinked(const std::array<VertexId, 3>& corners) { return {.v = corners}; }
 
-// A copy of a triangle with renumbered triangles and vertices. `triangle(t)` is the new number of a neighbour, or
-// kNone if it is not included: that edge is then on the boundary, with `bare` in place of its segment unless that is
-// kNone.
+// A copy of a triangle with renumbered triangles and vertices. `triangle(t)` is the new number of a neighbour, or kNone
+// if it is not included: that edge is then on the boundary, with `bare` in place of its segment unless that is kNone.
 template <typename NewTriangle, typename NewVertex>
 Triangle renumbered(const Triangle& from, const NewTriangle& triangle, const NewVertex& vertex,
                     SegmentId bare = kNone) {

@@ -18,20 +18,20 @@ double areaOn(const Surface& surface, const Point& a, const Point& b, const Poin
 
 namespace {
 
-// Whether a triangle is more than half of the sphere: its corners lie on the far rim of it, as near to one another as
-// they may be. The plane shows none but long edges of one.
+// True if a triangle covers more than half of the sphere. Its chords may be as short as those of a good triangle, but
+// in the plane one of its edges is long: others need no test.
 bool goesRound(const Point& a, const Point& b, const Point& c, double wa, double wb, double wc,
                const Surface& surface) {
   const double longest = std::max({squaredDistance(b, c), squaredDistance(c, a), squaredDistance(a, b)});
   if (64.0 * surface.curvature * longest < 1.0) return false;
-  // From the sphere's middle, heights in radii and the rest in plane units.
+  // Relative to the sphere's centre: heights in radii, the rest in plane units.
   const double ha = 2.0 * wa - 1.0, hb = 2.0 * wb - 1.0, hc = 2.0 * wc - 1.0;
   return ha * wb * wc * cross(b, c) + hb * wc * wa * cross(c, a) + hc * wa * wb * cross(a, b) <= 0.0;
 }
 
 }  // namespace
 
-// By the law of cosines: lengths of chords are known to rounding, however short they are.
+// By the law of cosines, since the lengths of chords are accurate to rounding, however short they are.
 bool isBadOnSphere(const Point& a, const Point& b, const Point& c, const TriangleBound& bound) {
   const Surface& surface = bound.surface;
   const double wa = surface.shrinkAt(a), wb = surface.shrinkAt(b), wc = surface.shrinkAt(c);
@@ -40,8 +40,7 @@ bool isBadOnSphere(const Point& a, const Point& b, const Point& c, const Triangl
   if (goesRound(a, b, c, wa, wb, wc, surface)) return true;
   const double longest = std::max({la, lb, lc}), shortest = std::min({la, lb, lc});
   const double slack = surface.margin * std::sqrt(longest);
-  const double twice_at_least =
-      la + lb + lc - 2.0 * shortest;  // two sides and the cosine between them, where it is least
+  const double twice_at_least = la + lb + lc - 2.0 * shortest;  // 2 b c cos A at the smallest angle A
   const double twice_at_most = la + lb + lc - 2.0 * longest;
   const double product_at_least = la * lb * lc / shortest, product_at_most = la * lb * lc / longest;
   if (bound.min_angle > 0.0) {

@@ -22,7 +22,7 @@ inline double cross(const Point& a, const Point& b) { return a.x * b.y - a.y * b
 inline double squaredLength(const Point& a) { return dot(a, a); }
 inline double squaredDistance(const Point& a, const Point& b) { return squaredLength(b - a); }
 inline double distance(const Point& a, const Point& b) { return std::sqrt(squaredDistance(a, b)); }
-// From the nearer end: the foot of the perpendicular is rounded to the resolution of coordinates, differences are not.
+// Measured from the nearer end: the foot of the perpendicular would be rounded to the resolution of coordinates.
 inline double squaredDistanceToSegment(const Point& p, const Point& a, const Point& b) {
   const Point ab = b - a, ap = p - a, bp = p - b;
   const double from_a = dot(ap, ab), from_b = -dot(bp, ab);
@@ -74,7 +74,7 @@ struct AngleBound {
 
   static constexpr double kMarginDeg = 1e-6;
 
-  // Whether an input angle (radians) can be divided into angles within the bounds.
+  // True if an input angle (radians) can be divided into angles within the bounds.
   bool canDivide(double angle) const {
     const double largest = std::min(max_angle, std::numbers::pi - 2.0 * min_angle);
     const double pieces = std::max(1.0, std::ceil(angle / largest - 1e-9));
@@ -119,8 +119,8 @@ struct TriangleShape {
   }
 };
 
-// Whether cot(smallest angle) exceeds the bound, without square roots, divisions and branches. The smallest angle has
-// the largest scalar product of its sides, and twice the area is the vector product at every corner.
+// True if cot(smallest angle) exceeds the bound. Uses no square roots, divisions or branches: the smallest angle has
+// the largest scalar product of its sides, and the cross product, twice the area, is the same at every corner.
 inline bool isSmallestAngleBelow(const Point& a, const Point& b, const Point& c, double cot_min) {
   const Point ab = b - a, bc = c - b, ca = a - c;
   const double at_a = -dot(ab, ca), at_b = -dot(ab, bc), at_c = -dot(bc, ca);
@@ -129,7 +129,7 @@ inline bool isSmallestAngleBelow(const Point& a, const Point& b, const Point& c,
   return most > cot_min * std::abs(cross(ab, ca));
 }
 
-// Whether cos(largest angle) is below the bound. Uses the product of the two edges at that corner, since squared
+// True if cos(largest angle) is below the bound. Uses the product of the two edges at that corner, since squared
 // lengths cancel in needle-shaped triangles.
 inline bool isLargestAngleAbove(const Point& a, const Point& b, const Point& c, double cos_max) {
   const Point ab = b - a, bc = c - b, ca = a - c;
@@ -145,13 +145,14 @@ inline bool isLongerThanWanted(const Point& a, const Point& b, const Point& c, d
   return squared_longest > longest * longest;
 }
 
-// On a sphere measured in the frame at p: to second order if the segment is near, and always less than half a sphere.
+// On a sphere, measured in the frame at p, where the segment is taken as straight: correct to second order if it is
+// near. It is always less than half a sphere away.
 double distanceToSegment(const Surface& surface, const Point& p, const Point& a, const Point& b);
 
 // Area of the flat triangle between points of the surface; never negative on a sphere, signed in the plane.
 double areaOn(const Surface& surface, const Point& a, const Point& b, const Point& c);
 
-// Whether the longest edge of a triangle, given squared, exceeds the bounds.
+// True if the longest edge of a triangle, given squared, exceeds the bounds.
 inline bool isTooLong(const Point& a, const Point& b, const Point& c, double squared_longest,
                       const TriangleBound& bound) {
   if (squared_longest > bound.squared_size) return true;
@@ -161,7 +162,7 @@ inline bool isTooLong(const Point& a, const Point& b, const Point& c, double squ
 // `isBad` on a sphere, for the flat triangle between the points there.
 bool isBadOnSphere(const Point& a, const Point& b, const Point& c, const TriangleBound& bound);
 
-// Whether a triangle misses the bounds.
+// True if a triangle misses the bounds.
 inline bool isBad(const Point& a, const Point& b, const Point& c, const TriangleBound& bound) {
   if (bound.surface.isCurved()) return isBadOnSphere(a, b, c, bound);
   if (bound.min_angle > 0.0 && isSmallestAngleBelow(a, b, c, bound.cot_min)) return true;

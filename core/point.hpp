@@ -2,8 +2,8 @@
 
 namespace coastmesh {
 
-// A point in a plane: the plane that is meshed, or that of a CRS with eastings or longitudes as x, as in its files.
-// Longitudes and latitudes on an ellipsoid are a LonLat: see gis/crs/lon_lat.hpp.
+// A point in a plane: the meshed plane, or that of a CRS, whose x is the easting or longitude, as in files. Longitude
+// and latitude on an ellipsoid are a LonLat: see gis/crs/lon_lat.hpp.
 struct Point {
   double x = 0.0;
   double y = 0.0;

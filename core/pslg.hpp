@@ -35,9 +35,8 @@ inline bool isInRange(const Point& p) {
 struct Pslg {
   std::vector<Point> points;
   std::vector<Segment> segments;
-  // The domain is what segments label as a region (>= 0). If no segment is labelled, it is what the segments
-  // enclose, without every face that contains one of `holes`; if there are no segments, it is the convex hull of the
-  // points.
+  // The domain is what segments label as a region (>= 0). If no segment is labelled, it is what the segments enclose,
+  // without every face that contains one of `holes`; if there are no segments, it is the convex hull of the points.
   std::vector<Point> holes;
 };
 

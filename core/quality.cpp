@@ -26,8 +26,8 @@ double leastAngleDeg(const Point& a, const Point& b, const Point& c) {
 
 namespace {
 
-// Products of sides, of which the smallest is at the largest angle. Never the negative zero that corners at one place
-// have: its angle would be 180° at every corner.
+// Scalar products of the sides at each corner, the smallest at the largest angle. 0.0 minus the product is never the
+// negative zero that would make angles at coincident corners 180°.
 std::array<double, 3> cornerProducts(const SpacePoint& ab, const SpacePoint& bc, const SpacePoint& ca) {
   return {0.0 - dot(ab, ca), 0.0 - dot(ab, bc), 0.0 - dot(bc, ca)};
 }
@@ -54,7 +54,7 @@ double leastSpaceAngleDeg(const SpacePoint& a, const SpacePoint& b, const SpaceP
 
 std::array<double, 3> surfaceAnglesDeg(const Point& a, const Point& b, const Point& c, const Surface& surface) {
   if (!surface.isCurved()) return anglesDeg(a, b, c);
-  // From the place where the sphere touches the plane.
+  // Relative to the point where the sphere touches the plane.
   const auto onSphere = [&surface](const Point& p) {
     const double shrink = surface.shrinkAt(p);
     return SpacePoint{shrink * p.x, shrink * p.y, -shrink * squaredLength(p) / (2.0 * surface.radius())};
@@ -78,7 +78,7 @@ void MeshQuality::add(const MeshQuality& other) {
 
 namespace {
 
-// What is measured of a triangle, but for its angles.
+// Measures of a triangle other than its angles.
 struct TriangleMeasure {
   double area;
   std::array<double, 3> lengths;
@@ -99,7 +99,7 @@ std::size_t classOf(double angle_deg) {
   return std::min(static_cast<std::size_t>(angle_deg / kClassDeg), kClasses - 1);
 }
 
-// The classes of angles without arc tangents, where rounding cannot tell.
+// Finds classes of angles without arc tangents, unless rounding could change them.
 class FastClasses {
  public:
   FastClasses() {
@@ -114,11 +114,12 @@ class FastClasses {
     }
   }
 
-  // Falls as the angle grows, from 1 at 0° to -1 at 180°; of twice the area, above 0, and the product of the sides.
+  // Decreases with the angle, from 1 at 0° to -1 at 180°. Arguments: twice the area, above 0, and the scalar product of
+  // the sides.
   static double slopeOf(double doubled, double product) { return product / (doubled + std::abs(product)); }
 
-  // kClasses where the angle is too near to the end of a class. Less would be wrong now and then, more would be slow:
-  // rows of equal triangles have angles of 60° but for rounding.
+  // Returns kClasses if the angle is too near to the end of a class. A smaller margin would sometimes be wrong, a
+  // larger one slow: rows of equal triangles have angles of 60° up to rounding.
   std::size_t classOf(double slope) const {
     constexpr double kRounding = 1e-14;
     std::size_t k = first_[static_cast<std::size_t>((1.0 - slope) * kPlacesOfOne)];
@@ -128,20 +129,20 @@ class FastClasses {
 
  private:
   static constexpr double kPlacesOfOne = 128.0;
-  static constexpr std::size_t kPlaces = 257;  // no class is narrower than one
+  static constexpr std::size_t kPlaces = 257;  // no class is narrower than one place
 
   std::array<double, kClasses + 1> ends_{};
-  std::array<std::uint8_t, kPlaces> first_{};  // the class in which each begins
+  std::array<std::uint8_t, kPlaces> first_{};  // the class at the start of each place
 };
 
 const FastClasses kFastClasses;
 
-// Angles of some triangles, added up.
+// Accumulates the angles of triangles.
 class AngleTally {
  public:
   explicit AngleTally(MeshQuality& quality) : quality_(quality) {}
 
-  // Whether that was enough: most triangles are within what was seen before, and clear of the ends of classes.
+  // Returns false, and adds nothing, if an angle may be outside the range seen so far or near the end of a class.
   bool addFast(const Point& a, const Point& b, const Point& c) {
     const Point ab = b - a, bc = c - b, ca = a - c;
     const double doubled = cross(ab, bc);
@@ -172,7 +173,7 @@ class AngleTally {
 
  private:
   MeshQuality& quality_;
-  double steepest_ = -2.0, flattest_ = 2.0;  // slopes that change neither the least nor the largest angle lie between
+  double steepest_ = -2.0, flattest_ = 2.0;  // slopes between them change neither extreme angle
 };
 
 }  // namespace

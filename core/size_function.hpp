@@ -7,17 +7,15 @@
 
 namespace coastmesh {
 
-// The requested edge length at each place: the sizing interface of the core. Lengths are on the surface that the
-// plane represents. Implementations have no state that reading changes: any number of threads may read at the same
-// time.
+// The requested edge length at each place: the sizing interface of the core. Lengths are on the surface that the plane
+// represents. Reading changes no state, so any number of threads may read concurrently.
 class SizeFunction {
  public:
   virtual ~SizeFunction() = default;
 
   // The requested length at x: finite, above 0, for every finite x.
   virtual double at(const Point& x) const = 0;
-  // Sets `sizes[i]` to the length at `places[i]`; may be faster if consecutive places are close to each
-  // other.
+  // Sets `sizes[i]` to the length at `places[i]`; may be faster if consecutive places are close to each other.
   virtual void sample(std::span<const Point> places, std::span<double> sizes) const {
     for (std::size_t i = 0; i < places.size(); ++i) sizes[i] = at(places[i]);
   }

@@ -11,8 +11,8 @@ namespace coastmesh {
 // those of the sphere: of chords, and of the flat triangles between them.
 struct Surface {
   double curvature = 0.0;  // 1 / (2 R)² of a sphere with the radius R, in plane units; 0: the plane
-  // If the sphere approximates another surface, an ellipsoid: the possible difference of an angle there, in radians per
-  // unit of the triangle's longest edge.
+  // If the sphere approximates another surface, an ellipsoid: the largest difference between an angle here and there,
+  // in radians per unit of the triangle's longest edge.
   double margin = 0.0;
 
   static Surface sphere(double radius, double margin = 0.0) { return {0.25 / (radius * radius), margin}; }
@@ -38,10 +38,10 @@ class Frame {
   Frame(const Surface& surface, const Point& centre) : centre_(centre), curvature_(surface.curvature) {}
 
   bool isCurved() const { return curvature_ > 0.0; }
-  // On a sphere relative to the centre, in a plane unchanged.
+  // Relative to the centre on a sphere, unchanged in a plane.
   Point to(const Point& z) const { return isCurved() ? turned(z) : z; }
   Point from(const Point& w) const { return isCurved() ? turnedBack(w) : w; }
-  // On both relative to the centre.
+  // Relative to the centre on both.
   Point relative(const Point& z) const { return isCurved() ? turned(z) : Point{z.x - centre_.x, z.y - centre_.y}; }
   Point absolute(const Point& w) const { return isCurved() ? turnedBack(w) : Point{w.x + centre_.x, w.y + centre_.y}; }
   // The scale factor at a place of the frame: length on the surface over length in the frame.

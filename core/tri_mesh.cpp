@@ -34,7 +34,7 @@ TriMesh linkTriangles(std::vector<Point> points, std::span<const std::array<Vert
     }
   }
 
-  // The one edge that can be the other side; kNone where there is none, or several.
+  // The only candidate for the other side of each edge; kNone if there is none, or several.
   const auto from = [&](VertexId v) { return std::span(leaving).subspan(first[v], first[v + 1] - first[v]); };
   std::vector<std::array<EdgeRef, 3>> twins(corners.size(), {kNone, kNone, kNone});
   for (TriId t = 0; t < corners.size(); ++t) {
@@ -55,7 +55,7 @@ TriMesh linkTriangles(std::vector<Point> points, std::span<const std::array<Vert
       }
     }
   }
-  // Where one side of an edge was refused, the other is on the boundary too.
+  // If one side of an edge was rejected, the other is on the boundary too.
   for (TriId t = 0; t < corners.size(); ++t) {
     for (unsigned i = 0; i < 3; ++i) {
       const EdgeRef e = edgeRef(t, i), twin = twins[t][i];
@@ -81,14 +81,14 @@ namespace {
 
 EdgeRef nextInTriangle(EdgeRef e) { return edgeRef(triOf(e), next3(indexOf(e))); }
 
-// The boundary edge that follows `e` with the same fan of triangles between them.
+// The boundary edge that follows `e` around the same fan of triangles.
 EdgeRef nextOnBoundary(const TriMesh& mesh, EdgeRef e) {
   EdgeRef f = nextInTriangle(e);
   while (mesh.twin(f) != kNone) f = nextInTriangle(mesh.twin(f));
   return f;
 }
 
-// For every edge of the boundary, ascending, the place in the list of the one that follows it.
+// For each edge of `boundary`, which is ascending, the index there of the edge that follows it.
 std::vector<std::uint32_t> followersOf(const TriMesh& mesh, std::span<const EdgeRef> boundary, const ItemLoop& loop) {
   constexpr std::uint32_t kSeveral = kNone - 1;
   std::vector<std::uint32_t> leaving;
@@ -141,7 +141,7 @@ std::vector<std::vector<VertexId>> boundaryLoops(const TriMesh& mesh, const Item
 std::vector<std::uint8_t> usedVertices(const TriMesh& mesh, const ItemLoop& loop) {
   std::vector<std::uint8_t> used(mesh.points.size(), 0);
   forEachByStretches(loop, mesh.triangles.size(), [&](std::size_t t) {
-    // Several stretches may say the same of a vertex at the same time.
+    // Several threads may set the flag of a vertex at the same time.
     for (const VertexId v : mesh.triangles[t].v) __atomic_store_n(&used[v], std::uint8_t{1}, __ATOMIC_RELAXED);
   });
   return used;

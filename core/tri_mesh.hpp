@@ -12,8 +12,7 @@
 #include "core/point.hpp"
 
 namespace coastmesh {
-// A compact triangle mesh: every triangle is valid; points may be unused if the input has points outside the
-// domain.
+// A compact triangle mesh: every triangle is valid; points may be unused if the input has points outside the domain.
 struct TriMesh : LinkedTriangles {
   // The first `input_vertices` points are the PSLG's, in its order, bit for bit; Steiner points follow.
   std::vector<Point> points;
@@ -34,8 +33,7 @@ struct EdgeConflict {
 TriMesh linkTriangles(std::vector<Point> points, std::span<const std::array<VertexId, 3>> corners,
                       std::vector<EdgeConflict>& conflicts);
 
-// For each vertex one edge that starts there; a boundary edge if there is one. kNone for an unused
-// vertex.
+// For each vertex one edge that starts there; a boundary edge if there is one. kNone for an unused vertex.
 std::vector<EdgeRef> outgoingEdges(const TriMesh& mesh);
 
 // The boundary as closed loops of vertices with the mesh to the left: outer loops counter-clockwise, holes clockwise.

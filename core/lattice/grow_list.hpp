@@ -8,8 +8,8 @@
 
 namespace coastmesh {
 
-// Makes room for `count` items, and for `spare` more whose memory is not touched. Where the list has to move, the new
-// memory is touched by all threads first: `reserve` would touch it while it copies, in one thread.
+// Makes room for `count` items, and for `spare` more whose memory is not touched. If the list has to move, all threads
+// touch the new memory first; `reserve` would touch it on one thread, while copying.
 template <typename Item>
 void growOn(const ItemLoop& loop, std::vector<Item>& items, std::size_t count, std::size_t spare = 0) {
   if (count <= items.capacity()) return;

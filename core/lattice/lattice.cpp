@@ -15,26 +15,25 @@ namespace coastmesh {
 namespace {
 
 constexpr double kRowHeight = 0.86602540378443865;  // of an equilateral triangle with edges of length 1
-// Places keep this share of the spacing from segments and points of the input: what refinement makes there has better
-// shapes than what fits between the input and a lattice. Under a longest edge it has more triangles too, hence the
-// second.
+// Minimum distance of places to segments and points of the input, in spacings: refinement makes better shapes there
+// than fit between the input and a lattice. Under a longest edge it also makes more triangles, hence the second.
 constexpr double kClearanceOfLengths = 2.0, kClearanceUnderABound = 1.0;
 // A longest edge is a bound, which rounding must not break.
 constexpr double kBelowTheBound = 1.0 - 1e-6;
-// Lengths down to this share of the longest of them share a lattice.
+// Lengths down to this share of the longest one share a lattice.
 constexpr double kSameLength = 0.87;
-// Where lengths differ from place to place they are looked at in about so many places first.
+// If lengths vary, they are sampled first at about this many places.
 constexpr double kProbes = 16384.0;
-// Places that are looked at, over the vertices that there will be.
+// Most lattice places to examine, as a multiple of the expected vertices.
 constexpr double kMostLooks = 2.0;
-// A lattice of fewer places is not worth its boundary to the rest.
+// A lattice of fewer places is not worth its boundary with the rest of the mesh.
 constexpr double kFewestPlaces = 100.0;
-// Rows and columns: domains that are longer are slivers with next to no place inside.
+// Most rows or columns: longer domains are slivers with hardly a place inside.
 constexpr double kMostRows = 1e7;
 
-// The spacing under a longest edge, as a share of it. Where that is 1, no vertex of a lattice can move: beside the
-// shore each point put in asks for another, on and on, unless the halves of equilateral triangles will do. Found by
-// trial on the Great Lakes: the fewest triangles, but for what takes long to mend.
+// The spacing under a longest edge, as a share of it. At 1 no lattice vertex can move: beside the shore each inserted
+// point requires another, without end, unless halves of equilateral triangles meet the bounds. Found by trial on the
+// Great Lakes: the fewest triangles without long repairs.
 double shareOfLongest(const LatticeWishes& wishes) {
   constexpr double kOfHalves = 30.0, kEasy = 36.0, kHard = 38.0, kObtuse = 120.0;
   if (wishes.min_angle_deg > kHard || wishes.max_angle_deg < kObtuse) return 0.87;
@@ -82,18 +81,18 @@ struct Grid {
         rows(static_cast<std::int64_t>((box.most.y - box.least.y) / (kRowHeight * spacing)) + 1) {}
 
   double yOf(std::int64_t b) const { return lattice.at(0, b).y; }
-  // The first row at y or above, within those that there are.
+  // The first row at y or above, at most `rows`.
   std::int64_t rowFrom(double y) const {
     const double row = std::ceil((y - lattice.origin.y) / (kRowHeight * lattice.spacing));
     return static_cast<std::int64_t>(std::clamp(row, 0.0, static_cast<double>(rows)));
   }
-  // The first place of row b at x or beyond.
+  // The first place of row b at or beyond x.
   std::int64_t placeFrom(double x, std::int64_t b) const {
     return static_cast<std::int64_t>(std::ceil((x - lattice.at(0, b).x) / lattice.spacing));
   }
 };
 
-// Something of row b between two places along x; or at x alone.
+// A range along x in a row; for a crossing both ends are the same.
 struct Span {
   std::int64_t row;
   double from, to;
@@ -112,7 +111,7 @@ std::vector<std::vector<Span>> byRow(std::vector<std::vector<Span>>&& lists, std
   return of_row;
 }
 
-// The places between the first and the second, the third and the fourth boundary that a row meets.
+// The places inside the domain: in each row between crossings one and two, three and four ... of the boundary.
 LatticeRows insideOf(const TriMesh& mesh, const Grid& grid, const ItemLoop& loop) {
   auto crossings = overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
     std::vector<Span> some;
@@ -145,7 +144,7 @@ LatticeRows insideOf(const TriMesh& mesh, const Grid& grid, const ItemLoop& loop
   });
 }
 
-// What lies nearer than r to the segment from p to q, along the row at y.
+// The range along the row at y within r of the segment from p to q; nullopt if empty.
 std::optional<std::array<double, 2>> nearAlong(double y, const Point& p, const Point& q, double r) {
   std::array<double, 2> range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   const auto widen = [&](double x) { range = {std::min(range[0], x), std::max(range[1], x)}; };
@@ -169,7 +168,7 @@ std::optional<std::array<double, 2>> nearAlong(double y, const Point& p, const P
   return range;
 }
 
-// The places nearer to a segment, or to a point that is on none, than the clearance.
+// The places closer than the clearance to a segment, or to a point on no segment.
 LatticeRows nearInput(const TriMesh& mesh, const Grid& grid, double clearance, const ItemLoop& loop) {
   const double r = clearance * grid.lattice.spacing;
   const auto isConstrained = [&](EdgeRef e) { return mesh.segment(e) != kNone || mesh.twin(e) == kNone; };
@@ -207,7 +206,7 @@ LatticeRows nearInput(const TriMesh& mesh, const Grid& grid, double clearance, c
   });
 }
 
-// Those of some places for which `holds(point)`.
+// The places for which `holds(point)` is true.
 template <typename Holds>
 LatticeRows where(const LatticeRows& places, const Lattice& lattice, const ItemLoop& loop, const Holds& holds) {
   return eachRow(places, loop, [&](std::int64_t b) {
@@ -226,12 +225,12 @@ LatticeRows where(const LatticeRows& places, const Lattice& lattice, const ItemL
   });
 }
 
-// The lengths from `least` to `most` get a lattice of this spacing.
+// A range of lengths, which get a lattice of this spacing.
 struct Length {
   double spacing, least, most;
 };
 
-// The lengths wanted in much of the domain, the longest first.
+// The lengths requested in large parts of the domain, the longest first.
 std::vector<Length> wantedLengths(const TriMesh& mesh, const Box& box, double area, const SizeFunction& size,
                                   const ItemLoop& loop) {
   if (size.least() == size.most()) return {{size.most(), size.least(), size.most()}};
@@ -243,7 +242,7 @@ std::vector<Length> wantedLengths(const TriMesh& mesh, const Box& box, double ar
   for (const LatticePlace& p : placesIn(probes)) lengths.push_back(size.at(grid.lattice.at(p.a, p.b)));
   std::ranges::sort(lengths, std::greater());
   const double cell = kRowHeight * grid.lattice.spacing * grid.lattice.spacing;
-  double vertices = 0.0;  // that there will be
+  double vertices = 0.0;  // expected
   for (const double h : lengths) vertices += cell / (kRowHeight * h * h);
 
   std::vector<Length> wanted;
@@ -253,7 +252,7 @@ std::vector<Length> wantedLengths(const TriMesh& mesh, const Box& box, double ar
     while (last < lengths.size() && lengths[last] >= least) ++last;
     const double spacing = lengths[first + (last - first) / 2];
     if (static_cast<double>(last - first) * cell < kFewestPlaces * kRowHeight * spacing * spacing) continue;
-    // Every place of the lattice is looked at, wherever this length is wanted.
+    // All places of the lattice are examined, not only those where this length is requested.
     looked_at += area / (kRowHeight * spacing * spacing);
     if (looked_at > kMostLooks * vertices) break;
     wanted.push_back({spacing, least, lengths[first]});
@@ -261,7 +260,7 @@ std::vector<Length> wantedLengths(const TriMesh& mesh, const Box& box, double ar
   return wanted;
 }
 
-// A place and its neighbours.
+// The places and their neighbours.
 LatticeRows dilated(const LatticeRows& set, const ItemLoop& loop) {
   return eachRow(set, loop, [&](std::int64_t b) {
     Intervals all;

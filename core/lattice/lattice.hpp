@@ -42,8 +42,8 @@ struct LatticeWishes {
 
 // Where the requested length is constant over many triangles, equilateral triangles of that length are the best and the
 // fewest. Returns the points of such lattices within the domain of a mesh made by `constrainedDelaunay`, clear of its
-// segments and points: one lattice for each length. None if neither a maximum edge length nor lengths are given, or if
-// there would be more points than allowed. The same for any number of threads. Cost: proportional to the expected
+// segments and points: one lattice for each length. None if neither a maximum edge length nor lengths are given. Omits
+// lattices that would exceed `most_places`. The same for any number of threads. Cost: proportional to the expected
 // vertices.
 std::vector<LatticePlaces> layLattices(const TriMesh& mesh, const LatticeWishes& wishes,
                                        const ItemLoop& loop = inOrder);

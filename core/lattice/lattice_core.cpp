@@ -13,7 +13,7 @@ namespace coastmesh {
 
 namespace {
 
-// Rows of the lattice that stay in the mesh round a core: what is done beside the shore spreads so far.
+// Rows of the lattice that stay in the mesh around a core: changes beside the shore spread this far.
 constexpr int kRowsKept = 4;
 
 bool holds(const LatticeRows& set, std::int64_t a, std::int64_t b) {
@@ -22,7 +22,7 @@ bool holds(const LatticeRows& set, std::int64_t a, std::int64_t b) {
   return next != row.begin() && a < std::prev(next)->last;
 }
 
-// What is left of some places that far inside, as corners of triangles.
+// The core of a lattice: triangles that far inside, and their corners.
 LatticeCore coreOf(const LatticePlaces& places, const ItemLoop& loop) {
   LatticeRows inner = places.places;
   for (int i = 0; i < kRowsKept; ++i) inner = eroded(inner, loop);
@@ -51,8 +51,8 @@ LatticeCore coreOf(const LatticePlaces& places, const ItemLoop& loop) {
   return core;
 }
 
-// The triangle of the core to the upper right, above, to the upper left ... of a place, between its neighbours k and
-// k + 1.
+// True if the core has the triangle between a place and its neighbours k and k + 1: to the upper right, above, to the
+// upper left ...
 bool hasTriangle(const LatticeCore& core, const LatticePlace& p, unsigned k) {
   switch (k) {
     case 0:
@@ -70,7 +70,7 @@ bool hasTriangle(const LatticeCore& core, const LatticePlace& p, unsigned k) {
   }
 }
 
-// An edge of the boundary of a core, which lies to its left.
+// True if an edge is on the boundary of a core to its left.
 bool isCoreEdge(const LatticeCore& core, const LatticePlace& from, const LatticePlace& to) {
   constexpr std::array<std::array<int, 2>, 6> kNeighbours{{{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}}};
   for (unsigned k = 0; k < 6; ++k)
@@ -79,7 +79,7 @@ bool isCoreEdge(const LatticeCore& core, const LatticePlace& from, const Lattice
   return false;
 }
 
-// Takes the triangles of the cores out of a triangulation of the rest: what their boundaries enclose.
+// Removes the triangles that the boundaries of cores enclose from a triangulation.
 class CoreCarver {
  public:
   CoreCarver(const TriMesh& mesh, VertexId first, const std::vector<LatticeCore>& cores) : mesh_(mesh), first_(first) {
@@ -144,7 +144,7 @@ class CoreCarver {
   std::vector<const LatticeCore*> core_of_;
 };
 
-// The numbers of a row's places in ascending order; asked for in ascending order.
+// Numbers the places of a row in ascending order. REQUIRES: calls of `at` in ascending order.
 class RowNumbers {
  public:
   RowNumbers(std::span<const Interval> row, std::uint32_t first) : row_(row), next_(first) {}
@@ -163,7 +163,7 @@ class RowNumbers {
   std::size_t i_ = 0;
 };
 
-// Where the numbers of each row begin, and after the last row where they end; the same for a row before the first.
+// The first number of each row and, after the last row, the end. Rows before the first have its first number.
 struct RowStarts {
   std::int64_t first_row = 0;
   std::vector<std::uint32_t> start;
@@ -183,7 +183,7 @@ RowStarts startsOf(const LatticeRows& like, std::uint32_t first, const CountOf& 
   return starts;
 }
 
-// A frozen edge of the mesh round the cores, by the vertices that it leads from and to.
+// A frozen edge of the mesh around the cores, and the vertices that it joins.
 struct FrozenEdge {
   VertexId from, to;
   EdgeRef edge;
@@ -361,7 +361,7 @@ void insertCores(TriMesh& mesh, VertexId pslg_vertices, const std::vector<Lattic
   }
   auto vertex = static_cast<VertexId>(mesh.points.size());
   auto triangle = static_cast<TriId>(mesh.triangles.size());
-  // With some to spare for repairs: to move the whole of a large mesh takes more memory and time than they do.
+  // Reserves room for repairs: moving a whole large mesh takes more memory and time than they do.
   constexpr std::size_t kSpareShare = 64;
   growOn(loop, mesh.points, vertices, vertices / kSpareShare);
   growOn(loop, mesh.triangles, triangles, triangles / kSpareShare);

@@ -54,7 +54,7 @@ LatticeRows eachRow(const LatticeRows& like, const ItemLoop& loop, const Make& m
   return made;
 }
 
-// The points whose six neighbours are all in the set.
+// The points of the set whose six neighbours are all in it too.
 LatticeRows eroded(const LatticeRows& set, const ItemLoop& loop);
 
 }  // namespace coastmesh

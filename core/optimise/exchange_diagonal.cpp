@@ -12,10 +12,10 @@ namespace coastmesh {
 
 namespace {
 
-// Turns of the four corners; further ones move them by less than a hundredth of an edge.
+// Passes over the four corners; further ones move them by less than a hundredth of an edge.
 constexpr int kTurns = 6;
 constexpr std::uint32_t kMoved = 4;
-// What follows makes good more than this.
+// Largest ratio of costs after and before; later moves gain more.
 constexpr double kMostCost = 1.1;
 
 }  // namespace
@@ -46,7 +46,7 @@ double DiagonalExchange::costBefore() const {
   return sum;
 }
 
-// Infinite where a bound is broken.
+// Infinite if a bound is violated.
 double DiagonalExchange::costAfter() const {
   double sum = 0.0;
   for (std::size_t i = 0; i < fresh_.size(); ++i) {
@@ -58,7 +58,7 @@ double DiagonalExchange::costAfter() const {
   return sum;
 }
 
-// Moves each of the four to the weighted mean of the centroids round it, in turns.
+// Moves each of the four in turn to the weighted mean of the centroids around it.
 void DiagonalExchange::relax() {
   for (int turn = 0; turn < kTurns; ++turn) {
     for (std::uint32_t moved = 0; moved < kMoved; ++moved) {

@@ -10,9 +10,8 @@
 
 namespace coastmesh {
 
-// Exchanges the diagonal of two triangles although the present one is Delaunay: it also moves the four
-// corners to where the new one is. This removes two pairs of vertices with five and seven neighbours at
-// once.
+// Exchanges the diagonal of two triangles although the present one is Delaunay: also moves the four corners so that the
+// new one is. This removes two pairs of vertices with five and seven neighbours at once.
 class DiagonalExchange {
  public:
   // `wanted`: the requested length at each vertex. All arguments must outlive this.

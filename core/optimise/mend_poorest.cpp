@@ -12,30 +12,29 @@ namespace coastmesh {
 
 namespace {
 
-// That triangles are poor counts this many times what they fall short of the shape asked, besides what any triangle
-// costs. A patch is taken where it gains so much.
+// Weight, in a patch's cost, of the shortfall of shapes below kPoorShape. A patch is used if its cost falls by
+// kLeastGain.
 constexpr double kPoorWeight = 5.0, kLeastGain = 0.02;
-// A patch holds what touches the triangle, and what touches that; in it every vertex gets so many turns.
+// Layers of touching triangles in a patch, and sweeps over its vertices.
 constexpr unsigned kRings = 2;
 constexpr int kTurns = 3, kTurnsForGoals = 5;
-// A vertex is not taken out where more triangles meet than these, or its edges are shorter in the mean than this share
-// of the length wanted; none comes to an edge of a triangle, or into its middle, with a smaller share of the area
-// wanted, nor onto a subsegment that is no longer than wanted. Of what else was tried about one in
-// a hundred was taken.
+// A vertex is not removed if it has more triangles than this, or edges shorter on average than this share of the
+// requested length. None is inserted at an edge of a triangle, or into its middle, with a smaller share of the
+// requested area, nor onto a subsegment no longer than requested. Of the other attempts about one in a hundred
+// succeeded.
 constexpr std::size_t kMostTriangles = 5;
 constexpr double kLeastRemoved = 0.8, kLeastDivided = 0.8, kLeastDividedInMiddle = 1.1;
-// What costs so much more than it should after the first of them is given up.
+// An attempt is given up if, after the first sweeps, its cost is this far above the best.
 constexpr int kFirstTurns = 1;
 constexpr double kHopeless = 0.25;
-// No edge gets shorter than this share of the length wanted, nor than the shortest of its patch where one is shorter:
-// the shortest one decides on a model's time step.
+// No edge gets shorter than this share of the requested length, or than the shortest edge of its patch if that is
+// shorter: the shortest edge determines a model's time step.
 constexpr double kShort = 0.6;
-// So many patches are tried, as a share of the triangles, and so many more for each that helps, up to the last number:
-// where most of what is poor cannot be helped, the input is finer than what is wanted. From the beginning more where
-// something else than shape is asked for.
+// Patches to try, as a share of the triangles, with more for each success, up to the last share: where most poor
+// triangles cannot be improved, the input is finer than the requested lengths. Goals other than shape start with more.
 constexpr double kFirstPatches = 0.012, kFirstForGoals = 0.03, kMostPatches = 0.05;
 constexpr double kMoreForGain = 2.5;
-// In place of a corner: a vertex comes into the middle, not to where an edge is that of an equilateral triangle.
+// In place of a corner: inserts into the middle, not at an edge's equilateral apex.
 constexpr unsigned kCentre = 3;
 
 }  // namespace
@@ -64,8 +63,8 @@ double Optimiser::shapeOfTriangle(TriId t) const {
   return shapeOf(frame.to(mesh_.point(v[0])), frame.to(mesh_.point(v[1])), frame.to(mesh_.point(v[2])));
 }
 
-// Whether a triangle's shape is poor, or it lacks what the goal asks. Links between two triangles that are not poor are
-// long enough but where the goal is links.
+// True if a triangle's shape is poor or misses the goal. Links between two triangles that are not poor are long enough
+// unless the goal is Links.
 bool Optimiser::isPoor(TriId t) const {
   if (goal_ == QualityGoal::Links || shapeOfTriangle(t) < kPoorShape) return true;
   if (goal_ != QualityGoal::Centred) return false;
@@ -75,7 +74,7 @@ bool Optimiser::isPoor(TriId t) const {
          kEnoughCentred;
 }
 
-// What all triangles cost beyond equilateral ones; infinite where one breaks a bound.
+// The cost of all triangles beyond that of equilateral ones; infinite if one violates a bound.
 double Optimiser::costOfAll() const {
   double sum = 0.0;
   for (TriId t = 0; t < mesh_.triangleSlots(); ++t) {
@@ -93,7 +92,7 @@ double Optimiser::costOfAll() const {
   return sum;
 }
 
-// The least of what the goal asks in all triangles, as `goalAt`.
+// The smallest value of the goal in all triangles, as in `goalAt`.
 double Optimiser::goalOfAll() const {
   double least = 1.0;
   for (TriId t = 0; t < mesh_.triangleSlots(); ++t) {
@@ -124,7 +123,7 @@ void Optimiser::noteAdded(VertexId v) {
   wanted_[v] = wantedAt(v);
 }
 
-// Whether a change of the first triangle of a patch may do any good.
+// True if a change of a patch's first triangle may help.
 bool Optimiser::isWorthTrying(const Trial& trial) {
   constexpr TriId kFirst = 0;
   const Corners& v = mesh_.triangle(kFirst).v;
@@ -150,7 +149,7 @@ bool Optimiser::isWorthTrying(const Trial& trial) {
   return sum > kLeastRemoved * wanted_[u] * static_cast<double>(star_.size());
 }
 
-// Cuts a subsegment of the input in its middle. Returns false where that cannot be.
+// Splits a subsegment of the input in the middle. Returns false if that is impossible.
 bool Optimiser::halveSegment(EdgeRef e) {
   const SegmentId seg = mesh_.segment(e);
   if (seg >= pslg_.segments.size()) return false;
@@ -167,7 +166,7 @@ bool Optimiser::halveSegment(EdgeRef e) {
   return true;
 }
 
-// Does to the first triangle of a patch what is to be tried. Returns false where that cannot be.
+// Applies a trial to a patch's first triangle. Returns false if that is impossible.
 bool Optimiser::change(const Trial& trial) {
   constexpr TriId kFirst = 0;
   touched_.clear();
@@ -199,12 +198,12 @@ bool Optimiser::change(const Trial& trial) {
   return false;
 }
 
-// Whether a frozen edge is in a patch's way: of the mesh, where that is a part of a larger one.
+// True if a patch is next to a frozen edge of the mesh, which is then part of a larger one.
 bool Optimiser::isHeldByFrozen(const Submesh& patch) const {
   return std::ranges::any_of(patch.frozen, [&](EdgeRef e) { return mesh_.segment(e) == kFrozen; });
 }
 
-// Whether the Delaunay property would ask for flips between a patch and what lies round it.
+// True if the Delaunay property requires flips between a solved patch and its surroundings.
 bool Optimiser::wouldFlip(const Submesh& patch, const TriMesh& solved) const {
   for (const Triangle& t : solved.triangles) {
     for (unsigned i = 0; i < 3; ++i) {
@@ -220,8 +219,8 @@ bool Optimiser::wouldFlip(const Submesh& patch, const TriMesh& solved) const {
   return false;
 }
 
-// The shortest edge, as a share of the length wanted there. What is noted at vertices of a shore is less where the
-// shore is finer.
+// The shortest edge, as a share of the requested length there. At the shore that is evaluated anew: wanted_ is smaller
+// where the shore is finer.
 double Optimiser::shortestShare() const {
   double least = std::numeric_limits<double>::infinity();
   const auto look = [&](EdgeRef e) {
@@ -245,7 +244,7 @@ double Optimiser::longestEdge() const {
   return std::sqrt(longest);
 }
 
-// The best of what can be tried in a patch, if any is better than what is there.
+// The best result of the trials in a patch; nullopt if none is better than the patch as it is.
 std::optional<TriMesh> Optimiser::bestOf(const Submesh& patch, Change& by) const {
   constexpr std::array kTrials = {Trial{Change::None},      Trial{Change::Remove, 0},       Trial{Change::Remove, 1},
                                   Trial{Change::Remove, 2}, Trial{Change::Insert, kCentre}, Trial{Change::Insert, 0},
@@ -256,13 +255,13 @@ std::optional<TriMesh> Optimiser::bestOf(const Submesh& patch, Change& by) const
   double least = as_it_is.costOfAll() - kLeastGain;
   if (std::isinf(least)) return best;
   const double held = as_it_is.goalOfAll();
-  // Worked out once anything is to be compared with it.
+  // Computed when first needed.
   double known_shortest = std::numeric_limits<double>::quiet_NaN();
   const auto shortest = [&] {
     if (std::isnan(known_shortest)) known_shortest = std::min(kShort, as_it_is.shortestShare());
     return known_shortest;
   };
-  // Shapes gain from some edges longer than wanted, but nowhere is more wanted than the most.
+  // Shapes gain from some edges longer than requested, but the limit for the largest size applies.
   const double longest = std::max(kLongestShare * size_->most(), as_it_is.longestEdge());
   for (const Trial& trial : kTrials) {
     if (!as_it_is.isWorthTrying(trial)) continue;
@@ -288,14 +287,14 @@ std::optional<TriMesh> Optimiser::bestOf(const Submesh& patch, Change& by) const
   return best;
 }
 
-// Puts a patch in, in place of what is there.
+// Replaces a patch by its solution.
 void Optimiser::takePatch(const Submesh& patch, const TriMesh& solved) {
   std::vector<VertexId> added;
   touched_.clear();
   putBack(mesh_, patch, solved, added, touched_);
   const auto isOnShore = [&](VertexId v) { return mesh_.kind(v) != VertexKind::Free; };
   for (const VertexId v : added) noteAdded(v);
-  // What shores have now, and after it what lies beside them.
+  // Lengths on shores follow their edges, which have changed.
   for (const TriId t : touched_)
     for (const VertexId v : mesh_.triangle(t).v)
       if (isOnShore(v)) wanted_[v] = wantedAt(v);
@@ -304,7 +303,7 @@ void Optimiser::takePatch(const Submesh& patch, const TriMesh& solved) {
   wake();
 }
 
-// Returns whether the mesh is another.
+// Returns whether the mesh has changed.
 bool Optimiser::mendPlace(TriId t, unsigned rings, BestOfPatch best_of) {
   const Submesh patch = extractAround(mesh_, {}, {&t, 1}, rings, patch_numbers_);
   if (isHeldByFrozen(patch)) {
@@ -321,8 +320,8 @@ bool Optimiser::mendPlace(TriId t, unsigned rings, BestOfPatch best_of) {
   return true;
 }
 
-// Tries, where triangles are still poor, what moving their vertices one by one cannot do: several move in a patch, one
-// is taken out, or one comes in. The poorest first.
+// Improves triangles that are still poor, the poorest first, by what single moves cannot do: moving several vertices of
+// a patch, removing one, or inserting one.
 void Optimiser::mendPoorest(const RunControl& control, double share) {
   std::deque<PoorTriangle> poor;
   const auto add = [&](TriId t) {

@@ -12,17 +12,17 @@ namespace coastmesh {
 
 namespace {
 
-// Patches grow from pass to pass: most edges are helped in small ones, at less cost.
+// Layers of triangles around an edge in each pass: small patches repair most edges at less cost.
 constexpr std::array kRings = {2U, 3U, 2U, 4U};
-// In a patch every vertex gets so many turns without bounds on angles, and so many with them. Up to so many vertices
-// are added where triangles miss the bounds still.
+// Sweeps over a patch without bounds on angles, and with them. Most vertices to add where triangles still miss the
+// bounds.
 constexpr int kTurns = 5, kTurnsWithin = 2, kMostAdded = 6;
-// What edges fall short by, as a share of the least length, counts this many times as much as triangles cost; a patch
-// is taken where it gains so much of it.
+// Weight of the shortness of edges, in shares of the least length, against the cost of triangles. A patch is used if it
+// gains kLeastGain of shortness.
 constexpr double kShortWeight = 10.0, kLeastGain = 0.01;
-// What edges fall short of this share of the least length counts so many times more.
+// Shortness below this share of the least length has this additional weight.
 constexpr double kFarTooShort = 0.8, kSevere = 10.0;
-// So many patches are tried in a pass for each edge that is too short, and as a share of the triangles.
+// Most patches in a pass: for each short edge, and as a share of the triangles.
 constexpr double kMostForEdge = 3.0, kMostPatches = 0.1;
 
 }  // namespace
@@ -31,7 +31,7 @@ double Optimiser::lengthOf(EdgeRef e) const {
   return bound_.surface.chord(mesh_.point(mesh_.origin(e)), mesh_.point(mesh_.target(e)));
 }
 
-// Whether an edge is shorter than the least length and may become another: not where the input has it so.
+// True if an edge is shorter than the least length, unless the input requires it.
 bool Optimiser::isShort(EdgeRef e) const {
   const auto isGiven = [&](VertexId v) { return mesh_.kind(v) == VertexKind::Input; };
   if (mesh_.isConstrained(e) && isGiven(mesh_.origin(e)) && isGiven(mesh_.target(e))) return false;
@@ -53,7 +53,7 @@ Optimiser::Shortness Optimiser::shortness() const {
   return all;
 }
 
-// Takes out of a patch what lies at edges that are too short. Returns false where nothing does.
+// Removes the ends of short edges, except input vertices, from a patch. Returns whether any was removed.
 bool Optimiser::takeOutShort() {
   std::vector<VertexId> out;
   for (TriId t = 0; t < mesh_.triangleSlots(); ++t) {
@@ -71,7 +71,7 @@ bool Optimiser::takeOutShort() {
   return any;
 }
 
-// Moves the vertices of a patch: for costs alone first, since a way to good triangles may lead past bad ones.
+// Moves the vertices of a patch: by cost alone first, since the way to good triangles may lead past bad ones.
 void Optimiser::settle() {
   const auto turn = [this](int times) {
     std::ranges::fill(active_, 1);
@@ -89,8 +89,8 @@ void Optimiser::settle() {
   turn(kTurnsWithin);
 }
 
-// Adds a vertex in the middle of the longest edge of the poorest triangle of a patch that misses the bounds. Returns
-// false where there is none, or its edge lies on the patch's boundary.
+// Inserts a vertex in the middle of the longest edge of the poorest triangle of a patch that misses the bounds. Returns
+// false if there is none, or its edge is frozen.
 bool Optimiser::divideWorst() {
   double least = std::numeric_limits<double>::infinity();
   TriId worst = kNone;
@@ -117,8 +117,8 @@ bool Optimiser::divideWorst() {
   return true;
 }
 
-// The best of a patch with its vertices moved, one or all of those at short edges taken out, and others put in where
-// that is what bounds take.
+// The best result of moving a patch's vertices, removing one or all at short edges, and inserting others where bounds
+// require it; nullopt if none is better.
 std::optional<TriMesh> Optimiser::bestWithoutShort(const Submesh& patch, Change& by) const {
   constexpr std::array kTrials = {Trial{Change::Remove, 0}, Trial{Change::Remove, 1}, Trial{Change::Remove, 2},
                                   Trial{Change::None}, Trial{Change::RemoveShort}};
@@ -147,7 +147,7 @@ std::optional<TriMesh> Optimiser::bestWithoutShort(const Submesh& patch, Change&
   return best;
 }
 
-// One pass, the shortest edges first, in patches of so many rings. Returns whether any are left.
+// One pass, the shortest edges first, with patches of `rings` layers. Returns whether any may be left.
 bool Optimiser::mendShort(const RunControl& control, double share, unsigned rings) {
   struct ShortEdge {
     double length;
@@ -183,7 +183,7 @@ bool Optimiser::mendShort(const RunControl& control, double share, unsigned ring
   return !queue.empty();
 }
 
-// Tries, where edges are shorter than the least length, what moving and merging vertices one by one cannot do.
+// Repairs edges shorter than the least length that moving and merging single vertices cannot.
 void Optimiser::mendShortEdges(const RunControl& control, double share) {
   for (const unsigned rings : kRings)
     if (!mendShort(control, share, rings)) return;

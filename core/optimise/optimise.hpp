@@ -8,8 +8,8 @@
 
 namespace coastmesh {
 
-// Number of sweeps: if lengths are requested, and if the longest optimisation is requested as well. Vertices at rest
-// are skipped, so that later sweeps cost less.
+// Number of sweeps if lengths are requested, and for the longest optimisation. Vertices at rest are skipped, so that
+// later sweeps cost less.
 inline constexpr int kOptimiseSweeps = 6, kMostOptimiseSweeps = 30;
 
 // Makes triangles as equilateral, numbers of neighbours as close to six and edges as close to the requested lengths as

@@ -10,31 +10,31 @@ namespace coastmesh {
 
 namespace {
 
-// Edges shorter than this share of what is wanted have their ends merged.
+// The ends of edges shorter than this share of the requested length are merged.
 constexpr double kShortest = 0.7;
-// A move that breaks a bound or costs more is tried at half the way, and at a quarter.
+// A move that violates a bound or costs more is tried again at half and a quarter of the distance.
 constexpr int kAttempts = 3;
-// More triangles than that are not looked at round a vertex.
+// Vertices with more triangles are skipped.
 constexpr std::size_t kMostRound = 64;
-// Moves by less than this share of the length wanted are not worth it; by less than the other, no neighbour has to look
-// again.
+// Moves by less than kStill of the requested length are skipped; after moves by less than kStirs the neighbours stay at
+// rest.
 constexpr double kStill = 0.02, kStirs = 0.05;
-// In the first sweeps vertices are tried so much farther than the place they aim at, which their neighbours' moves will
-// shift the same way: successive over-relaxation.
+// In the first sweeps vertices first try to move this much farther than their target, which their neighbours' moves
+// will shift the same way: successive over-relaxation.
 constexpr double kBeyond = 1.5;
 constexpr int kFarSweeps = 4;
-// Vertices rest for so many sweeps before their numbers of neighbours count, and for so many at the end.
+// Sweeps before numbers of neighbours are balanced, and sweeps without that at the end.
 constexpr int kFirstBalance = 1, kSettle = 2;
-// Poor triangles are mended in the second half of the sweeps, as long as they gain so much and their star costs no more
-// than a little more.
+// Poor triangles are improved in the second half of the sweeps, if they gain at least kLeastGain and their star costs
+// at most kMostCost times as much.
 constexpr double kLeastGain = 0.002, kMostCost = 1.005;
 
-// What so many more triangles round a vertex add to the square of its excess.
+// Increase of the square of a vertex's excess if it gets `more` triangles.
 int imbalanceAdded(int excess, int more) { return more * (2 * excess + more); }
 
-// Shapes from which on no angle can break its bound; infinite where lengths are bound too.
+// The shape above which no angle can violate its bound; infinite if lengths are bounded too.
 double clearShapeOf(const TriangleBound& bound) {
-  constexpr double kRounding = 1e-9, kCurved = 1e-3;  // of shapes in the plane, and of those that a frame shows
+  constexpr double kRounding = 1e-9, kCurved = 1e-3;  // errors of shapes in the plane, and in a frame
   if (!std::isinf(bound.squared_size)) return std::numeric_limits<double>::infinity();
   double shape = bestShapeWith(bound.min_angle);
   if (bound.max_angle < std::numbers::pi) shape = std::max(shape, bestShapeWith(bound.max_angle));
@@ -76,11 +76,11 @@ void Optimiser::run(int sweeps, const RunControl& control) {
     mends_poor_ = k >= sweeps / 2;
     if (k == sweeps / 2) wakePoor();
     goes_far_ = k < kFarSweeps;
-    const bool merges = k + 1 < sweeps;  // after a merge the vertices round it have to move
+    const bool merges = k + 1 < sweeps;  // vertices around a merge must still move
     sweep(merges, k >= kFirstBalance && k + kSettle < sweeps, control, shareOf(k), shareOf(k + 1));
   }
   goes_far_ = false;
-  if (size_ == nullptr) return;  // as few vertices as can be is what is wanted
+  if (size_ == nullptr) return;  // the aim is as few vertices as possible
   mendPoorest(control, shareOf(sweeps));
   for (int k = sweeps; k < all; ++k) sweep(false, false, control, shareOf(k), shareOf(k + 1));
   if (options_.least_edge > 0.0) mendShortEdges(control, 1.0);
@@ -103,14 +103,14 @@ void Optimiser::sweep(bool merges, bool balances, const RunControl& control, dou
 
 MeshState Optimiser::releaseState() { return releaseDue(mesh_, std::move(due_), waiting_); }
 
-// The triangles round a free vertex; false where a frozen edge is opposite, or there are too many.
+// Gathers the triangles around a free vertex; false if a frozen edge is opposite, or there are too many.
 bool Optimiser::gatherRing(VertexId v) {
   segment_ = kNone;
   is_open_ = false;
   return mesh_.ring(v, mesh_.triangleOf(v), kMostRound, ring_) == StarKind::Closed && look(v);
 }
 
-// Sees the ring from its vertex. False where a frozen edge is opposite.
+// Sets the frame at v and the ring's corners in it. False if a frozen edge is opposite.
 bool Optimiser::look(VertexId v) {
   frame_ = Frame(bound_.surface, mesh_.point(v));
   if (frame_.isCurved()) {
@@ -121,7 +121,7 @@ bool Optimiser::look(VertexId v) {
   return !is_submesh_ || std::ranges::none_of(ring_.triangles, isFrozen);
 }
 
-// The segment that the edge from the ring's vertex to a corner is of.
+// The segment of the edge from the ring's vertex to corner i.
 SegmentId Optimiser::segmentTo(VertexId v, std::size_t i) const {
   const bool is_last = i == ring_.triangles.size();
   const TriId t = ring_.triangles[is_last ? i - 1 : i];
@@ -129,7 +129,7 @@ SegmentId Optimiser::segmentTo(VertexId v, std::size_t i) const {
   return mesh_.segment(edgeRef(t, is_last ? next3(at) : prev3(at)));
 }
 
-// The same as gatherRing of a vertex inside an input segment; false where it is not.
+// Like gatherRing for a vertex inside an input segment; false if it is not.
 bool Optimiser::gatherOnSegment(VertexId v) {
   const StarKind kind = mesh_.star(v, star_, kMostRound);
   if (kind == StarKind::TooMany) return false;
@@ -153,7 +153,7 @@ bool Optimiser::gatherOnSegment(VertexId v) {
   return ends == 2 && look(v);
 }
 
-// Those of all vertices: what shores have comes first.
+// Sets the requested lengths of all vertices.
 void Optimiser::noteWanted() {
   const auto isOnShore = [&](VertexId v) { return mesh_.kind(v) != VertexKind::Free; };
   for (VertexId v = 0; v < mesh_.vertexSlots(); ++v) {
@@ -162,8 +162,8 @@ void Optimiser::noteWanted() {
   }
 }
 
-// The length wanted at a vertex. On a shore that is finer no more than its edges have; where no size is given the mean
-// of its edges.
+// The requested length at a vertex. On a shore at most the mean of its constrained edges, since the shore may be finer;
+// without sizes the mean of its edges.
 double Optimiser::wantedAt(VertexId v) {
   double wanted = size_ == nullptr ? std::numeric_limits<double>::infinity() : size_->at(mesh_.point(v));
   const bool is_free = mesh_.kind(v) == VertexKind::Free;
@@ -183,8 +183,8 @@ double Optimiser::wantedAt(VertexId v) {
   return count == 0 ? wanted : std::min(wanted, sum / count);
 }
 
-// What the triangles round a vertex cost where it lies at `place` of the frame; infinite where a bound is broken or
-// more than `limit` is due.
+// Cost of the triangles around a vertex if it is at `place` of the frame; infinite if a bound is violated or the cost
+// exceeds `limit`.
 Optimiser::StarCost Optimiser::costRound(const Point& place, double wanted, double limit) const {
   constexpr StarCost kTooMuch{std::numeric_limits<double>::infinity(), 0.0};
   const Point in_plane = frame_.from(place);
@@ -208,8 +208,8 @@ Optimiser::StarCost Optimiser::costRound(const Point& place, double wanted, doub
   return {sum, 2.0 * kRootOfThree / worst};
 }
 
-// The same where it lies now, and the mean of the centroids in the frame, each weighted by how many triangles of the
-// size wanted its own is worth.
+// The same at its present place. `centre` receives the mean of the centroids in the frame, each weighted by its
+// triangle's area over the requested one.
 Optimiser::StarCost Optimiser::costHere(VertexId v, Point& centre) const {
   constexpr double kTooMuch = std::numeric_limits<double>::infinity();
   const Point here = frame_.to(mesh_.point(v));
@@ -235,7 +235,7 @@ Optimiser::StarCost Optimiser::costHere(VertexId v, Point& centre) const {
   return {breaks ? kTooMuch : sum, 2.0 * kRootOfThree / worst};
 }
 
-// The triangle of the poorest shape round a vertex at `place`, by its number in the ring; of equal ones the first.
+// The triangle of the poorest shape if the vertex is at `place`, by its index in the ring; the first of equal ones.
 std::size_t Optimiser::poorestAt(const Point& place) const {
   std::size_t poorest = 0;
   double least = std::numeric_limits<double>::infinity();
@@ -249,8 +249,8 @@ std::size_t Optimiser::poorestAt(const Point& place) const {
   return poorest;
 }
 
-// The least of what the goal asks round a vertex at `place`, over what is enough: 1 where nothing is left to do.
-// REQUIRES: every triangle of the star is counter-clockwise there.
+// The smallest value of the goal around a vertex at `place`, as a share of the required value; at most 1. REQUIRES:
+// every triangle of the star is counter-clockwise there.
 double Optimiser::goalAt(VertexId v, const Point& place) const {
   double least = 1.0;
   for (std::size_t i = 0; i < ring_.triangles.size(); ++i) {
@@ -267,7 +267,7 @@ double Optimiser::goalAt(VertexId v, const Point& place) const {
   return least;
 }
 
-// The best of some places of the frame round a vertex for what the goal asks, where its star costs little more.
+// The best of some places of the frame for the goal, at which the star costs little more; nullopt if none is better.
 std::optional<Point> Optimiser::placeForGoal(VertexId v, double cost) const {
   constexpr int kDirections = 8;
   constexpr double kMostGoalCost = 1.1;
@@ -289,14 +289,14 @@ std::optional<Point> Optimiser::placeForGoal(VertexId v, double cost) const {
   return std::nullopt;
 }
 
-// Whether a star may become one of such a least shape at `place`, with `held` of what the goal asks before. Links
-// beside triangles that are not poor are long enough but where the goal is links.
+// True if a move to `place`, where the star has the measures `then`, keeps the goal, which was at `held`. Links beside
+// triangles that are not poor are long enough unless the goal is Links.
 bool Optimiser::keepsGoal(VertexId v, const Point& place, const StarCost& then, double held) const {
   return !mends_poor_ || (goal_ == QualityGoal::Shape && then.least_shape >= kPoorShape) || goalAt(v, place) >= held;
 }
 
-// Where in the frame the star of a vertex costs less or, later on, its poorest triangle gains and the others lose next
-// to nothing.
+// The place in the frame where a vertex's star costs less or, in later sweeps, its poorest triangle gains at next to no
+// cost; nullopt if there is none.
 std::optional<Point> Optimiser::betterPlace(VertexId v) const {
   const Point here = frame_.to(mesh_.point(v));
   Point to;
@@ -324,8 +324,7 @@ std::optional<Point> Optimiser::betterPlace(VertexId v) const {
   if (!mends_poor_ || now.least_shape >= kPoorShape) return std::nullopt;
   const std::size_t poorest = poorestAt(here);
   const Point &a = seen(poorest), &b = seen(poorest + 1);
-  const Point apex =
-      midpoint(a, b) + 0.5 * kRootOfThree * Point{a.y - b.y, b.x - a.x};  // of the equilateral triangle there
+  const Point apex = midpoint(a, b) + 0.5 * kRootOfThree * Point{a.y - b.y, b.x - a.x};  // equilateral
   double share = 0.4;
   for (int attempt = 0; attempt < kAttempts; ++attempt, share *= 0.5) {
     to = here + share * (apex - here);
@@ -336,10 +335,10 @@ std::optional<Point> Optimiser::betterPlace(VertexId v) const {
   return std::nullopt;
 }
 
-// The same along the segment that the vertex is on, `to` being where it would go if it were free.
+// The same along the vertex's segment; `to` is the target that it would have if it were free.
 std::optional<Point> Optimiser::betterPlaceOnSegment(VertexId v, Point to, const StarCost& now) const {
   const Point here = frame_.to(mesh_.point(v));
-  // On the input segment itself, lest rounding adds up.
+  // On the input segment itself, so that rounding errors do not add up.
   const Point &from = pslg_.points[pslg_.segments[segment_].a], &end = pslg_.points[pslg_.segments[segment_].b];
   const auto onSegment = [&](const Point& place) { return frame_.to(projectedOnLine(frame_.from(place), from, end)); };
   const double cost = now.sum, held = mends_poor_ ? goalAt(v, here) : 1.0, still = kStill * wanted_[v];
@@ -363,7 +362,7 @@ std::optional<Point> Optimiser::betterPlaceOnSegment(VertexId v, Point to, const
   return place;
 }
 
-// Whether the Delaunay property would ask for flips round a vertex at `place`.
+// True if the Delaunay property requires flips around a vertex at `place`.
 bool Optimiser::flipsAt(VertexId v, const Point& place) const {
   for (std::size_t i = 0; i < ring_.triangles.size(); ++i) {
     const TriId t = ring_.triangles[i];
@@ -426,7 +425,7 @@ bool Optimiser::mergeShort(VertexId v) {
   return false;
 }
 
-// How many triangles there are round a vertex beyond six, or on the boundary beyond one for each 60 degrees.
+// The number of triangles around a vertex minus six, or on the boundary minus one for each 60 degrees.
 int Optimiser::excess(VertexId v) {
   int ideal = 6;
   if (mesh_.star(v, star_) == StarKind::Open) {
@@ -438,13 +437,13 @@ int Optimiser::excess(VertexId v) {
   return static_cast<int>(star_.size()) - ideal;
 }
 
-// Those of the ring's corners, in its order.
+// Fills excesses_, in the order of the ring's corners.
 void Optimiser::countExcesses() {
   excesses_.clear();
   for (const VertexId w : ring_.corners) excesses_.push_back(excess(w));
 }
 
-// Mends the numbers of neighbours at a vertex, which ring_ is of.
+// Balances the numbers of neighbours at v, whose ring is ring_.
 void Optimiser::balance(VertexId v) {
   if (ring_.corners.size() < 6)
     mergeTooFew(v);
@@ -452,8 +451,7 @@ void Optimiser::balance(VertexId v) {
     exchangeTooMany(v);
 }
 
-// Merges a vertex with the neighbour that leaves numbers nearest to what they should be, if that is nearer than they
-// are.
+// Merges a vertex with the neighbour that leaves the numbers of neighbours closest to ideal, if that is an improvement.
 void Optimiser::mergeTooFew(VertexId v) {
   const std::vector<VertexId>& corners = ring_.corners;
   const int count = static_cast<int>(corners.size());
@@ -501,14 +499,14 @@ void Optimiser::exchangeTooMany(VertexId v) {
   }
 }
 
-// Poor triangles get another turn: what is done about them begins now.
+// Activates the corners of poor triangles, whose improvement begins now.
 void Optimiser::wakePoor() {
   for (TriId t = 0; t < mesh_.triangleSlots(); ++t)
     if (mesh_.isLive(t) && isPoor(t))
       for (const VertexId v : mesh_.triangle(t).v) active_[v] = 1;
 }
 
-// Everything round what changed gets another turn.
+// Activates the corners of all changed triangles.
 void Optimiser::wake() {
   for (const TriId t : touched_)
     if (mesh_.isLive(t))

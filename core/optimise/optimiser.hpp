@@ -21,19 +21,19 @@ namespace coastmesh {
 // Triangles of a poorer shape than this are repaired one by one.
 inline constexpr double kPoorShape = 0.9;
 
-// One run over a mesh. optimiser.cpp has the operations at a vertex, mend_poorest.cpp what is tried on triangles that
-// are still poor afterwards, mend_short.cpp what is tried where edges are shorter than the least length.
+// One run over a mesh. optimiser.cpp has the operations at a vertex, mend_poorest.cpp those on triangles that are still
+// poor afterwards, mend_short.cpp those on edges shorter than the least length.
 class Optimiser {
   static constexpr double kEnoughCentred = 0.035;  // the cotangent of 88 degrees
 
  public:
   Optimiser(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& options);
-  // For a part of a larger mesh: only the due vertices, and not beside frozen edges.
+  // For a part of a larger mesh: processes only the due vertices, and none beside frozen edges.
   Optimiser(MeshState&& state, const Pslg& pslg, const RefineOptions& options);
   Optimiser(const Optimiser&) = delete;
   Optimiser& operator=(const Optimiser&) = delete;
 
-  // Processes every due vertex in so many sweeps, then the poorest triangles.
+  // Processes every due vertex in `sweeps` sweeps, then the poorest triangles.
   void run(int sweeps, const RunControl& control);
 
   TriMesh release() { return mesh_.release(); }
@@ -52,10 +52,10 @@ class Optimiser {
     double sum;          // sum of their costs
     double least_shape;  // quality of the poorest
   };
-  // What edges fall short of the least length.
+  // By how much edges are shorter than the least length.
   struct Shortness {
     double sum;       // in shares of that length
-    double shortest;  // edge
+    double shortest;  // the shortest edge
   };
   struct PoorTriangle {
     double shape;
@@ -101,7 +101,7 @@ class Optimiser {
   void wake();
 
   void mendPoorest(const RunControl& control, double share);
-  // The best of what can be done in a patch, and how it begins; none where nothing gets better.
+  // Returns the best result for a patch, and the change that it begins with; nullopt if nothing improves it.
   using BestOfPatch = std::optional<TriMesh> (Optimiser::*)(const Submesh&, Change&) const;
   bool mendPlace(TriId t, unsigned rings, BestOfPatch best_of);
   void mendShortEdges(const RunControl& control, double share);
@@ -118,7 +118,7 @@ class Optimiser {
   bool isWorthTrying(const Trial& trial);
   bool change(const Trial& trial);
   bool halveSegment(EdgeRef e);
-  // Pieces of a mesh cannot know what is left of a budget that they share.
+  // Without a vertex limit: pieces of a mesh cannot see how much of a shared one is left.
   bool isFreeToGrow() const { return options_.max_vertices > std::numeric_limits<std::uint64_t>::max() / 2; }
   void noteAdded(VertexId v);
   double costOfAll() const;
@@ -130,8 +130,8 @@ class Optimiser {
   bool isHeldByFrozen(const Submesh& patch) const;
   bool wouldFlip(const Submesh& patch, const TriMesh& solved) const;
 
-  // Whether a triangle with this doubled area and these squared edges in the frame is certainly counter-clockwise and
-  // within the bounds on angles.
+  // True if a triangle with this doubled area and this sum of squared edges in the frame is certainly counter-clockwise
+  // and within the bounds on angles.
   bool isClear(double doubled, double squares) const {
     constexpr double kSmall = 1e-4;  // of the frame: beyond it shapes differ from those on the sphere
     return 2.0 * kRootOfThree * doubled > clear_shape_ * squares && bound_.surface.curvature * squares < kSmall;
@@ -161,7 +161,7 @@ class Optimiser {
   double clear_shape_;   // triangles of a better shape meet the bound
   bool flips_may_harm_;  // flips preserve the smallest angle, but not the largest, nor the longest edge
   bool is_submesh_ = false;
-  bool any_bad_ = false;  // whether a triangle excused by the input, which nothing may change, exists
+  bool any_bad_ = false;  // whether there is a triangle excused by the input, which must not change
   bool mends_poor_ = false;
   bool goes_far_ = false;  // whether over-relaxation is tried
   RefineStats stats_;

@@ -20,7 +20,7 @@ inline double shapeOf(const Point& a, const Point& b, const Point& c) {
 // The weight of sizes in the following cost, and its smallest possible value.
 inline constexpr double kSizeShare = 0.1, kLeastTriangleCost = 1.0 + 2.0 * kSizeShare;
 
-// What a triangle costs, and what that is made of.
+// The cost of a triangle, and its parts.
 struct TriangleCost {
   double cost;
   double flatness;    // Σ edge² over twice the area: 2 √3 for an equilateral triangle
@@ -47,13 +47,13 @@ inline double squaresOf(const Point& a, const Point& b, const Point& c) {
   return squaredDistance(a, b) + squaredDistance(b, c) + squaredDistance(c, a);
 }
 
-// The same; infinite for an inverted triangle.
+// The cost of triangle abc; infinite if it is inverted.
 inline double costOf(const Point& a, const Point& b, const Point& c, double wanted) {
   const double doubled = cross(b - a, c - a);
   return doubled > 0.0 ? costOf(doubled, squaresOf(a, b, c), wanted) : std::numeric_limits<double>::infinity();
 }
 
-// The best shape that a triangle with that angle can have: that of the isosceles one.
+// The best shape of a triangle with that angle, which is isosceles.
 inline double bestShapeWith(double angle) { return kRootOfThree * std::sin(angle) / (2.0 - std::cos(angle)); }
 
 // The cotangent of the angle at p of the counter-clockwise triangle p, a, b.
@@ -72,7 +72,7 @@ inline double linkShareOf(const Point& p, const Point& q, const Point& left, con
   return length / (0.5 * roots);
 }
 
-// Whether that is at least `share`, without square roots; false means unknown. By (√a + √b)² ≤ 2 (a + b).
+// True if that is certainly at least `share`, without square roots; false means unknown. By (√a + √b)² ≤ 2 (a + b).
 inline bool isLinkClearOf(double share, const Point& p, const Point& q, const Point& left, const Point& right) {
   const double at_left = cross(p - left, q - left), at_right = cross(q - right, p - right);
   if (at_left <= 0.0 || at_right <= 0.0) return false;

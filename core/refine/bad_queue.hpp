@@ -11,8 +11,7 @@
 
 namespace coastmesh {
 
-// A queued bad triangle. It stores its corners, so that it is recognised as stale once its slot holds another
-// triangle.
+// A queued bad triangle. It stores its corners, so that it is recognised as stale once its slot holds another triangle.
 struct BadTriangle {
   TriId triangle = kNone;
   Corners corners{};

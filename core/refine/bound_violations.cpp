@@ -19,7 +19,7 @@ std::array<Point, 3> cornersOf(const TriMesh& mesh, TriId t) {
 
 bool isBadInSpace(const SpacePoint& a, const SpacePoint& b, const SpacePoint& c, const AngleBound& bound) {
   if (bound.min_angle <= 0.0 && bound.max_angle >= std::numbers::pi) return false;
-  // Clear of the bounds without an arc tangent, as nearly all are: by twice the area times the cotangents.
+  // Clear of the bounds without an arc tangent, as nearly all triangles are: by twice the area times the cotangents.
   constexpr double kClear = 1.0 - 1e-9;
   const SpacePoint ab = b - a, bc = c - b, ca = a - c;
   const double twice_area = lengthOf(cross(ab, bc));
@@ -31,7 +31,7 @@ bool isBadInSpace(const SpacePoint& a, const SpacePoint& b, const SpacePoint& c,
   return low < toDegrees(bound.min_angle) || high > toDegrees(bound.max_angle);
 }
 
-// Which triangles break a bound; angles are those between `places`, one a point of the mesh, where there are any.
+// Tests triangles against bounds; angles are those between `places`, one for each point of the mesh, if given.
 class BoundTest {
  public:
   BoundTest(const TriMesh& mesh, const TriangleBound& bound, std::span<const SpacePoint> places)
@@ -59,7 +59,7 @@ class BoundTest {
 
   const TriMesh& mesh_;
   const TriangleBound& bound_;
-  TriangleBound angles_, lengths_;  // those alone
+  TriangleBound angles_, lengths_;  // each alone
   std::span<const SpacePoint> places_;
 };
 
@@ -116,7 +116,7 @@ BoundJudgement judgeBounds(const TriMesh& mesh, const TriangleBound& asked, cons
 BoundJudgement judgeFinished(const TriMesh& mesh, double min_angle_deg, double max_angle_deg, double size_max,
                              double slack_deg, const ItemLoop& loop, const Surface& surface,
                              std::span<const SpacePoint> places) {
-  // Corners are those of refinement: one of exactly the bound cannot be divided at slightly more.
+  // Corners as in refinement: its slightly stricter bounds cannot divide an input angle of exactly the bound.
   const double hair = 2.0 * TriangleBound::kMarginDeg + slack_deg;
   TriangleBound asked(std::max(0.0, min_angle_deg - hair), std::min(180.0, max_angle_deg + hair), size_max);
   asked.surface = surface;

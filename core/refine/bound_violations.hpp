@@ -25,8 +25,9 @@ struct BoundJudgement {
   std::vector<BoundViolation> unresolved;  // triangles that miss any bound without excuse, in order
 };
 
-// All triangles that miss `asked`. Angles are those of flat triangles between `places`, one for each point of the mesh,
-// if given, otherwise on the bound's surface, as lengths are. Corners are those of `in_reach`, in the plane.
+// Judges triangles that miss `asked`. Angles are those of flat triangles between `places`, one for each point of the
+// mesh, if given, otherwise on the bound's surface, as lengths are. Corners are those that `in_reach` cannot divide, in
+// the plane.
 BoundJudgement judgeBounds(const TriMesh& mesh, const TriangleBound& asked, const TriangleBound& in_reach,
                            const ItemLoop& loop = inOrder, std::span<const SpacePoint> places = {});
 

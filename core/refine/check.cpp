@@ -60,15 +60,15 @@ void checkTopology(const TriMesh& mesh, const ItemLoop& loop, Defects& defects) 
   });
 }
 
-// As seen from outside of a surface that goes round the origin: the height over the longest edge, above 0 where the
-// corners run counter-clockwise.
+// Height of a triangle over its longest edge, as a share of that, seen from outside of a surface around the origin;
+// above 0 if the corners are counter-clockwise.
 double heightOutside(const SpacePoint& a, const SpacePoint& b, const SpacePoint& c) {
   const SpacePoint ab = b - a, ac = c - a, bc = c - b;
   return dot(a, cross(ab, ac)) / (lengthOf(a) * std::max({dot(ab, ab), dot(ac, ac), dot(bc, bc)}));
 }
 
 void checkOrientation(const TriMesh& mesh, const CheckOptions& options, const ItemLoop& loop, Defects& defects) {
-  // In space rounding turns slivers; in the plane the test is exact.
+  // In space rounding inverts slivers: the exact test in the plane decides.
   constexpr double kSliver = 1e-5;
   findDefects(mesh.triangles.size(), loop, defects, [&](TriId t, Defects& found) {
     const auto& v = mesh.triangles[t].v;
@@ -81,7 +81,7 @@ void checkOrientation(const TriMesh& mesh, const CheckOptions& options, const It
   });
 }
 
-// A vertex has more than one fan where more boundary edges leave it than one, or one fan and others that close.
+// A vertex is pinched if the fan from its outgoing edge does not contain all of its triangles.
 void checkPinches(const TriMesh& mesh, std::vector<MeshDefect>& defects) {
   const std::vector<EdgeRef> out = outgoingEdges(mesh);
   std::vector<std::uint32_t> triangles_at(mesh.points.size(), 0);
@@ -106,7 +106,7 @@ bool isTurnedOver(const TriMesh& mesh, TriId t) {
 }
 
 void checkDelaunay(const TriMesh& mesh, const CheckOptions& options, const ItemLoop& loop, Defects& defects) {
-  // Coordinates that went through a file and a projection are rounded: then cocircular points need room.
+  // Coordinates from a file or a projection are rounded, so that cocircular points need a tolerance.
   const bool exact = mesh.input_vertices != 0;
   constexpr double kRoundingRad = 1e-7;
   findDefects(mesh.triangles.size(), loop, defects, [&](TriId t, Defects& found) {
@@ -147,7 +147,7 @@ std::vector<MeshDefect> checkMesh(const TriMesh& mesh, const Pslg* pslg, const C
   BoundCounts& counts = bounds != nullptr ? *bounds : ignored;
   counts = {};
   checkTopology(mesh, loop, defects);
-  if (!defects.empty()) return defects;  // nothing else can be said of a mesh that does not hold together
+  if (!defects.empty()) return defects;  // the other checks need a consistent mesh
   checkOrientation(mesh, options, loop, defects);
   const std::vector<std::uint8_t> used = usedVertices(mesh, loop);
   checkUnused(mesh, used, defects);

@@ -19,8 +19,8 @@ struct CheckOptions {
   double max_angle_deg = 180.0;  // degrees; 180: no bound
   bool delaunay = true;
   std::span<const SpacePoint> places = {};  // one for each point of the mesh, for angles; empty: the plane's
-  // The mesh covers a whole sphere, and has `places`: the plane shows one or a few triangles from the other side. In
-  // space they are counter-clockwise like all others; their circumcircles are not tested.
+  // The mesh covers a whole sphere, and has `places`: in the plane one or a few triangles are reversed. In space they
+  // are counter-clockwise like all others; their circumcircles are not tested.
   bool closed = false;
   bool pinches = false;              // report pinched vertices, which the core allows where the input has them
   const PslgCover* cover = nullptr;  // of the PSLG, from its first triangulation, for our own meshes; null: computed

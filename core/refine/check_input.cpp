@@ -21,7 +21,7 @@ namespace {
 
 PslgCover coverFromLabels(const Pslg& pslg) {
   PslgCover expected{std::vector<bool>(pslg.points.size(), false), std::vector<bool>(pslg.segments.size(), false)};
-  // Relative to a point of the input, lest large coordinates drown the area.
+  // Relative to a point of the input, so that large coordinates do not swamp the area.
   const Point o = pslg.points.front();
   for (SegmentId s = 0; s < pslg.segments.size(); ++s) {
     const Segment& seg = pslg.segments[s];
@@ -47,7 +47,7 @@ double totalArea(const TriMesh& mesh, const ItemLoop& loop) {
   return std::accumulate(areas.begin(), areas.end(), 0.0);
 }
 
-// Of a mesh without a boundary, which is all of a sphere: all of the input; the plane has no area for it.
+// The cover of a mesh without a boundary, a whole sphere: all of the input. The plane has no area for it.
 PslgCover coverOfAll(const Pslg& pslg) {
   return {std::vector<bool>(pslg.points.size(), true), std::vector<bool>(pslg.segments.size(), true)};
 }
@@ -57,7 +57,7 @@ PslgCover expectedCover(const TriMesh& mesh, const Pslg& pslg) {
   return labelsTellAll(pslg) ? coverFromLabels(pslg) : coverOf(constrainedDelaunay(pslg), pslg);
 }
 
-// How much area points on the boundary may have moved it by, rounded as they are to the last place of a coordinate.
+// The possible error of the area from boundary points, which are rounded to the last place of a coordinate.
 double roundingOfBoundary(const TriMesh& mesh, const ItemLoop& loop) {
   constexpr double kPlaces = 4.0;
   struct BoundaryExtent {
@@ -98,17 +98,17 @@ struct HalfEdge {
   VertexId to;
 };
 
-// The half-edges of all segments, those of a segment together.
+// The half-edges of all segments, grouped by segment.
 struct SegmentEdges {
   std::vector<HalfEdge> halves;
-  std::vector<std::uint32_t> starts;  // one a segment, and the end of the last
+  std::vector<std::uint32_t> starts;  // one for each segment, and the end of the last
 
   std::span<HalfEdge> of(SegmentId s) {
     return std::span(halves).subspan(starts[s], starts[std::size_t{s} + 1] - starts[s]);
   }
 };
 
-// Reports edges that carry the number of no segment.
+// Reports edges with a number that no segment has.
 SegmentEdges edgesBySegment(const TriMesh& mesh, const Pslg& pslg, const ItemLoop& loop,
                             std::vector<MeshDefect>& defects) {
   const std::vector<EdgeRef> constrained =
@@ -141,7 +141,7 @@ SegmentEdges edgesBySegment(const TriMesh& mesh, const Pslg& pslg, const ItemLoo
   return edges;
 }
 
-// The edges are one chain from one end to the other that does not leave the segment, nor turn back, but for rounding.
+// True if the edges form one chain between the segment's ends that, up to rounding, neither leaves it nor turns back.
 bool isChain(const TriMesh& mesh, const Pslg& pslg, const Segment& seg, std::span<HalfEdge> halves) {
   if (halves.size() == 2) {
     const auto [from, to] = halves.front();
@@ -151,7 +151,7 @@ bool isChain(const TriMesh& mesh, const Pslg& pslg, const Segment& seg, std::spa
   const Point &a = pslg.points[seg.a], &b = pslg.points[seg.b];
   const double magnitude = std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y)});
   const double room = 8.0 * std::numeric_limits<double>::epsilon() * magnitude * distance(a, b);
-  // Every edge is met once on the way, and none is left.
+  // Every step uses another edge, until none is left.
   VertexId before = kNone, at = seg.a;
   for (std::size_t left = halves.size() / 2; left > 0; --left) {
     auto [out, end] = std::ranges::equal_range(halves, at, {}, &HalfEdge::from);
@@ -170,7 +170,7 @@ bool areSameBits(const Point& p, const Point& q) {
          std::bit_cast<std::uint64_t>(p.y) == std::bit_cast<std::uint64_t>(q.y);
 }
 
-// Appends the numbers below `count` of which `isMissing` holds as defects at their places.
+// Appends a defect for each number below `count` for which `isMissing` is true, at its place.
 template <typename IsMissing, typename PlaceOf>
 void reportMissing(DefectKind kind, std::size_t count, const ItemLoop& loop, const IsMissing& isMissing,
                    const PlaceOf& placeOf, std::vector<MeshDefect>& defects) {
@@ -227,12 +227,12 @@ void checkAgainstInput(const TriMesh& mesh, std::span<const std::uint8_t> used, 
 
 namespace {
 
-// Marks the edges on the way from one vertex straight to another. Returns false where the edges leave the straight way.
+// Marks the edges on the straight line from one vertex to another. Returns false if they leave it.
 bool markChain(TriMesh& mesh, const std::vector<std::vector<EdgeRef>>& around, VertexId from, VertexId to,
                SegmentId seg) {
   constexpr double kDirectionRounding = 1e-6;
   VertexId at = from;
-  // Every step comes nearer to the end, so no vertex is met twice.
+  // Every step gets closer to the end, so no vertex is visited twice.
   while (at != to) {
     const Point way = mesh.points[to] - mesh.points[at];
     const double left = std::sqrt(squaredLength(way));

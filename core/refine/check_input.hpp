@@ -11,7 +11,7 @@
 
 namespace coastmesh {
 
-// Labels on segments define the domain, but not whether a point without segments is inside it.
+// True if segments are labelled and every point is on one: labels do not define whether other points are inside.
 bool labelsTellAll(const Pslg& pslg);
 
 // The part covered by the first triangulation of a PSLG, which has no other vertices: the domain, if labels do not
@@ -19,7 +19,7 @@ bool labelsTellAll(const Pslg& pslg);
 PslgCover coverOf(const TriMesh& coarse, const Pslg& pslg);
 
 // Compares our own mesh with the PSLG that it was made from: vertices bit for bit, segments as chains of edges, area.
-// `used` is the result of `usedVertices`; `known` is what the domain covers, or null: then it is computed.
+// `used` is the result of `usedVertices`; `known` is the cover of the domain, computed if null.
 void checkAgainstInput(const TriMesh& mesh, std::span<const std::uint8_t> used, const Pslg& pslg,
                        const PslgCover* known, const ItemLoop& loop, std::vector<MeshDefect>& defects);
 

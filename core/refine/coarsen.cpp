@@ -18,7 +18,7 @@ namespace coastmesh {
 
 namespace {
 
-// Vertices that may be superfluous, each waiting once.
+// Vertices that may be superfluous, each queued at most once.
 class Waiting {
  public:
   explicit Waiting(std::size_t vertices) : waits_(vertices, false) {}
@@ -41,7 +41,7 @@ class Waiting {
   std::vector<bool> waits_;
 };
 
-// What is tried with a vertex when it gets its turn.
+// The operations tried on each vertex.
 using Sweep = VertexOps::Tries;
 using Sweeps = std::vector<Sweep>;
 
@@ -50,26 +50,25 @@ constexpr Sweep kMerge{.merges = true}, kMove{.moves = true};
 constexpr Sweep kMergeOrMove{.merges = true, .moves = true}, kRemoveOrMerge{.removes_up_to = kAny, .merges = true};
 constexpr Sweep kAll{.removes_up_to = kAny, .merges = true, .moves = true};
 
-// So many sweeps with all that there is. The last only merges: it removes next to nothing, and moving pays while more
-// sweeps follow.
+// Sweeps with all operations. The last only merges: removals achieve next to nothing there, and moves pay off only if
+// more sweeps follow.
 Sweeps thorough(int sweeps) {
   Sweeps all(static_cast<std::size_t>(sweeps), kAll);
   all.back() = kMerge;
   return all;
 }
 
-// What takes most out of large meshes of large angles for the time. Vertices with more than three triangles hardly ever
-// go: of 6,100 that did at 40°, 150 had more than five, and 4,900 were on segments.
+// Removes the most from large meshes with large angles for the time. Vertices with more than three triangles are hardly
+// ever removed: of 6,100 that were at 40°, 150 had more than five, and 4,900 were on segments.
 Sweeps frugal(int sweeps) {
   Sweeps all(static_cast<std::size_t>(sweeps), Sweep{.removes_up_to = 3, .merges = true, .moves = true});
   all.back() = {.removes_up_to = 5, .merges = true};
   return all;
 }
 
-// A sweep shakes the mesh, so that the next finds more; where angles are large, dense places are many, and sweeps pay
-// for longer. Large meshes of smaller angles alone get what takes most out for the time: merging first, while nothing
-// moves, and removing what is left at the end. Small meshes can afford more, up to as many visits of vertices as
-// `work`.
+// A sweep moves vertices, so that the next finds more; at large angles there are many dense places, and more sweeps pay
+// off. Large meshes bounded by smaller angles alone get what removes the most for the time: merging first, while
+// nothing moves, and removing at the end. Small meshes can afford more, up to `work` visits of vertices.
 Sweeps sweepsFor(const RefineOptions& options, std::size_t vertices) {
   const double min_angle_deg = options.min_angle_deg;
   const bool angles_alone = options.size == nullptr && std::isinf(options.size_max) && options.max_angle_deg >= 180.0;
@@ -90,15 +89,15 @@ Sweeps sweepsFor(const RefineOptions& options, std::size_t vertices) {
     const double fewest = min_angle_deg <= 41.0 ? 9.0 : 12.0;
     const int sweeps = affordable(fewest, 64.0, 800000.0);
     if (sweeps > static_cast<int>(fewest) || !angles_alone || min_angle_deg > 42.0) return thorough(sweeps);
-    // The further above the bound refinement aims the less it leaves to take out.
+    // The further above the bound refinement aims, the less it leaves to remove.
     if (min_angle_deg > 41.5) return frugal(7);
     return frugal(min_angle_deg > 40.5 || (min_angle_deg >= 38.0 && min_angle_deg < 39.0) ? 8 : 9);
   }
   return thorough(affordable(3.0, 16.0, 20000.0));
 }
 
-// Round a vertex that coarsening looks at all edges are shorter than this share of the length wanted: merging two makes
-// the edges there longer by a half at most.
+// Vertices are coarsened only if all edges around them are shorter than this share of the requested length: merging two
+// lengthens the edges there by at most a half.
 constexpr double kFineShare = 0.75;
 
 class Coarsener {
@@ -112,7 +111,7 @@ class Coarsener {
     ops_.keepBadInPlace();
   }
 
-  // Of a part of a larger mesh: only the due vertices, and clear of frozen edges.
+  // For a part of a larger mesh: only the due vertices, and clear of frozen edges.
   Coarsener(MeshState&& state, const Pslg& pslg, const RefineOptions& options)
       : Coarsener(std::move(state.mesh), pslg, options) {
     ops_.keepClearOfFrozen();
@@ -124,7 +123,7 @@ class Coarsener {
       for (VertexId v = mesh_.inputVertices(); v < mesh_.vertexSlots(); ++v)
         if (mesh_.isLiveVertex(v) && isDue(v)) waiting_.push(v);
       const double first = static_cast<double>(std::max<std::size_t>(1, waiting_.size()));
-      // Only a success lets vertices wait again, and takes one out for good.
+      // The loop ends: only a success queues vertices again, and it removes one for good.
       for (std::uint64_t steps = 1; waiting_.size() > 0; ++steps) {
         if (steps % 1024 == 0) {
           const double left = std::min(1.0, static_cast<double>(waiting_.size()) / first);
@@ -150,7 +149,7 @@ class Coarsener {
       case VertexOps::Change::None:
         return;
       case VertexOps::Change::Moved:
-        // To the middle of where it may be: that leaves room for its neighbours to go.
+        // The move leaves room to remove its neighbours.
         ++stats_.relocations;
         return;
       case VertexOps::Change::Removed:
@@ -175,10 +174,10 @@ class Coarsener {
   RefineStats stats_;
   std::vector<TriId> touched_;
   std::vector<EdgeRef> star_;
-  std::vector<std::uint8_t> due_;  // one a vertex; empty where all are
+  std::vector<std::uint8_t> due_;  // one for each vertex; empty if all are
 };
 
-// Where edges are about as long as wanted nothing is to be taken out.
+// Nothing is removed where edges are about as long as requested.
 bool Coarsener::isFinerThanWanted(VertexId v) {
   const Point here = mesh_.point(v);
   mesh_.star(v, star_);
@@ -195,7 +194,7 @@ bool Coarsener::isFinerThanWanted(VertexId v) {
 RefineStats coarsenSubmesh(MeshState& state, const Pslg& pslg, const RefineOptions& options,
                            const RunControl& control) {
   Coarsener coarsener(std::move(state), pslg, options);
-  // As many as of the large mesh that it is a part of.
+  // As many sweeps as for the large mesh that it is a part of.
   coarsener.run(sweepsFor(options, std::numeric_limits<std::size_t>::max()), control);
   state = coarsener.releaseState();
   return std::move(coarsener.stats());

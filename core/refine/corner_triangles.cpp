@@ -9,7 +9,7 @@ namespace coastmesh {
 
 namespace {
 
-// How far is looked beyond such a triangle, in triangles: a bound on the run, not a setting.
+// The longest strip to follow beyond such a triangle: a bound on the run, not a setting.
 constexpr std::size_t kLongestStrip = 100000;
 
 VertexId filledCornerOf(const RefineRun& run, TriId t) {
@@ -21,7 +21,7 @@ VertexId filledCornerOf(const RefineRun& run, TriId t) {
 
 void growCornerTriangle(RefineRun& run, TriId filler, VertexId apex, Beyond beyond) {
   EditMesh& mesh = run.mesh;
-  // Every round takes a vertex out.
+  // Every round removes a vertex.
   for (std::size_t left_of_strip = shortCornerStrip(run, filler).size(); left_of_strip > 1; --left_of_strip) {
     const unsigned i = mesh.cornerOf(filler, apex);
     const SegmentId right = mesh.segment(edgeRef(filler, prev3(i))), left = mesh.segment(edgeRef(filler, next3(i)));
@@ -87,7 +87,7 @@ std::vector<TriId> shortCornerStrip(const RefineRun& run, TriId t) {
   std::size_t up_to_last = 0;
   EdgeRef across = edgeRef(t, i);
   while (strip.size() < kLongestStrip && !mesh.isConstrained(across)) {
-    // Its base is the edge shared with the one before, from the left side to the right one.
+    // The next triangle's base is the edge shared with the previous one, from left to right.
     const EdgeRef base = mesh.twin(across);
     strip.push_back(triOf(base));
     if (violatesBound(run, triOf(base))) up_to_last = strip.size();
@@ -110,7 +110,7 @@ void growCornerTriangles(RefineRun& run, Beyond beyond, const RunControl& contro
   if (beyond == Beyond::GetsMended && !run.touched.empty()) {
     std::vector<TriId> touched = std::exchange(run.touched, {});
     resume(run, touched, control);
-    // That may have split the sides again.
+    // Refinement may have split the sides again.
     growAll(run, beyond);
   }
   run.touched.clear();

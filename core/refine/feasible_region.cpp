@@ -14,7 +14,7 @@ struct Disk {
   double radius;
 };
 
-// The points that see the link edge under at least the smallest angle, from the left. REQUIRES: that is above 0.
+// The points that, to the left of the link edge, see it under at least the smallest angle. REQUIRES: that is above 0.
 Disk petalOf(const LinkEdge& e, const PetalShape& petal) {
   const Point d = e.y - e.x;
   const Point mid = midpoint(e.x, e.y);
@@ -25,8 +25,8 @@ Point turned(const Point& d, double cosine, double sine) {
   return {cosine * d.x - sine * d.y, sine * d.x + cosine * d.y};
 }
 
-// Calls `half_plane(on, direction)` for every line that bounds the region; the region lies to the left. Stops at a
-// false.
+// Calls `half_plane(on, direction)` for every line that bounds the region; the region lies to its left. Stops if it
+// returns false.
 template <typename F>
 bool forEachHalfPlane(std::span<const LinkEdge> link, const TriangleBound& bound, F&& half_plane) {
   const bool upper = bound.max_angle < std::numbers::pi - 2.0 * bound.min_angle;
@@ -47,15 +47,15 @@ void forEachDisk(std::span<const LinkEdge> link, const TriangleBound& bound, con
   for (const LinkEdge& e : link) {
     if (bound.min_angle > 0.0) disk(petalOf(e, petal));
     if (std::isinf(bound.squared_size)) continue;
-    // Both ends: an open link has a last corner that starts no edge.
+    // Both ends, since the last corner of an open link starts no edge.
     disk(Disk{e.x, std::sqrt(bound.squared_size)});
     disk(Disk{e.y, std::sqrt(bound.squared_size)});
   }
 }
 
-// Keeps of a convex polygon what lies to the left of the line through `on` along `direction`; `clipped` and `sides`
-// have room for one corner more than the polygon. Returns the number of corners that are left. Rounding may make a thin
-// polygon cross the line more than twice: that adds no corners.
+// Clips a convex polygon to the left side of the line through `on` along `direction`; `clipped` and `sides` have room
+// for one corner more than the polygon. Returns the number of corners left. Rounding may make a thin polygon cross the
+// line more than twice: that adds no corners.
 std::size_t clip(Point*& polygon, std::size_t corners, Point*& clipped, double* sides, const Point& on,
                  const Point& direction) {
   bool cut = false;
@@ -81,11 +81,11 @@ std::size_t clip(Point*& polygon, std::size_t corners, Point*& clipped, double* 
   return left;
 }
 
-// By value, so that it compiles to no branch.
+// By value, so that it compiles without a branch.
 inline double larger(double a, double b) { return a > b ? a : b; }
 
-// Above 0 where the angle of the triangle x, x + d, c there is too small, |d|² being `squared`; over |d| each is how
-// far c is from where it may be, nearly so for the petal.
+// Above 0 if that angle of the triangle x, x + d, c is too small. `squared` is |d|². Over |d|, each is the distance of
+// c to the constraint, approximately for the petal.
 struct Lacks {
   double at_x, at_y, at_c;
 };
@@ -105,7 +105,7 @@ Point centreOf(const Point* polygon, std::size_t corners) {
 
 }  // namespace
 
-// Every cut adds a corner at most.
+// Every cut adds at most one corner.
 void FeasibleRegion::makeRoom(std::size_t corners) {
   if (polygon_.size() >= corners) return;
   polygon_.resize(corners);
@@ -139,7 +139,7 @@ FeasibleRegion::Look FeasibleRegion::look(std::span<LookEdge> edges, const Petal
   polygon[2] = high;
   polygon[3] = {low.x, high.y};
   for (LookEdge& e : edges) e.inverse = 1.0 / e.squared;
-  // Cuts by the constraint that the middle of what is left breaks most.
+  // Cuts by the constraint that the centre of the remaining polygon violates most.
   for (std::size_t cuts = 0; cuts < kMostCuts; ++cuts) {
     const Point c = centreOf(polygon, corners);
     double worst = 0.0;

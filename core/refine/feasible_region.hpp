@@ -25,8 +25,8 @@ struct PetalShape {
   explicit PetalShape(const AngleBound& bound) : radius(0.5 / bound.sin_min), height(radius * bound.cos_min) {}
 };
 
-// A box round what several petals have in common: where that is empty, so is the region, most of the time. Minima and
-// maxima by value, so that they compile to no branch.
+// A box around the intersection of several petals. An empty box proves that the region is empty; most empty regions
+// show this way. Minima and maxima by value compile without branches.
 struct PetalBox {
   Point low{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   Point high{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
@@ -38,35 +38,35 @@ struct PetalBox {
   bool isEmpty() const { return low.x >= high.x || low.y >= high.y; }
 };
 
-// A link edge as looks need it.
+// A link edge as `look` needs it.
 struct LookEdge {
   Point from, to, along;
   double squared;  // length
-  double inverse;  // of that; for `look` to fill
+  double inverse;  // of that; set by `look`
 };
 
-// Where a vertex may lie so that, its link fixed, all triangles of its star hold the bounds (Erten & Üngör 2007,
-// Section 5). That set is an intersection of convex ones: for every link edge the petal (the angle at the vertex), two
-// half-planes (the angles at the ends), and disks round the ends where edges may not be longer than a size. The petals
-// are cut off by tangents, one at a time, where they matter. We differ from the paper, which samples points between two
-// petals. Only a bound on the largest angle at the vertex itself is not convex: it is for the caller to test.
+// The places of a vertex at which, its link fixed, all triangles of its star meet the bounds (Erten & Üngör 2007,
+// Section 5). They are an intersection of convex sets: for every link edge the petal (the angle at the vertex), two
+// half-planes (the angles at the ends), and disks around the ends if edges have a maximum length. The petals are cut
+// off by tangents, one at a time, where needed. We differ from the paper, which samples points between two petals. Only
+// a bound on the largest angle at the vertex itself is not convex: the caller tests it.
 class FeasibleRegion {
  public:
   explicit FeasibleRegion(const TriangleBound& bound) : bound_(bound), petal_(bound) {}
 
-  // A point inside the region, or none if the region is empty (or thinner than rounding).
+  // A point inside the region; nullopt if the region is empty (or thinner than rounding).
   std::optional<Point> findPoint(std::span<const LinkEdge> link);
 
   struct Look {
     std::optional<Point> point;  // of the region
     bool is_empty = false;       // certain; if no point is found either, the region is thin and undecided
   };
-  // A quick test for minimum angles alone. It also applies to a part of a link: if the region of that is empty, so is
-  // the whole one.
+  // A quick test for minimum angles alone. It also applies to a part of a link: if the region of a part is empty, so is
+  // that of the whole.
   Look look(std::span<const LinkEdge> link);
 
-  // The same in parts, for who has several links with edges in common: the edges made ready, the box round all their
-  // petals. REQUIRES, of both: the smallest angle is above 0.
+  // The same in two steps, for links that share edges: `ready` prepares an edge and returns its petal's box; `look`
+  // takes edges and the intersection of their boxes. REQUIRES, of both: the smallest angle is above 0.
   PetalBox ready(const Point& x, const Point& y, LookEdge& edge) const {
     const Point d = y - x;
     const double squared = squaredLength(d);
@@ -78,7 +78,7 @@ class FeasibleRegion {
   }
   Look look(std::span<LookEdge> edges, const PetalBox& box);
 
-  // As findPoint on the line from a to b: the point in the middle of what is feasible there.
+  // Like findPoint on the line from a to b: the midpoint of its feasible part.
   std::optional<Point> findPointBetween(const Point& a, const Point& b, std::span<const LinkEdge> link) const;
 
  private:

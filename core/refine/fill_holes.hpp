@@ -7,7 +7,7 @@
 namespace coastmesh {
 
 // Closes the gaps in a list of `count` items with items from its end, so that all others keep their numbers: calls
-// `move(from, to)` for what fills holes, which are given in ascending order, and returns how many items are left.
+// `move(from, to)` for each item that fills a hole, and returns the number of items left. `holes` is ascending.
 template <typename Move>
 std::size_t fillHoles(std::span<const std::uint32_t> holes, std::size_t count, const Move& move) {
   const std::size_t left = count - holes.size();

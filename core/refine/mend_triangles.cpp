@@ -10,13 +10,13 @@ namespace coastmesh {
 
 namespace {
 
-// Relocations never bring a vertex more often than this: a bound on the run, not a setting.
+// Most relocations of a vertex: a bound on the run, not a setting.
 constexpr std::uint8_t kMostMoves = 32;
-// From this angle on taking vertices out during refinement pays: density spreads there.
+// From this minimum angle on, merging during refinement pays off, because density spreads.
 constexpr double kMergeFromDeg = 35.0;
 
-// Whether every place where a vertex would make a good triangle with the shortest edge is nearer to that edge than the
-// input's spacing lets any vertex come: between two segments that meet at a tiny angle.
+// True if every place for a vertex that makes a good triangle with the shortest edge is nearer to that edge than the
+// input's spacing allows: between two segments that meet at a tiny angle.
 bool isOutOfReach(const RefineRun& run, TriId t, const TriangleShape& shape) {
   const EditMesh& mesh = run.mesh;
   const double longest = shape.squared[shape.longest];
@@ -29,16 +29,15 @@ bool isOutOfReach(const RefineRun& run, TriId t, const TriangleShape& shape) {
   return shape.squared[shape.shortest] < nearest * nearest;
 }
 
-// Two vertices merged may come to be two again: merges are bounded by what was put in, and by the mesh's size, lest
-// both go on for ever.
+// Merged vertices may be inserted again: merges are bounded by the insertions and by the mesh's size, so that both end.
 bool mayMerge(const RefineRun& run) {
   const auto& types = run.stats.by_type;
   const std::uint64_t put_in = types[0] + types[1] + types[2] + types[3] + run.stats.segment_splits;
   return 10 * run.stats.merges < 3 * put_in && 2 * run.stats.merges < run.mesh.vertexCount();
 }
 
-// Algorithm 2: a vertex of the triangle that finds a place where its whole star is good moves there. We go on where the
-// paper does not: one that is not needed goes, and two that one place can serve become one.
+// Algorithm 2: moves a vertex of the triangle to a place where its whole star is good, if there is one. We differ: at
+// large bounds a vertex may also merge with a neighbour.
 bool mendWithoutInsertion(RefineRun& run, TriId t) {
   EditMesh& mesh = run.mesh;
   const Corners corners = mesh.triangle(t).v;
@@ -57,9 +56,8 @@ bool mendWithoutInsertion(RefineRun& run, TriId t) {
   return false;
 }
 
-// Whether x sees the subsegment under 180° - 2 alpha or more: the diametral lens of Chew (1993) and Shewchuk (1997) for
-// 30°, wider with alpha. A triangle with such an angle is bad, so a subsegment that a vertex encroaches upon always has
-// one.
+// True if x sees the subsegment under 180° - 2 alpha or more: the diametral lens of Chew (1993) and Shewchuk (1997) for
+// 30°, wider with alpha. A triangle with such an angle is bad, so every encroached subsegment has a bad triangle.
 bool isEncroached(double cos_lens, const Frame& at_x, const Point& a, const Point& b) {
   const Point xa = at_x.relative(a), xb = at_x.relative(b);
   const double d = dot(xa, xb);
@@ -68,8 +66,8 @@ bool isEncroached(double cos_lens, const Frame& at_x, const Point& a, const Poin
   return d * d >= cos_lens * cos_lens * squaredLength(xa) * squaredLength(xb);
 }
 
-// The subsegment of a cavity's boundary that x lies behind, or encroaches upon, with the widest angle; kNone where
-// there is none.
+// The subsegment of a cavity's boundary that x lies behind, or encroaches upon, with the widest angle; kNone if there
+// is none.
 EdgeRef subsegmentBeside(const RefineRun& run, const Point& x, const Patch& cavity) {
   const EditMesh& mesh = run.mesh;
   const Frame at_x(run.bound.surface, x);
@@ -83,7 +81,7 @@ EdgeRef subsegmentBeside(const RefineRun& run, const Point& x, const Patch& cavi
     const double angle = behind ? std::numbers::pi : angleAt(x, a, b);
     if (angle <= widest) continue;
     widest = angle;
-    // The edge as the cavity has it.
+    // The same edge seen from inside the cavity.
     for (const TriId c : cavity.triangles)
       for (unsigned i = 0; i < 3; ++i)
         if (mesh.origin(edgeRef(c, i)) == r.a && mesh.target(edgeRef(c, i)) == r.b) hit = edgeRef(c, i);
@@ -139,12 +137,12 @@ void mend(RefineRun& run, TriId t) {
   const auto isFrozen = [&](VertexId v) { return v < run.frozen.size() && run.frozen[v]; };
   if (std::ranges::any_of(mesh.triangle(t).v, isFrozen)) return defer(run, t);
   if (const VertexId corner = mesh.triangle(t).v[shape.shortest]; fillsCorner(run, t, corner)) {
-    // Nothing makes its angles better, but its sides may be longer than they may be.
+    // Its angles cannot be improved, but its sides may be too long.
     if (isTooLong(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), shape.squared[shape.longest], run.bound))
       splitSide(run, t, corner, t, shape.shortest);
     return;
   }
-  // No move brings edges to the length wanted where there are too few.
+  // If edges are only too long there are too few vertices, so moves do not help.
   const bool is_only_long =
       run.options.size != nullptr && !isBad(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), run.strict);
   if (run.options.algorithm == Algorithm::Relocate && !is_only_long && mendWithoutInsertion(run, t)) {

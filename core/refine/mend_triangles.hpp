@@ -15,26 +15,26 @@ void resume(RefineRun& run, std::vector<TriId>& touched, const RunControl& contr
 
 // At input angles too small for the bounds (corner_triangles.cpp) ----------------------------------------------------
 
-// Whether a triangle fills such an angle, with its smallest angle there; then it cannot be improved.
+// True if a triangle fills such an angle at its corner `apex`; then it cannot be improved.
 bool fillsCorner(const RefineRun& run, TriId t, VertexId apex);
-// The apex of the small input angle whose triangle is behind the edge opposite corner `apex` of t, its shortest; kNone
-// if there is none.
+// The apex of the small input angle filled by the triangle beyond t's shortest edge, which is opposite corner `apex` of
+// t; kNone if there is none.
 VertexId filledCornerBehind(const RefineRun& run, TriId t, unsigned apex);
-// The triangle that fills such an angle, and those behind it up to the last one that misses the bounds: a strip, as
-// long as each has all its corners on the two sides of the angle. Empty if t fills no such angle, or none misses the
-// bounds.
+// The triangle that fills such an angle, and the strip beyond it up to the last triangle that misses the bounds, as
+// long as all corners are on the two sides of the angle. Empty if t fills no such angle, or none misses the bounds.
 std::vector<TriId> shortCornerStrip(const RefineRun& run, TriId t);
-// What happens to the other sides of the segments at an input angle when its triangle grows.
+// The effect on triangles beyond the sides of an input angle when the triangle that fills it grows.
 enum class Beyond { StaysGood, GetsMended };
-// Removes split points until the triangle that fills the angle reaches to where good ones begin. The part in between is
-// too thin to be meshed well, so that one triangle covers it.
+// Removes split points until the triangle that fills the angle reaches the first good ones. The part in between is too
+// thin to be meshed well, so one triangle covers it.
 void growCornerTriangles(RefineRun& run, Beyond beyond, const RunControl& control);
 
 // Splitting subsegments (split_subsegment.cpp) -----------------------------------------------------------------------
 
 // The ends of a subsegment get no closer to each other than this share of the input's spacing.
 inline constexpr double kSegmentShare = 0.02;
-// Splits a subsegment that blocks a point for t, whose shortest edge is opposite its corner `apex`.
+// Splits a subsegment that blocks a point for t, whose shortest edge is opposite its corner `apex`. Returns whether it
+// did.
 bool splitFor(RefineRun& run, EdgeRef edge, TriId t, unsigned apex);
 
 // What the queue leaves (repair.cpp) ---------------------------------------------------------------------------------

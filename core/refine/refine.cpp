@@ -16,7 +16,7 @@ namespace coastmesh {
 
 namespace {
 
-// The regions of the result are not labelled, and nothing is said of what falls short.
+// Neither labels regions nor lists unresolved triangles.
 RefineStats refineOnce(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, VertexNotes notes,
                        const RefineVariant& variant, const RunControl& control) {
   if (wantsSplitSegments(mesh, options)) splitSegments(mesh, pslg, notes, options);
@@ -36,11 +36,11 @@ RefineStats finish(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options
   return std::move(stats);
 }
 
-// Up to so many points it costs next to nothing to refine in several ways and to keep what coarsens to the smallest
-// mesh.
+// Up to this many points it costs next to nothing to refine in several ways and keep the smallest mesh after
+// coarsening.
 constexpr VertexId kFewPoints = 64;
 
-// Few points may do with less slack than many.
+// Largest usual aim (degrees): few points need less slack than many.
 constexpr double kMostUsualAim = 1.0;
 
 std::vector<RefineVariant> furtherVariants(const RefineOptions& options) {
@@ -68,12 +68,12 @@ RefineStats refine(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options
   RefineStats stats =
       finish(mesh, pslg, options, refineOnce(mesh, pslg, options, notes, usualVariant(options), control));
   if (!few || !stats.unresolved.empty() || stats.budget_reached) return stats;
-  if (mesh.points.size() == mesh.input_vertices) return stats;  // none is smaller
+  if (mesh.points.size() == mesh.input_vertices) return stats;  // the smallest possible
   std::size_t smallest = coarsenedSize(mesh, pslg, options, control);
-  // Meshes of the same points are the same, but for ties: three in four of all that are refined anew.
+  // Meshes of the same points are the same, except for ties: three in four of the further ones.
   std::vector<std::vector<Point>> known{mesh.points};
   for (const RefineVariant& variant : furtherVariants(options)) {
-    // What asks for a vertex does not do without any.
+    // The input requires a Steiner point, so no mesh has none.
     if (smallest <= mesh.input_vertices + 1) break;
     TriMesh other = unrefined;
     RefineStats other_stats = refineOnce(other, pslg, options, notes, variant, control);

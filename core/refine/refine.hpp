@@ -23,7 +23,7 @@ namespace coastmesh {
 // on the input's spacing. Throws Cancelled, OutOfRoom, and std::invalid_argument for options out of range.
 RefineStats refine(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control = {});
 
-// The same for a mesh that already has free vertices: `notes` are those on the mesh before them, and on them.
+// The same for a mesh that already has free vertices: `notes` are those on the mesh without them, extended to them.
 RefineStats refine(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, VertexNotes notes,
                    const RunControl& control = {});
 

@@ -34,7 +34,7 @@ struct RefineOptions {
   double size_max = std::numeric_limits<double>::infinity();  // longest edge, plane units, above 0
   Algorithm algorithm = Algorithm::Relocate;
   std::uint64_t max_vertices = std::numeric_limits<std::uint64_t>::max();  // total number of vertices, input included
-  // More vertices throw OutOfRoom. Each piece of a mesh may have so many, so the result is never changed by it.
+  // More vertices throw OutOfRoom. Each piece of a mesh may have this many, so the limit never changes the result.
   std::uint64_t most_in_memory = std::numeric_limits<std::uint64_t>::max();
   const SizeFunction* size = nullptr;  // requested edge lengths; must outlive the run; null if there are none
   // Plane units, 0 or more: no vertex is inserted closer to another. For coordinates that will be written with a
@@ -49,11 +49,10 @@ struct RefineOptions {
 // Throws std::invalid_argument, which names the option, for a value that is out of range or not a number.
 void requireInRange(const RefineOptions& options);
 
-// A triangle with an edge longer than this share of the requested length is refined: edges then have about that
-// length.
+// A triangle with an edge longer than this share of the requested length is refined: edges then have about that length.
 inline constexpr double kLongestShare = 1.5;
 
-// A mesh that grows beyond `most_in_memory` vertices, and where it grew.
+// Thrown if a mesh grows beyond `most_in_memory` vertices; `place` is where it grew.
 struct OutOfRoom : std::runtime_error {
   explicit OutOfRoom(const Point& where)
       : std::runtime_error("refinement takes more vertices than there is room for"), place(where) {}

@@ -12,16 +12,16 @@ namespace coastmesh {
 
 namespace {
 
-// No free vertex comes nearer to others than this share of the input's spacing there. Runs that reach their bound stay
-// above: up to 42° all but single points, which repair can do without. Above that no spacing is fine enough, and a
+// Minimum distance of free vertices to others, as a share of the input's spacing there. Runs that reach their bound
+// stay above it: up to 42° all but single points, which repair can do without. Beyond, no spacing is fine enough, and a
 // coarser one ends sooner.
 double freeShare(double min_angle_deg) {
   const double beyond = std::clamp((min_angle_deg - 42.0) / 2.0, 0.0, 1.0);
   return 0.12 + 0.18 * beyond;
 }
-// New points aim above the bound where it is large: a mesh without any slack refines further. The nearer to 42° the
-// more that gives: a tenth of the vertices there, and most of the places that repair has to see to. Beyond, where no
-// aim keeps refinement from going on for ever, it costs as much. Algorithm 1 is the paper's.
+// Degrees that new points aim above large bounds: a mesh without any slack causes further refinement. The gain grows
+// towards 42°: a tenth of the vertices there, and most of the places that need repair. Beyond, where no aim makes
+// refinement end by itself, it costs as much. Algorithm 1 stays as in the paper.
 double aimAboveDeg(double min_angle_deg) {
   constexpr std::array<double, 5> kFrom{38.0, 40.0, 41.0, 42.0, 43.0}, kAim{0.0, 1.0, 2.0, 3.5, 1.0};
   if (min_angle_deg <= kFrom.front()) return kAim.front();
@@ -33,13 +33,13 @@ double aimAboveDeg(double min_angle_deg) {
   return kAim.back();
 }
 // Ranks of bad triangles: squared lengths in sixteen steps an octave, cosines in steps of a thousandth. Within a step
-// the older comes first, which is near the one before it: an exact order costs time and gains no points.
+// the oldest comes first, which is near the previous one: an exact order costs time and saves no points.
 std::uint32_t rankOfLength(double squared) {
   return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(squared) >> 48);
 }
 std::uint32_t rankOfAngle(double cosine) { return static_cast<std::uint32_t>((1.0 - cosine) * 1000.0); }
 
-// A thousand units in the last place of the largest coordinate, or what was asked for, squared.
+// A thousand units in the last place of the largest coordinate, or the requested resolution if larger, squared.
 double squaredResolution(const EditMesh& mesh, const RefineOptions& options) {
   double magnitude = 0.0;
   for (VertexId v = 0; v < mesh.vertexSlots(); ++v)

@@ -26,7 +26,8 @@ struct RefineVariant {
   // Splits the sides of an input angle too small for the bounds if the triangle that fills it blocks points at its
   // base; otherwise it stays as it is.
   bool opens_corners = false;
-  // Skips what reaches a frozen edge, and keeps it for later. Otherwise a frozen edge is an obstacle like a segment.
+  // Skips operations that reach a frozen edge, and defers their triangles. Otherwise a frozen edge is an obstacle like
+  // a segment.
   bool clear_of_frozen = false;
 };
 
@@ -71,10 +72,10 @@ struct RefineRun {
   PatchNumbers patch_numbers;
 };
 
-// Whether a triangle misses the bounds without a corner of the input to excuse it.
+// True if a triangle misses the bounds without a corner of the input to excuse it.
 bool violatesBound(const RefineRun& run, TriId t);
 
-// Whether a patch is next to a frozen edge, and must therefore be skipped.
+// True if a patch is next to a frozen edge, and must therefore be skipped.
 bool isBarred(const RefineRun& run, const Patch& patch);
 
 // Keeps a triangle for later; valid while it has the same corners.
@@ -85,14 +86,14 @@ bool isDeferred(const RefineRun& run, TriId t);
 // the distance from fine input as fast as any good mesh can.
 double spacingAt(const RefineRun& run, const Point& x, const Patch& cavity);
 
-// Of a new vertex.
+// Sets the notes on a new vertex.
 void noteVertex(RefineRun& run, VertexId v, double spacing);
 
 // Queues a triangle if it is bad; the same for all that were touched.
 void enqueueIfBad(RefineRun& run, TriId t);
 void enqueueTouched(RefineRun& run);
 
-// Removes a free vertex, and each that can be removed.
+// Removes a free vertex if its hole can be triangulated; the same for all.
 bool removeFreeVertex(RefineRun& run, VertexId v);
 void stripFreeVertices(RefineRun& run);
 

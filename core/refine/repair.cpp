@@ -17,9 +17,8 @@ struct Attempt {
   RefineVariant variant;
 };
 
-// What differs is where points aim and which triangle comes first: a small change leads the order of insertions
-// elsewhere. The first are all tried, and the smallest mesh without a bad triangle wins; or the first such mesh, where
-// places are many.
+// Attempts differ in the aim of points and the order of triangles: a small change leads to other insertions. All of
+// these are tried, and the smallest mesh without a bad triangle is used; with many places, the first such mesh.
 constexpr std::array kCompeting = {
     Attempt{.strip = false, .variant = {.aim_deg = 0.5}},
     Attempt{.variant = {.aim_deg = 0.0}},
@@ -32,7 +31,7 @@ constexpr std::array kCompeting = {
     Attempt{.variant = {.aim_deg = 3.0, .worst_first = true}},
     Attempt{.variant = {.aim_deg = 6.0}},
 };
-// Where all of those fail, these in turn until one leaves no bad triangle.
+// If all of those fail, these are tried until one leaves no bad triangle.
 constexpr std::array kLastResorts = {
     Attempt{.variant = {.aim_deg = 1.5}},
     Attempt{.variant = {.aim_deg = 3.0}},
@@ -40,8 +39,8 @@ constexpr std::array kLastResorts = {
     Attempt{.variant = {.aim_deg = 2.0, .worst_first = true}},
     Attempt{.variant = {.aim_deg = 4.5, .worst_first = true}},
 };
-// And where those fail in the largest patch too, these: beyond the base of a triangle that fills a small input angle a
-// point is often nearer than that triangle lets it be.
+// If those fail in the largest patch too, these are tried: beyond the base of a triangle that fills a small input
+// angle, the best point is often closer than that triangle allows.
 constexpr std::array kOpeningCorners = {
     Attempt{.variant = {.aim_deg = 0.0, .opens_corners = true}},
     Attempt{.variant = {.aim_deg = 1.0, .opens_corners = true}},
@@ -49,23 +48,22 @@ constexpr std::array kOpeningCorners = {
     Attempt{.variant = {.aim_deg = 1.0, .worst_first = true, .opens_corners = true}},
 };
 constexpr std::array kRings = {2u, 3u, 4u, 6u};
-// From this angle on places in a large mesh are many: two thousand at 42° beside a coast of 150,000 points, where
-// choosing among meshes took a fifth of all the time and saved one vertex in three hundred, which coarsening finds too.
+// From this minimum angle on a large mesh has many places: two thousand at 42° beside a coast of 150,000 points, where
+// choosing among meshes took a fifth of the time and saved one vertex in three hundred, which coarsening finds too.
 constexpr double kManyPlacesFromDeg = 38.0;
-// A patch may grow to this many times its vertices, and some.
+// A patch may grow to kGrowth times its vertices, plus kGrowthRoom.
 constexpr std::uint64_t kGrowth = 2;
 constexpr std::uint64_t kGrowthRoom = 12;
 
-// Vertices that failed local runs may handle: a share of the mesh, and some for small ones; at angles that no input has
-// reached, a third.
+// Most vertices that failed local runs may handle: in proportion to the mesh, with a minimum for small ones; a third at
+// angles that no input has reached.
 std::uint64_t mostWork(double min_angle_deg, std::uint64_t vertices) {
   return (6000 + 3 * vertices) / (min_angle_deg > 43.0 ? 3 : 1);
 }
-// Vertices that local runs may handle with success, as a multiple of those of failed ones: each time fewer triangles
-// fall short.
+// The same for successful local runs, as a multiple: each of them leaves fewer violations.
 std::uint64_t timesAsMuch(double min_angle_deg) { return min_angle_deg > 43.0 ? 2 : 10; }
-// Past so many failures, and twice the successes, the bound is out of reach; at angles that no input has reached,
-// sooner.
+// If failures exceed this plus twice the successes, the bound is out of reach; fewer at angles that no input has
+// reached.
 std::uint64_t hopeless(double min_angle_deg) { return min_angle_deg > 43.0 ? 4 : 24; }
 
 std::size_t countViolations(const RefineRun& run) {
@@ -83,7 +81,7 @@ struct Solution {
   }
 };
 
-// Returns nothing where more than `most` triangles fall short, or no fewer than before.
+// Returns nullopt if the patch gets too large, or more than `most` violations remain, or no fewer than before.
 std::optional<Solution> solve(const Submesh& patch, const Attempt& attempt, std::size_t most, const RefineRun& whole,
                               std::uint64_t& work) {
   RefineOptions local = whole.options;
@@ -113,7 +111,7 @@ std::optional<Solution> solveBest(const Submesh& patch, unsigned rings, std::siz
     if (many_places && isMended()) break;
     attempt(how);
   }
-  // A larger patch comes first where there is one.
+  // With many places, larger patches come first.
   if (many_places && rings != kRings.back()) return best;
   for (const Attempt& how : kLastResorts) {
     if (isMended()) break;
@@ -129,14 +127,15 @@ std::optional<Solution> solveBest(const Submesh& patch, unsigned rings, std::siz
 
 enum class Outcome { Mended, Failed, Deferred };
 
-// Whether the mesh is a part of a larger one and the patch lies at its frozen boundary.
+// True if the mesh is a part of a larger one and the patch lies at its frozen boundary.
 bool isAtFrozenBoundary(const EditMesh& mesh, const Submesh& patch) {
   return std::ranges::any_of(patch.triangles, [&](TriId t) {
     return std::ranges::find(mesh.triangle(t).seg, kFrozen) != mesh.triangle(t).seg.end();
   });
 }
 
-// Puts a solution in; what it pushes beyond its patch is handled at once where nothing in it falls short.
+// Puts a solution into the mesh. If it has no violations, triangles that become bad beyond its patch are refined at
+// once.
 void take(RefineRun& run, const Submesh& patch, const Solution& solution, const RunControl& control) {
   std::vector<VertexId> added;
   std::vector<TriId> touched;
@@ -154,7 +153,7 @@ void take(RefineRun& run, const Submesh& patch, const Solution& solution, const 
   resume(run, touched, control);
 }
 
-// Takes the first patch that can be mended wholly, or else the one in which the fewest triangles fall short.
+// Uses the first patch that can be repaired completely, or else the one with the fewest violations.
 Outcome mendPlace(RefineRun& run, std::span<const TriId> centre, const RunControl& control, std::uint64_t& work) {
   std::optional<Solution> best;
   Submesh best_patch;
@@ -165,7 +164,7 @@ Outcome mendPlace(RefineRun& run, std::span<const TriId> centre, const RunContro
       defer(run, centre.back());
       return Outcome::Deferred;
     }
-    // In a piece another round may mend wholly what this one cannot; not so at an input angle.
+    // In a piece, another round may repair completely what this one cannot; not so at an input angle.
     const bool all_or_none = run.variant.clear_of_frozen &&
                              std::ranges::find(patch.notes.small_angle, true) == patch.notes.small_angle.end();
     const std::size_t most = all_or_none ? 0 : std::numeric_limits<std::size_t>::max();
@@ -184,8 +183,8 @@ Outcome mendPlace(RefineRun& run, std::span<const TriId> centre, const RunContro
   return Outcome::Mended;
 }
 
-// First the runs of bad triangles along a small input angle that has domain on both sides: each run is re-meshed as one
-// patch, because fixing one side spoils the other.
+// First repairs runs of bad triangles along a small input angle that has domain on both sides: each run is re-meshed as
+// one patch, because fixing one side spoils the other.
 void repairStrips(RefineRun& run, const RunControl& control, const auto& isGivenUp) {
   constexpr std::size_t kLongestStrip = 500;
   const std::uint64_t most_work = mostWork(run.options.min_angle_deg, run.mesh.vertexCount());
@@ -199,7 +198,7 @@ void repairStrips(RefineRun& run, const RunControl& control, const auto& isGiven
   }
 }
 
-// What lies round places where mending has failed: it waits for the next round.
+// The surroundings of places where repair has failed: they wait for the next round.
 class Surroundings {
  public:
   explicit Surroundings(const EditMesh& mesh) : mesh_(mesh) {}
@@ -216,7 +215,7 @@ class Surroundings {
 
  private:
   const EditMesh& mesh_;
-  std::vector<bool> near_;  // one a vertex
+  std::vector<bool> near_;  // one for each vertex
   PatchNumbers scratch_;
 };
 
@@ -235,14 +234,14 @@ void repair(RefineRun& run, const RunControl& control, std::span<const BadTriang
   };
   Tally successes, failures;
   Surroundings failed(run.mesh);
-  // What a repair pushes beyond its patch is met on the next round.
+  // Triangles that a repair makes bad beyond its patch are repaired in the next round.
   constexpr int kRounds = 4;
   for (int round = 0; round < kRounds; ++round) {
     bool again = false;
     failed.clear();
     const TriId slots = run.mesh.triangleSlots();
     for (TriId k = 0; k < slots; ++k) {
-      // There and back: of a few beside one another another comes first, which makes another patch.
+      // Alternates the direction: another of several adjacent triangles then comes first, with another patch.
       const TriId t = round % 2 == 0 ? k : slots - 1 - k;
       if (!run.mesh.isLive(t) || !violatesBound(run, t) || isGivenUp(t)) continue;
       if (isDeferred(run, t)) continue;

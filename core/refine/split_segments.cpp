@@ -12,29 +12,28 @@ namespace coastmesh {
 
 namespace {
 
-// A subsegment before it is cut, and where: shares of its length, ascending.
+// A subsegment to be divided.
 struct Cut {
   VertexId a = kNone;
   VertexId b = kNone;
   SegmentId seg = kNone;
 };
 
-// Steps along a segment in which lengths are added up, a wanted length: enough where it changes by a third from one
-// edge to the next.
+// Integration steps for each requested length: enough if it changes by a third from one edge to the next.
 constexpr double kStepsALength = 4.0;
-// So much longer is no longer.
+// Relative tolerance: pieces this much longer are accepted.
 constexpr double kSameLength = 1e-9;
 
 enum class Fit { Nearest, AtMost };
 
-// Shares of the way from a to b that lie one wanted length apart, stretched to fit: to the nearest, or to no longer
-// ones. What needs clearly more than `most` of them is looked at as far as these go.
+// Shares of the way from a to b that are one requested length apart, stretched to fit: to the nearest number of pieces,
+// or so that none is longer. Stops early if there are clearly more than `most`.
 void evenShares(const Point& a, const Point& b, const SizeFunction& size, Fit fit, const Surface& surface,
                 std::uint64_t most, std::vector<double>& shares) {
   const auto wantedAt = [&](const Point& x) { return size.at(x) / surface.shrinkAt(x); };  // in the plane
   shares.clear();
   const double length = distance(a, b);
-  // How many wanted lengths there are up to each step, by the trapezoid rule; steps follow the wanted length.
+  // The number of requested lengths up to each step, by the trapezoid rule; steps follow the requested length.
   std::vector<std::pair<double, double>> marks{{0.0, 0.0}};
   double along = 0.0, count = 0.0, here = wantedAt(a);
   const double most_steps = 2.0 * kStepsALength * (static_cast<double>(most) + 1.0);
@@ -49,7 +48,7 @@ void evenShares(const Point& a, const Point& b, const SizeFunction& size, Fit fi
     marks.push_back({along, count});
   }
   double pieces = std::max(1.0, std::floor(count));
-  // To the nearest: as many as make the pieces' ratio to what is wanted nearest to 1, either way.
+  // Nearest: the number of pieces that makes their ratio to the requested length closest to 1, either way.
   const double one_more_from = fit == Fit::Nearest ? std::sqrt(pieces * (pieces + 1.0)) : pieces * (1.0 + kSameLength);
   if (count > one_more_from) pieces += 1.0;
   std::size_t i = 0;

@@ -14,8 +14,8 @@ namespace coastmesh {
 // vertices. Returns how many were inserted.
 std::uint64_t splitSegments(TriMesh& mesh, const Pslg& pslg, VertexNotes& notes, const RefineOptions& options);
 
-// Whether to do that first: if lengths are requested, and beside a lattice, whose points the circle of a long side
-// would exclude. A maximum edge without a lattice is as well reached step by step.
+// True if segments should be divided first: if lengths are requested, and beside a lattice, whose points the circle of
+// a long side would exclude. Without a lattice, a maximum edge is as well reached step by step.
 bool wantsSplitSegments(const TriMesh& mesh, const RefineOptions& options);
 
 }  // namespace coastmesh

@@ -7,7 +7,7 @@ namespace coastmesh {
 
 namespace {
 
-// As spacingAt, for a point that is to split a subsegment, where the other segments beside it count too.
+// Like spacingAt, for a point that splits a subsegment: other segments beside it count too.
 double spacingOnSegment(const RefineRun& run, const Point& x, EdgeRef edge, const Patch& cavity) {
   const EditMesh& mesh = run.mesh;
   double spacing = spacingAt(run, x, cavity);
@@ -24,8 +24,8 @@ double spacingOnSegment(const RefineRun& run, const Point& x, EdgeRef edge, cons
   return spacing;
 }
 
-// A share of an edge's length on the surface, as a share of that in the plane: as its two pieces' chords are to one
-// another.
+// Converts a share of an edge's length on the surface to one of its length in the plane, by the ratio of its two
+// pieces' chords.
 double shareInPlane(const Surface& surface, const Point& a, const Point& b, double share) {
   if (!surface.isCurved()) return share;
   const double to_a = share * std::sqrt(surface.shrinkAt(b)), to_b = (1.0 - share) * std::sqrt(surface.shrinkAt(a));
@@ -38,7 +38,7 @@ Point splitPlace(const RefineRun& run, VertexId a, VertexId b, SegmentId seg) {
   const Point &pa = mesh.point(a), &pb = mesh.point(b);
   double share = 0.5;
   if ((unit(a) > 0.0) != (unit(b) > 0.0)) {
-    // On the shell round the small angle whose radius, the unit times a power of two, is nearest to the middle.
+    // On the shell around the small angle whose radius, the unit times a power of two, is closest to half the length.
     const double length = run.bound.surface.chord(pa, pb);
     const double radius_unit = std::max(unit(a), unit(b));
     const double radius = radius_unit * std::exp2(std::round(std::log2(0.5 * length / radius_unit)));
@@ -49,13 +49,13 @@ Point splitPlace(const RefineRun& run, VertexId a, VertexId b, SegmentId seg) {
   return projectedOnLine(pa + shareInPlane(run.bound.surface, pa, pb, share) * (pb - pa), sa, sb);
 }
 
-// Takes out the free vertices in the subsegment's diametral circle (Chew 1993). Returns the subsegment, which may have
-// come to lie in another triangle.
+// Removes the free vertices in the subsegment's diametral circle (Chew 1993). Returns the subsegment, which may then be
+// an edge of another triangle.
 EdgeRef clearDiametralCircle(RefineRun& run, EdgeRef edge) {
   EditMesh& mesh = run.mesh;
   const VertexId a = mesh.origin(edge), b = mesh.target(edge);
   for (int side = 0; side < 2; ++side) {
-    // Every round takes a vertex out.
+    // Every round removes a vertex.
     while (edge != kNone) {
       const VertexId v = mesh.apex(edge);
       const Frame at_v(run.bound.surface, mesh.point(v));
@@ -101,7 +101,7 @@ bool splitFor(RefineRun& run, EdgeRef edge, TriId t, unsigned apex) {
   const Surface& surface = run.bound.surface;
   const double nearer =
       std::min(surface.squaredChord(place, mesh.point(a)), surface.squaredChord(place, mesh.point(b)));
-  // Where the input itself is finer than coordinates resolve, nothing can be mended.
+  // Where the input itself is finer than the resolution, nothing can be repaired.
   if (std::min(nearer, spacing * spacing) < run.squared_resolution) return false;
   if (nearer < kSegmentShare * kSegmentShare * spacing * spacing) return false;
   const EdgeRef cleared = clearDiametralCircle(run, edge);
@@ -109,11 +109,11 @@ bool splitFor(RefineRun& run, EdgeRef edge, TriId t, unsigned apex) {
   if (v != kNone) {
     noteVertex(run, v, spacing);
     ++run.stats.segment_splits;
-    // The triangle that asked for the split may still be there, and bad.
+    // The triangle that required the split may still exist and be bad.
     run.touched.push_back(t);
   }
   if (v == kNone) {
-    // Vertices may have gone for nothing, and would come back for as little.
+    // Vertices may have been removed in vain; trying again would repeat that.
     run.stuck.insert({a, b});
     run.stuck.insert({b, a});
   }

@@ -11,10 +11,10 @@ namespace {
 
 constexpr double kInverseRootOfThree = 0.57735026918962576;
 
-// Radius of the petal of a shortest edge of length `length`: Definition 1 with its erratum, |pq| / (2 sin alpha). Where
-// the triangle is bad for its size, the disk in which an equilateral triangle of that size fits. Never more than the
-// triangle's own circumcircle, which no vertex lies in. Where lengths are wanted, the equilateral triangle's of that
-// length in either case: the new edges come out near it.
+// Radius of the petal of a shortest edge of length `length`: Definition 1 with its erratum, |pq| / (2 sin alpha). If
+// the triangle is only too long, at most the circumradius of an equilateral triangle of the maximum edge; if lengths
+// are requested, always at most that of the requested length, so that new edges come close to it. At most the
+// triangle's own circumradius, whose circle contains no vertex.
 double petalRadius(double length, double circumradius, double wanted, const TriangleBound& bound, double sin_place,
                    bool bad_angle) {
   double radius = circumradius;
@@ -27,11 +27,10 @@ double petalRadius(double length, double circumradius, double wanted, const Tria
   return std::max(radius, 0.5 * length);
 }
 
-// The petal of an edge on a sphere is a cap: a plane section through the edge sees it under one angle. In the frame at
-// one end, where the edge has this length, it is a disk that sees it under another, with the sine that this returns; 0
-// where the cap would be larger than a half of the sphere. The angle is larger by what the surface's margin asks of the
-// longest edge that a triangle in the petal can have, which is its diameter: else every point on the petal's boundary
-// made a bad triangle.
+// The petal of an edge on a sphere is a cap, whose boundary sees the edge under one angle. In the frame at one end,
+// where the edge has this length, it is a disk, whose boundary sees it under another. Returns the sine of that; 0 if
+// the cap would exceed half the sphere. The angle includes the surface's margin for the longest edge of a triangle in
+// the petal, its diameter; otherwise every point on the petal's boundary would make a bad triangle.
 double sineInFrame(double sine, double length, const AngleBound& angles, const Surface& surface) {
   if (!surface.isCurved()) return sine;
   const double stricter = sine + angles.cos_min * surface.margin * length / sine;
@@ -39,16 +38,16 @@ double sineInFrame(double sine, double length, const AngleBound& angles, const S
   return std::sqrt(std::max(0.0, stricter * stricter * (1.0 + squared_tangent) - squared_tangent));
 }
 
-// What two places' squared clearances may differ by where they count as the same, and one is taken by chance: as
-// rounding has it between the places of a lattice in the plane. On a sphere one side would always win, and with it
-// what is refined at the lattice's edge would spread through all of it.
+// Squared clearances that differ by less than this factor count as equal, and a hash of the place chooses, as rounding
+// does between the places of a lattice in the plane. Otherwise one side would always win on a sphere, and refinement at
+// a lattice's edge would spread through all of it.
 double evenAt(const Point& place) {
   constexpr double kSame = 1e-5;
   const std::uint64_t bits = std::bit_cast<std::uint64_t>(place.x) ^ std::bit_cast<std::uint64_t>(place.y);
   return (bits >> 8 & 1) != 0 ? 1.0 + kSame : 1.0 - kSame;
 }
 
-// Far more Voronoi edges than a petal has; a bound for meshes that rounding has bent.
+// Far more Voronoi edges than a petal has; a limit for meshes distorted by rounding.
 constexpr int kMostSteps = 10000;
 
 }  // namespace
@@ -66,7 +65,7 @@ SteinerPoint SteinerSearch::find(const EditMesh& mesh, TriId t, unsigned apex) {
   const Point q = relative(bad.v[prev3(apex)]);
   const Point r = relative(bad.v[apex]);
   if (frame.isCurved() && !(cross(q, r) > 0.0)) {
-    // Its circle holds the far end of the sphere.
+    // Its circumcircle contains the far end of the sphere.
     const Point centre = centroid(p, mesh.point(bad.v[prev3(apex)]), mesh.point(bad.v[apex]));
     return {centre, SteinerType::OwnCircumcenter, t, bound_.surface.squaredChord(centre, p)};
   }
@@ -78,23 +77,23 @@ SteinerPoint SteinerSearch::find(const EditMesh& mesh, TriId t, unsigned apex) {
   const double length = std::sqrt(squaredLength(q));
   const bool bad_angle = isSmallestAngleBelow({}, q, r, bound_.cot_min);
   const Point normal{-q.y / length, q.x / length};
-  // As at the centroid of the equilateral triangle on pq: at pq itself edges come out too short where lengths grow away
-  // from it, as they do away from every shore.
+  // The length at the centroid of the equilateral triangle on pq: with that at pq itself, edges come out too short
+  // where lengths grow away from it, as beside every shore.
   const Point centre = 0.5 * q + 0.5 * kInverseRootOfThree * Point{-q.y, q.x};
   const double wanted = bound_.size == nullptr ? 0.0 : scale_ * bound_.size->at(frame.absolute(centre));
   const double circumradius = std::sqrt(squaredLength(own));
   const double radius = petalRadius(length, circumradius, wanted, bound_,
                                     sineInFrame(sin_place_, length, bound_, bound_.surface), bad_angle);
   const double height = std::sqrt(std::max(0.0, radius * radius - 0.25 * length * length));
-  // Type I where the circumcentre lies outside the petal; both are on the bisector of pq.
+  // Type I if the circumcentre is outside the petal; both are on the bisector of pq.
   if (dot(normal, own) > height + radius) {
     const Point tip = 0.5 * q + (height + radius) * normal;
     return {frame.absolute(tip), SteinerType::DualOfShortestEdge, t, clearance(tip, {})};
   }
   SteinerPoint best{own, SteinerType::OwnCircumcenter, t, own_clearance};
   if (algorithm_ != Algorithm::Offcenter) {
-    // The Voronoi edges inside the petal, from the bad triangle's circumcentre on. No vertex lies in the petal, so they
-    // make a tree: a cycle would hold a whole Voronoi cell with its vertex.
+    // Follows the Voronoi edges inside the petal, from the bad triangle's circumcentre. No vertex lies in the petal, so
+    // they form a tree: a cycle would enclose a whole Voronoi cell with its vertex.
     const Point middle = 0.5 * q + height * normal;  // of the petal
     const double squared_radius = radius * radius;
     const auto offer = [&](const Point& place, SteinerType type, TriId near, double squared_clearance) {
@@ -107,7 +106,7 @@ SteinerPoint SteinerSearch::find(const EditMesh& mesh, TriId t, unsigned apex) {
     for (int steps = 0; !steps_.empty() && steps < kMostSteps; ++steps) {
       const auto [edge, from] = steps_.back();
       steps_.pop_back();
-      // Towards a constraint the way leads to places that are nearer to its ends, or behind it.
+      // Voronoi edges towards a constraint lead to places that are nearer to its ends, or behind it.
       if (mesh.isConstrained(edge)) continue;
       const EdgeRef beyond = mesh.twin(edge);
       const Point u = relative(mesh.origin(edge)), w = relative(mesh.target(edge));

@@ -11,7 +11,7 @@ namespace coastmesh {
 
 namespace {
 
-// Of some triangles and of those that touch them in so many rings; numbered in `scratch`.
+// Some triangles, and those that touch them in `rings` layers; numbered in `scratch`.
 std::vector<TriId> gatherAround(const EditMesh& mesh, std::span<const TriId> centre, unsigned rings,
                                 PatchNumbers& scratch) {
   scratch.triangle.resize(std::max<std::size_t>(scratch.triangle.size(), mesh.triangleSlots()), kNone);
@@ -61,7 +61,7 @@ VertexNotes notesOn(std::span<const VertexId> vertices, VertexId fixed, VertexId
     some.spacing.reserve(vertices.size());
     for (const VertexId v : vertices) some.spacing.push_back(notes.spacing[v]);
   }
-  // What only input vertices have; the others that are fixed now have none.
+  // Notes that only input vertices have; other fixed vertices have none.
   for (const VertexId v : vertices.first(fixed)) {
     const bool input = v < parent_inputs;
     if (notes.shell_unit.size() == parent_inputs) some.shell_unit.push_back(input ? notes.shell_unit[v] : 0.0);
@@ -107,7 +107,7 @@ void putBack(EditMesh& parent, const Submesh& patch, const TriMesh& solved, std:
     const Triangle& tri = solved.triangles[t];
     fresh.push_back({number[tri.v[0]], number[tri.v[1]], number[tri.v[2]]});
     for (unsigned i = 0; i < 3; ++i) {
-      // A boundary without segments is that of a mesh of points alone.
+      // Only a mesh of points alone has a boundary without segments.
       if (tri.seg[i] == kFrozen || (tri.seg[i] == kNone && tri.adj[i] != kNone)) continue;
       const EdgeRef e = edgeRef(t, i);
       const BoundaryEdge edge{number[solved.origin(e)], number[solved.target(e)], kNone, tri.seg[i]};
@@ -156,8 +156,7 @@ Submesh extractNear(const TriMesh& parent, const VertexNotes& notes, std::span<c
 
 namespace {
 
-// Closes the gaps that triangles and vertices leave which are no more, with the last ones of all. `followed` are
-// triangles whose numbers are kept up to date.
+// Fills the slots of removed triangles and vertices with the last ones. Keeps the numbers in `followed` up to date.
 void removeUnused(TriMesh& mesh, std::vector<TriId> triangles, std::vector<VertexId> vertices,
                   std::span<TriId> followed, const ItemLoop& loop) {
   std::ranges::sort(triangles);

@@ -21,9 +21,8 @@ struct MeshState {
   std::vector<std::uint8_t> due_vertices;   // one for each vertex, or empty: for coarsening and optimiser to examine
 };
 
-// Some triangles of a mesh, its parent, as a separate mesh. Edges shared with other triangles of the parent
-// are frozen: they carry kFrozen in place of a segment and must be kept. The boundary of the domain stays as
-// it is.
+// Some triangles of a mesh, its parent, as a separate mesh. Edges shared with other triangles of the parent are frozen:
+// they carry kFrozen in place of a segment and must be kept. The boundary of the domain stays as it is.
 struct Submesh {
   TriMesh mesh;  // the first `input_vertices` are fixed: input vertices and those on frozen edges
   VertexNotes notes;
@@ -32,8 +31,7 @@ struct Submesh {
   std::vector<EdgeRef> frozen;   // the frozen edges, in the parent's numbers, seen from inside
 };
 
-// The parent's notes on some of its vertices, as notes on a submesh whose first `fixed` vertices they
-// are.
+// The parent's notes on `vertices`, as notes on a submesh that consists of them, the first `fixed` of which are fixed.
 VertexNotes notesOn(std::span<const VertexId> vertices, VertexId fixed, VertexId parent_inputs,
                     const VertexNotes& notes);
 
@@ -87,7 +85,7 @@ struct PatchNumbers {
 std::vector<TriId> trianglesAround(const EditMesh& mesh, std::span<const TriId> centre, unsigned rings,
                                    PatchNumbers& scratch);
 
-// Takes these triangles out as a mesh.
+// Extracts these triangles as a submesh.
 Submesh extractAround(const EditMesh& parent, const VertexNotes& notes, std::span<const TriId> centre, unsigned rings,
                       PatchNumbers& scratch);
 

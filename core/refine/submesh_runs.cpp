@@ -15,7 +15,7 @@ RefineRun takeSubmesh(MeshState& state, const Pslg& pslg, const RefineOptions& o
   return RefineRun(std::move(state.mesh), pslg, options, std::move(state.notes), variant);
 }
 
-// Beside the mesh, what is known of its vertices, and which triangles were kept for later.
+// Returns the mesh, the notes on its vertices, and as due the triangles that were kept for later.
 RefineStats giveBack(RefineRun& run, MeshState& state) {
   std::erase_if(run.deferred, [&](const auto& entry) { return !isDeferred(run, entry.first); });
   Renumbering by;

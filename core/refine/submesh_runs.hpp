@@ -14,15 +14,15 @@ namespace coastmesh {
 // submeshes stay Delaunay with their neighbours whatever is done there. What would have to change at a frozen edge
 // stays due until the mesh is cut elsewhere.
 
-// Processes the bad ones of the due triangles, and what follows; with `mends` also repairs the rest. Triangles blocked
-// by a frozen edge are due afterwards. Bad triangles that are not due, before or after, are those that no point
-// improves. `options.max_vertices` applies to the submesh. `steiner_points` and `unresolved` of the result stay empty.
+// Processes the bad ones of the due triangles, and all that become bad; with `mends` also repairs the rest. Triangles
+// blocked by a frozen edge are due afterwards. Bad triangles that are not due, before or after, cannot be improved by
+// any point. `options.max_vertices` applies to the submesh. `steiner_points` and `unresolved` of the result stay empty.
 // Throws Cancelled.
 RefineStats refineSubmesh(MeshState& state, const Pslg& pslg, const RefineOptions& options, bool mends,
                           const RunControl& control = {});
 
-// Only repairs: patches around bad triangles are refined again, nothing else is changed. What a frozen edge blocked is
-// due afterwards.
+// Only repairs: patches around bad triangles are refined again, nothing else is changed. Triangles blocked by a frozen
+// edge are due afterwards.
 RefineStats repairSubmesh(MeshState& state, const Pslg& pslg, const RefineOptions& options, const RunControl& control);
 
 // Removes and merges the due vertices that the bounds do not need. Those that a frozen edge blocked are due afterwards;
@@ -30,8 +30,8 @@ RefineStats repairSubmesh(MeshState& state, const Pslg& pslg, const RefineOption
 RefineStats coarsenSubmesh(MeshState& state, const Pslg& pslg, const RefineOptions& options,
                            const RunControl& control = {});
 
-// The submesh that was worked on in `mesh`. Of its due vertices (one for each slot) those stay due that a frozen edge
-// fixes or is next to, and those that are `waiting`.
+// Releases the submesh that was worked on in `mesh`. Of its due vertices (one flag for each slot) those stay due that
+// are fixed or next to a frozen edge, and those in `waiting`.
 MeshState releaseDue(EditMesh& mesh, std::vector<std::uint8_t> due, std::span<const VertexId> waiting = {});
 
 }  // namespace coastmesh

@@ -35,7 +35,7 @@ void noteAngles(const TriMesh& mesh, const TriangleBound& bound, VertexNotes& no
   }
 }
 
-// The distance to the nearest vertex or segment that a vertex sees, from the triangles round it.
+// Spacing is the distance to the nearest vertex or segment that a vertex sees, from the triangles around it.
 void noteSpacing(const TriMesh& mesh, const Surface& surface, VertexNotes& notes) {
   notes.spacing.assign(mesh.points.size(), std::numeric_limits<double>::infinity());
   for (TriId t = 0; t < mesh.triangles.size(); ++t) {

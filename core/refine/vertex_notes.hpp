@@ -15,8 +15,8 @@ struct VertexNotes {
   std::vector<double> spacing;     // for each vertex: an upper bound of the input's local feature size there
   std::vector<double> shell_unit;  // for each input vertex: radius of a shell around it; 0 if there is no small angle
   std::vector<bool> small_angle;   // for each input vertex: whether one of its sectors is too small for the bounds
-  std::shared_ptr<const InputCorners>
-      corners;  // of the whole input, also on a part of the mesh; null if there are none
+  // Of the whole input, also on a part of the mesh; null if there are none.
+  std::shared_ptr<const InputCorners> corners;
 };
 
 // Notes on a mesh made by `constrainedDelaunay`.

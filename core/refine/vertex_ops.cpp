@@ -11,29 +11,29 @@ namespace coastmesh {
 
 namespace {
 
-// No vertex has more triangles round it than angles of the bound fit into a full turn.
+// No vertex has more good triangles than minimum angles fit into a full turn.
 std::size_t mostTriangles(const TriangleBound& bound) {
   if (bound.min_angle <= 0.0) return std::numeric_limits<std::size_t>::max() / 2;
   return static_cast<std::size_t>(2.0 * std::numbers::pi / bound.min_angle);
 }
-// Triangles that vanish when two vertices become one.
+// Triangles that vanish when two vertices merge.
 constexpr std::size_t kMergedAway = 2;
 
-// The same for what is to be round a merged vertex. The limit is below a full turn: near that a place is hardly ever
-// feasible.
+// The same for a merged vertex. The limit is below a full turn: close to that a place is hardly ever feasible.
 bool hasTooManyToMerge(std::size_t triangles, const TriangleBound& bound) {
   constexpr double kMostTurn = toRadians(299.5);
   return static_cast<double>(triangles) * bound.min_angle > kMostTurn;
 }
 
-// One in a hundred merges is along an edge whose squared length is above this share of the mean round its end.
+// One in a hundred merges is along an edge whose squared length exceeds this share of the mean around its end: none is
+// tried.
 constexpr double kLongestToMerge = 1.6;
 
-// Below this angle the mean of its neighbours, where that is feasible, is as good a place as one amid all that is.
+// Below this minimum angle the mean of the neighbours, if feasible, is as good a target as the middle of the region.
 constexpr double kMeanServesBelow = toRadians(36.5);
 
-// How far a good vertex goes on its way to a better place, as shares of that way: beyond it at first, since its
-// neighbours are on their way too (over-relaxation), and half of it where no more is feasible.
+// Moves to try for a good vertex, as shares of the way to its target: beyond it first, since its neighbours move too
+// (over-relaxation), and half of it if no more is feasible.
 constexpr double kShares[] = {1.6, 1.0, 0.5};
 
 VertexId otherEnd(const BoundaryEdge& r, VertexId v) { return r.a == v ? r.b : r.a; }
@@ -45,7 +45,7 @@ Corners sorted(Corners corners) {
 
 using Link = std::vector<LinkEdge>;
 
-// What is round a vertex.
+// Sets `link` to the edges of a ring.
 void takeLink(const EditMesh& mesh, const Ring& ring, Link& link) {
   const std::size_t count = ring.corners.size();
   link.resize(count);
@@ -57,8 +57,8 @@ void takeLink(const EditMesh& mesh, const Ring& ring, Link& link) {
   }
 }
 
-// Calls `visit` with the edge opposite v in each triangle round it, counter-clockwise from the triangle `home` on, as
-// long as it returns true. Returns whether that went once round, in `most` triangles or fewer.
+// Calls `visit` with the edge opposite v in each triangle around it, counter-clockwise from the triangle `home`, while
+// it returns true. Returns whether that completed a turn, in `most` triangles or fewer.
 template <typename Visit>
 bool walkAllRound(const EditMesh& mesh, VertexId v, TriId home, std::size_t most, const Visit& visit) {
   TriId t = home;
@@ -111,7 +111,7 @@ void VertexOps::Star::clear() {
   sides.clear();
 }
 
-// Appends what is round v, less what it shares with `other`; its spokes start at `stays`. Returns false where there are
+// Appends the star of v, except what it shares with `other`; its spokes start at `stays`. Returns false if there are
 // too many triangles.
 bool VertexOps::appendStar(VertexId v, VertexId other, VertexId stays, Star& star) {
   std::vector<EdgeRef>& opposite = memory_.opposite;
@@ -141,7 +141,7 @@ bool VertexOps::gather(VertexId v, Star& star) {
   return appendStar(v, kNone, v, star);
 }
 
-// What is round two neighbours. Returns false where they cannot become one: the link condition, that the two stars
+// Gathers the star of two neighbours. Returns false if they cannot become one: by the link condition the two stars
 // share the corners beside their edge and no others.
 bool VertexOps::gatherBoth(VertexId goes, VertexId stays, Star& star) {
   star.clear();
@@ -156,7 +156,7 @@ bool VertexOps::gatherBoth(VertexId goes, VertexId stays, Star& star) {
   return common <= 1;
 }
 
-// A link as it is seen from a place of the surface.
+// A link in a frame.
 std::span<const LinkEdge> VertexOps::framed(const Frame& frame, std::span<const LinkEdge> link) {
   if (!frame.isCurved()) return link;
   Link& seen = memory_.framed_link;
@@ -165,7 +165,7 @@ std::span<const LinkEdge> VertexOps::framed(const Frame& frame, std::span<const 
   return seen;
 }
 
-// Where v may go so that all triangles of its star are good.
+// A place for v where all triangles of its star are good; nullopt if none.
 std::optional<Point> VertexOps::findPlace(VertexId v, const Star& star) {
   Link& link = memory_.link;
   link.clear();
@@ -189,12 +189,12 @@ std::optional<Point> VertexOps::findFeasible(VertexId v, const Star& star, std::
       inPlane(region_.findPointBetween(frame.to(mesh_.point(otherEnd(star.spokes[0], v))),
                                        frame.to(mesh_.point(otherEnd(star.spokes[1], v))), framed(frame, link)));
   if (!place) return std::nullopt;
-  // On the input segment itself, lest rounding adds up.
+  // On the input segment itself, so that rounding errors do not add up.
   const Segment& seg = pslg_.segments[star.spokes[0].seg];
   return projectedOnLine(*place, pslg_.points[seg.a], pslg_.points[seg.b]);
 }
 
-// Whether a fan round `place` over the boundary would be flipped into triangles that no one has tested.
+// True if flips would change a fan around `place` into triangles that were not tested.
 bool VertexOps::fanFlips(const Star& star, const Point& place) const {
   for (const BoundaryEdge& r : star.patch.boundary) {
     const Point &a = mesh_.point(r.a), &b = mesh_.point(r.b);
@@ -209,7 +209,7 @@ bool VertexOps::fanFlips(const Star& star, const Point& place) const {
   return false;
 }
 
-// The same for the triangles that are to fill a hole: they are Delaunay among themselves.
+// The same for the triangles that fill a hole, which are Delaunay among themselves.
 bool VertexOps::holeFlips(const Star& star, std::span<const Corners> fresh) const {
   for (const Corners& c : fresh) {
     for (const BoundaryEdge& r : star.patch.boundary) {
@@ -223,7 +223,7 @@ bool VertexOps::holeFlips(const Star& star, std::span<const Corners> fresh) cons
   return false;
 }
 
-// Whether a star is next to a frozen edge, and is to be left alone for that.
+// True if a star is next to a frozen edge, and must therefore be skipped.
 bool VertexOps::isBarred(const Star& star) const {
   return clear_of_frozen_ &&
          std::ranges::any_of(star.patch.boundary, [](const BoundaryEdge& r) { return r.seg == kFrozen; });
@@ -235,21 +235,20 @@ bool VertexOps::isBadBeyond(EdgeRef e) const {
   return isBad(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), bound_);
 }
 
-// Whether flips at the boundary of a star could do harm.
+// True if flips at the boundary of a star could do harm.
 bool VertexOps::mayNotFlip(const Star& star) const {
   return flips_may_harm_ || (bad_stays_ && std::ranges::any_of(star.patch.boundary, [this](const BoundaryEdge& r) {
                                return isBadBeyond(r.beyond);
                              }));
 }
 
-// Whether there would be too many triangles round one vertex in place of two neighbours: four of theirs at most are of
-// both, or of none.
+// True if two neighbours would have too many triangles as one vertex: at most four of their sum are shared or vanish.
 bool VertexOps::hasTooManyTogether(VertexId v, VertexId w) const {
   const std::size_t both = mesh_.trianglesRound(v) + mesh_.trianglesRound(w);
   return both > 4 && hasTooManyToMerge(both - 4, bound_);
 }
 
-// What a vertex with this ring looks for together with its neighbours, in the frame at it.
+// Prepares the ring of a vertex, in the frame at it, for merges with its neighbours.
 void VertexOps::makeReady(const Frame& frame, const Ring& ring) {
   auto& [edges, boxes, before, after] = memory_.ring_look;
   const std::size_t count = ring.corners.size();
@@ -271,7 +270,7 @@ void VertexOps::makeReady(const Frame& frame, const Ring& ring) {
   }
 }
 
-// Of the ring, less the two edges at corner k.
+// The box of the ring without the two edges at corner k.
 PetalBox VertexOps::boxWithout(std::size_t k) const {
   const RingLook& ring = memory_.ring_look;
   if (k + 1 < ring.edges.size()) {
@@ -293,8 +292,8 @@ void VertexOps::takeEdgesWithout(std::size_t k) {
     if (i != k && i != beside) edges.push_back(ring[i]);
 }
 
-// A quick test of two free vertices, v with its ring made ready and the one at its corner k, that rules most merges
-// out: mostly the box alone does, before the whole of the other star is seen.
+// A quick test of two free vertices, v with its prepared ring and the one at its corner k, that rules out most merges:
+// mostly by the box alone, before all of the other star is visited.
 bool VertexOps::cannotMerge(const Frame& frame, VertexId v, const Ring& ring, std::size_t k) {
   PetalBox box = boxWithout(k);
   if (box.isEmpty()) return true;
@@ -310,7 +309,7 @@ bool VertexOps::cannotMerge(const Frame& frame, VertexId v, const Ring& ring, st
          region_.look(edges, box).is_empty;
 }
 
-// The same of a corner on a segment, by what is round v alone.
+// The same for a corner on a segment, by the star of v alone.
 bool VertexOps::cannotMergeOnto(std::size_t k) {
   const PetalBox box = boxWithout(k);
   if (box.isEmpty()) return true;
@@ -318,8 +317,8 @@ bool VertexOps::cannotMergeOnto(std::size_t k) {
   return region_.look(memory_.look_edges, box).is_empty;
 }
 
-// The same as `fits` where smallest angles alone are asked for; in the plane it leaves the triangles in `fan`. There a
-// triangle of good angles is so far from flat that the sign of its area is certain.
+// Like `fits` if only smallest angles are bounded; in the plane it leaves the triangles in `fan`. There a triangle with
+// good angles is so far from flat that the sign of its area is certain.
 bool VertexOps::fitsAt(const Point& place, std::span<const LinkEdge> link) {
   if (bound_.surface.isCurved()) return fits(link, place, bound_);
   std::vector<FanTriangle>& fan = memory_.fan;
@@ -336,7 +335,7 @@ bool VertexOps::fitsAt(const Point& place, std::span<const LinkEdge> link) {
   return true;
 }
 
-// A feasible place on the way to `to`, which is one of the frame at the vertex.
+// A feasible place on the way to `to`, which is in the vertex's frame; nullopt if none.
 std::optional<Point> VertexOps::placeTowards(const Point& to, const Frame& frame, const Point& here,
                                              std::span<const LinkEdge> link) {
   const Point from = frame.to(here);
@@ -347,15 +346,15 @@ std::optional<Point> VertexOps::placeTowards(const Point& to, const Frame& frame
   return std::nullopt;
 }
 
-// Whether a bad triangle lies beyond the ring of a vertex.
+// True if a bad triangle lies beyond the ring of a vertex.
 bool VertexOps::isBesideBad(VertexId v, const Ring& ring) const {
   if (std::ranges::all_of(ring.corners, [&](VertexId w) { return isClearOfBad(w); })) return false;
   return std::ranges::any_of(ring.triangles,
                              [&](TriId t) { return isBadBeyond(mesh_.twin(edgeRef(t, mesh_.cornerOf(t, v)))); });
 }
 
-// Whether an edge of a free vertex's star may not be Delaunay, the vertex being where `fitsAt` was last asked for:
-// angles opposite an edge add up to less than a half turn where their cotangents are above zero together. In the plane.
+// True if an edge of a free vertex's star may not be Delaunay, with the vertex at the place last passed to `fitsAt`:
+// angles opposite an edge add up to less than a half turn if the sum of their cotangents is above 0. Plane only.
 bool VertexOps::needsFlips(VertexId v, const Ring& ring) const {
   constexpr double kRounding = 1e-14, kClear = 1e-6;
   const std::vector<FanTriangle>& fan = memory_.fan;
@@ -367,14 +366,14 @@ bool VertexOps::needsFlips(VertexId v, const Ring& ring) const {
     before = &t;
   }
   const Point& here = mesh_.point(v);
-  // Edge k leads to corner k; the triangle on it is the one before that at the corner.
+  // Edge k leads to corner k; its triangle is the one before the triangle at that corner.
   for (std::size_t k = 0; k < count; ++k) {
     const TriId t = ring.triangles[k == 0 ? count - 1 : k - 1];
     const EdgeRef e = edgeRef(t, mesh_.cornerOf(t, v));
     if (mesh_.isConstrained(e)) continue;
     const Point &x = mesh_.point(ring.corners[k == 0 ? count - 1 : k - 1]), &y = mesh_.point(ring.corners[k]);
     const Point& beyond = mesh_.point(mesh_.apex(mesh_.twin(e)));
-    // Mostly the two angles that see the edge are clearly less than a half turn together.
+    // Usually the two angles opposite the edge clearly add up to less than a half turn.
     const Point to_x = x - beyond, to_y = y - beyond;
     const double area = cross(to_y, to_x), scale = fan[k].area * area;
     if (fan[k].at_vertex * area + dot(to_x, to_y) * fan[k].area > kClear * scale && scale > 0.0) continue;
@@ -432,8 +431,8 @@ bool VertexOps::isGood(const Corners& c) const {
   return !isBad(mesh_.point(c[0]), mesh_.point(c[1]), mesh_.point(c[2]), bound_);
 }
 
-// Triangulates the polygon of some boundary edges, closed by a straight edge where they are not closed themselves.
-// Returns false at the first triangle that `accept` refuses.
+// Triangulates the polygon of some boundary edges, closed by a straight edge if they are not a loop. Returns false at
+// the first triangle that `accept` rejects.
 template <typename Accept>
 bool VertexOps::fillHole(std::span<const BoundaryEdge> side, const Accept& accept, std::vector<Corners>& fresh) {
   std::vector<VertexId>& polygon = memory_.polygon;
@@ -444,7 +443,7 @@ bool VertexOps::fillHole(std::span<const BoundaryEdge> side, const Accept& accep
 }
 
 // Fills the hole that a vertex on a segment leaves, whose two subsegments become one: `star` has the boundary of its
-// triangles and gets what the one subsegment is. Returns false where that cannot be.
+// triangles and receives the one subsegment. Returns false if that is impossible.
 template <typename Accept>
 bool VertexOps::fillBesideSegment(std::span<const EdgeRef> opposite, StarKind kind, const Accept& accept, Star& star,
                                   std::vector<Corners>& fresh) {
@@ -493,14 +492,14 @@ bool VertexOps::removeAnyway(VertexId v, std::vector<TriId>& touched) {
 template <typename Accept>
 bool VertexOps::removeWhere(VertexId v, Flips flips, const Accept& accept, std::vector<TriId>& touched) {
   if (mesh_.kind(v) == VertexKind::Free) {
-    // Most fail: before anything else is looked at.
+    // Most attempts fail here, before anything else is examined.
     if (mesh_.ring(v, mesh_.triangleOf(v), most_triangles_, memory_.ring) != StarKind::Closed) return false;
     if (!triangulatePolygon(mesh_, memory_.ring.corners, memory_.fresh, accept)) return false;
   }
   return takeOut(v, flips, accept, touched);
 }
 
-// What triangles come in place of a free vertex is in `fresh`.
+// REQUIRES: for a free vertex, `fresh` has the triangles that replace it.
 template <typename Accept>
 bool VertexOps::takeOut(VertexId v, Flips flips, const Accept& accept, std::vector<TriId>& touched) {
   std::vector<Corners>& fresh = memory_.fresh;
@@ -525,9 +524,9 @@ bool VertexOps::takeOut(VertexId v, Flips flips, const Accept& accept, std::vect
 bool VertexOps::mergeFree(VertexId v, const Ring& ring, bool each_gets_its_turn, std::vector<TriId>& touched) {
   const Point here = mesh_.point(v);
   const Frame frame(bound_.surface, here);
-  // Both are known once they are needed.
+  // Both are computed when first needed.
   double longest = 0.0;
-  const bool asks = bound_.min_angle > 0.0;  // else nothing rules a merge out beforehand
+  const bool asks = bound_.min_angle > 0.0;  // otherwise no quick test applies
   bool is_ready = !asks;
   const auto makeReadyOnce = [&] {
     if (!std::exchange(is_ready, true)) makeReady(frame, ring);

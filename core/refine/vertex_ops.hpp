@@ -22,7 +22,7 @@ class VertexOps {
  public:
   VertexOps(EditMesh& mesh, const Pslg& pslg, const TriangleBound& bound);
 
-  // From now on skips what is next to a frozen edge, since others may change it too.
+  // From now on skips stars next to a frozen edge, since others may change them too.
   void keepClearOfFrozen() { clear_of_frozen_ = true; }
 
   // From now on rejects any flip that involves a bad triangle: an input angle may excuse that triangle but not the
@@ -47,13 +47,13 @@ class VertexOps {
   // its kind. Either both are free, or `stays` is on a segment and `goes` is free or its neighbour there.
   bool merge(VertexId goes, VertexId stays, std::vector<TriId>& touched);
 
-  // Tries to merge v with each neighbour that is not an input vertex; of two free vertices only with the later one, if
-  // each is processed.
+  // Tries to merge v with each neighbour that is not an input vertex; of two free vertices, if each is processed, only
+  // from the one with the smaller number.
   bool mergeWithNeighbour(VertexId v, bool each_gets_its_turn, std::vector<TriId>& touched);
 
   // The operations to try on a vertex, in this order until one succeeds.
   struct Tries {
-    std::size_t removes_up_to = 0;  // removal, of a vertex with at most so many triangles
+    std::size_t removes_up_to = 0;  // removal, if the vertex has at most this many triangles
     bool merges = false;            // like mergeWithNeighbour, if each is processed
     bool moves = false;             // like relocate
   };
@@ -61,11 +61,11 @@ class VertexOps {
   // The same as these one after another, with a single walk around the vertex.
   Change tryInTurn(VertexId v, const Tries& tries, std::vector<TriId>& touched);
 
-  // Whether there is a bad triangle beyond an edge, given as seen from there (kNone: boundary).
+  // True if there is a bad triangle beyond an edge, given as seen from there (kNone: boundary).
   bool isBadBeyond(EdgeRef e) const;
 
  private:
-  // What is replaced around a vertex, or around two that become one.
+  // The triangles to replace around a vertex, or around two that become one.
   struct Star {
     Patch patch;                       // the triangles, and their boundary without the following edges at the vertex
     std::vector<BoundaryEdge> spokes;  // subsegments that end at the vertex, as edges from it
@@ -78,13 +78,13 @@ class VertexOps {
   struct FanTriangle {
     double at_x, at_y, at_vertex, area;
   };
-  // The edges of a free vertex's ring, made ready for looks at it together with each of its neighbours: edge k leads to
-  // corner k. `before[k]` is the box of those before edge k, `after[k]` that of edge k and those behind it.
+  // The edges of a free vertex's ring, prepared for `look` at merges with each of its neighbours: edge k leads to
+  // corner k. `before[k]` is the box of the edges before k, `after[k]` that of edge k and those after it.
   struct RingLook {
     std::vector<LookEdge> edges;
     std::vector<PetalBox> boxes, before, after;
   };
-  // Whether the flips that follow a change may make triangles that no one has tested.
+  // Any: flips after a change may make triangles that were not tested.
   enum class Flips { Watched, Any };
 
   bool gather(VertexId v, Star& star);
@@ -130,16 +130,15 @@ class VertexOps {
   const TriangleBound& bound_;
   bool clear_of_frozen_ = false;
   bool bad_stays_ = false;
-  // For each vertex, in the plane: whether it was a corner of a bad triangle when these were to be kept. No other
-  // triangle becomes bad, since flips preserve the smallest angle. Later vertices are not included.
+  // For each vertex, in the plane: whether it was a corner of a bad triangle at `keepBadInPlace`. No other triangle
+  // becomes bad, since flips preserve the smallest angle. Later vertices are not included.
   std::vector<std::uint8_t> at_bad_;
   std::size_t most_triangles_;  // no vertex can have more triangles without a bad one among them
   bool flips_may_harm_;         // flips preserve the smallest angle, but not the largest, nor the longest edge
 
   FeasibleRegion region_;
 
-  // Reused memory. Each user fills it first and passes it on as an argument: nothing in it is kept for
-  // others.
+  // Reused memory. Each user fills it first and passes it on as an argument: nothing in it is kept for others.
   struct Memory {
     Ring ring;
     Star star;

@@ -9,17 +9,17 @@ namespace coastmesh {
 
 namespace {
 
-// On each side of a segment that is much shorter than wanted: measured on coasts at 33 degrees.
+// Vertices on each side of a segment much shorter than requested; measured on coasts at 33 degrees.
 constexpr double kLeadingOut = 1.2;
 
-// How many wanted lengths there are from a to b, by the trapezoid rule; no further than `enough`.
+// The number of requested lengths from a to b, by the trapezoid rule; stops past `enough`.
 double lengthsAlong(const Point& a, const Point& b, const SizeFunction& size, const Surface& surface, double enough) {
   const double length = distance(a, b);
   const auto inPlane = [&](const Point& x) { return size.at(x) / surface.shrinkAt(x); };
   double along = 0.0, count = 0.0, here = inPlane(a);
   while (along < length && count <= enough) {
     const double next = std::min(along + here, length);
-    if (!(next > along)) return enough + 1.0;  // lengths below what coordinates resolve
+    if (!(next > along)) return enough + 1.0;  // lengths below the resolution of coordinates
     const double there = inPlane(a + (next / length) * (b - a));
     count += 0.5 * (next - along) * (1.0 / here + 1.0 / there);
     along = next;

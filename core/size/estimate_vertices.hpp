@@ -7,9 +7,9 @@
 namespace coastmesh {
 
 // The number of vertices that the segments of a graph add to a mesh with these lengths, beyond the integral of 2 /
-// (sqrt(3) h²) over its inside: half of those along its boundary (the integral has the other half), and those between
-// segments shorter than the requested length and triangles of that length, as many as refinement makes at the usual
-// angles. Stops counting past `enough`. Lengths are on `surface`.
+// (sqrt(3) h²) over its interior: half of those along its boundary (the integral includes the other half), and those
+// between segments shorter than the requested length and triangles of that length, as many as refinement makes at the
+// usual angles. Stops counting past `enough`. Lengths are on `surface`.
 double verticesOfSegments(const Pslg& pslg, const SizeFunction& size, double enough, const Surface& surface = {});
 
 }  // namespace coastmesh

@@ -6,13 +6,14 @@ namespace coastmesh {
 
 namespace {
 
-// Shrink is alike in a rectangle to this: its middle speaks for all of it, and sums that all but cancel are not needed.
+// If the scale factor varies by less than this share in a rectangle, that in its middle is used, which avoids sums that
+// nearly cancel.
 constexpr double kAlike = 1e-3;
 
 }  // namespace
 
-// The area is the integral of the shrink squared, which is the divergence of half a place times the shrink there: the
-// sum of what that brings out through the sides, an arctangent each.
+// The area is the integral of the squared scale factor, which is the divergence of half the position times the scale
+// factor. So it is the flux through the four sides, an arctangent each.
 double areaOn(const Surface& surface, const Point& low, const Point& high) {
   const double width = high.x - low.x, height = high.y - low.y;
   if (!surface.isCurved()) return width * height;
@@ -26,7 +27,7 @@ double areaOn(const Surface& surface, const Point& low, const Point& high) {
     return width * height * shrink * shrink;
   }
   const double per_length = std::sqrt(surface.curvature);
-  // Out through a side at the distance `across` from the origin, from `from` to `to` along it.
+  // The flux times the curvature, through a side at `across` from the origin, from `from` to `to` along it.
   const auto through = [&](double across, double from, double to) {
     const double u = per_length * across, away = std::sqrt(1.0 + u * u);
     return 0.5 * u / away * (std::atan(per_length * to / away) - std::atan(per_length * from / away));

@@ -12,8 +12,8 @@ namespace coastmesh {
 
 // Lengths and areas on the surface, from coordinates in its plane. For a plane they are the plane's, bit for bit.
 
-// The length of the shortest path on the surface from the straight distance in space, and back. No arc is longer than
-// half a great circle.
+// Convert the straight distance in space to the length of the shortest path on the surface, and back. No arc is longer
+// than half a great circle.
 inline double arcOfChord(const Surface& surface, double chord) {
   if (!surface.isCurved()) return chord;
   const double per_length = std::sqrt(surface.curvature);
@@ -40,7 +40,7 @@ inline ShrinkRange shrinkIn(const Surface& surface, const SizeBox& box) {
           surface.shrinkAt({std::max(x - box.half, 0.0), std::max(y - box.half, 0.0)})};
 }
 
-// Of a rectangle of the plane, given by two corners.
+// The area of a rectangle of the plane, given by two corners.
 double areaOn(const Surface& surface, const Point& low, const Point& high);
 inline double areaOn(const Surface& surface, const SizeBox& box) {
   return areaOn(surface, box.centre - Point{box.half, box.half}, box.centre + Point{box.half, box.half});

@@ -8,11 +8,11 @@
 
 namespace coastmesh {
 
-// Sizes on a surface as lengths in its plane, for code that measures there: the length of a straight line at a place,
-// short enough that the scale hardly changes along it.
+// Sizes on a surface as lengths in its plane, for code that measures there. Assumes straight lines so short that the
+// scale factor hardly changes along them.
 class PlaneSizes final : public SizeFunction {
  public:
-  // For the box from `low` to `high`; outside it lengths grow no further. `size` must outlive this.
+  // For the box from `low` to `high`; outside it the scale factor falls no further. `size` must outlive this.
   PlaneSizes(const SizeFunction& size, const Surface& surface, const Point& low, const Point& high)
       : size_(size),
         surface_(surface),

@@ -14,24 +14,24 @@ namespace coastmesh {
 
 namespace {
 
-// Steeper than this share of the gradation sizes are graded by distance; below it, it is cheaper to flatten triangles.
+// Above this multiple of the gradation sizes are graded by distance; below it, flattening triangles is cheaper.
 constexpr double kMuchTooSteep = 1.1;
-// So much of the way from a place to its neighbours sizes stay as they are there: grown all the way to two neighbours
-// at a right angle they would be too steep between these, and lowering them there would make the next cells too steep,
+// Sizes stay constant over this share of the way from a place to its neighbours. Grown all the way to two neighbours at
+// a right angle they would be too steep between these, and lowering them there would make the next cells too steep,
 // without end.
 constexpr double kFlatFoot = 0.3;
-// Triangles are flattened to a little less than what is still left alone, so that each time something is gained.
+// Triangles are flattened to slightly less than the allowed slope, so that every step makes progress.
 constexpr double kFlattened = 1.0 - 1e-5;
-// Visits of a cell, in the mean, before the sure way is taken.
+// Mean visits to a cell before `flattenLegs`, which always ends, takes over.
 constexpr std::size_t kMostVisits = 64;
-// Round a vertex of cells that were split.
+// The cells around a vertex that only split cells have.
 constexpr std::array<std::uint32_t, 4> kNowhere = {kNone, kNone, kNone, kNone};
 
 const ItemLoop kInOrder = inOrder;
-// Room for vertices to come, as a share of those that are there.
+// Spare room for new vertices: one for every kSpare present.
 constexpr std::size_t kSpare = 32;
 
-// As `SizeGrading::forEachSlope`, by sizes in a cell's slots. `f` may change these.
+// Like `SizeGrading::forEachSlope`, with sizes by slot in a cell. `f` may change these.
 template <typename F>
 void forEachSlopeOf(const LeafVertices& leaf, const std::array<double, 9>& h, F&& f) {
   constexpr std::array<std::array<std::size_t, 3>, 4> kSides = {{{0, 1, 2}, {2, 5, 8}, {8, 7, 6}, {6, 3, 0}}};
@@ -46,7 +46,7 @@ void forEachSlopeOf(const LeafVertices& leaf, const std::array<double, 9>& h, F&
   }
 }
 
-// Of sizes on a triangle, from one corner to the two others.
+// Gradient of sizes on a triangle, from the differences between one corner and the two others.
 Point gradient(const Point& ab, const Point& ac, double hb, double hc) {
   return (1.0 / cross(ab, ac)) * (hb * Point{ac.y, -ac.x} + hc * Point{-ab.y, ab.x});
 }
@@ -56,7 +56,7 @@ void sortOnce(std::vector<std::uint32_t>& numbers) {
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
-// What is kept of sizes is rounded; only what is rounded before it is compared is sure to be no steeper afterwards.
+// Sizes are stored in single precision. Rounding before comparing ensures that they are not too steep afterwards.
 double roundedDown(double size) {
   const auto rounded = static_cast<float>(size);
   return rounded <= size ? rounded : std::nextafter(rounded, 0.0F);
@@ -73,7 +73,7 @@ double SizeGrid::distanceBetween(std::uint32_t v, std::uint32_t w) const {
   return surface.isCurved() ? arcOfChord(surface, straight * std::sqrt(shrinkAt(v) * shrinkAt(w))) : straight;
 }
 
-// The shrink is the least at one of the corners.
+// The scale factor is smallest at one of the corners.
 double SizeGrid::slopeIn(const LeafVertices& leaf) const {
   if (!surface.isCurved()) return gradation;
   const Point low = origin + placeOf(leaf[0]), high = origin + placeOf(leaf[8]);
@@ -109,13 +109,14 @@ void SizeGrading::takeIn(std::uint32_t leaf) {
       if (leaves_[leaf][i] != kNone && (kQuadrants[i] >> k & 1) != 0) round_[leaves_[leaf][i]][k] = leaf;
 }
 
-// Of a cell's side, in the plane.
+// Half a cell's side, in the plane.
 double SizeGrading::halfOf(const LeafVertices& leaf) const {
   return grid_.unit * (grid_.places[leaf[4]].x - grid_.places[leaf[0]].x);
 }
 
-// `f(a, b, c, square)` of a cell's triangles, by slots of their vertices: the square of sizes' gradient times that of
-// half the cell's side, which is the sum of the squares of what sizes differ by along the legs, where these are halves.
+// Calls `f(a, b, c, square)` for a cell's triangles, with the slots of their vertices and the squared product of the
+// gradient and half the cell's side: the sum of squared differences along the legs if these are halves, otherwise half
+// of it.
 template <typename F>
 void SizeGrading::forEachSlope(const LeafVertices& leaf, F&& f) const {
   std::array<double, 9> h;
@@ -147,7 +148,7 @@ double SizeGrading::lowestOf(std::uint32_t leaf) const {
 }
 
 void SizeGrading::spread() {
-  // First to where nothing is wanted, from the boundary of that.
+  // First into areas without requested sizes, from their boundaries.
   const auto isFree = [&](std::uint32_t v) { return v != kNone && !std::isfinite(sizes_.size[v]); };
   grow(joined(overStretches(loop_, leaves_.size(),
                             [&](std::size_t first, std::size_t last) {
@@ -161,7 +162,7 @@ void SizeGrading::spread() {
                             })),
        [&](std::uint32_t v) { return !std::isfinite(sizes_.own[v]); });
 
-  // Then to where more is.
+  // Then to vertices that request more.
   std::vector<std::uint32_t> low =
       joined(overStretches(loop_, leaves_.size(), [&](std::size_t first, std::size_t last) {
         std::vector<std::uint32_t> lowest;
@@ -183,7 +184,7 @@ void SizeGrading::spread() {
                      [&](std::size_t v) { sizes_.is_spread[v] |= std::uint8_t{round_[v] != kNowhere}; });
 }
 
-// Where sizes grow that may have to go on, now that there are vertices beside them that were not there before.
+// Vertices whose growth may have to continue to new vertices beside them.
 std::vector<std::uint32_t> SizeGrading::besideNew() const {
   const auto isNew = [&](std::uint32_t v) {
     return v != kNone && (v >= sizes_.is_spread.size() || sizes_.is_spread[v] == 0);
@@ -199,7 +200,7 @@ std::vector<std::uint32_t> SizeGrading::besideNew() const {
   }));
 }
 
-// Half the side of the largest cell round a vertex.
+// Half the side of the largest cell around a vertex, in units.
 std::uint32_t SizeGrading::largestRound(std::uint32_t v) const {
   std::uint32_t half = 0;
   for (const std::uint32_t l : round_[v])
@@ -207,13 +208,13 @@ std::uint32_t SizeGrading::largestRound(std::uint32_t v) const {
   return half;
 }
 
-// The longest leg of the triangles round a vertex, on the surface.
+// The longest leg of the triangles around a vertex, on the surface.
 double SizeGrading::legAt(std::uint32_t v) const {
   return std::numbers::sqrt2 * grid_.unit * halves_[v] * grid_.shrinkAt(v);
 }
 
-// Starts to bring what those that follow will need from memory: what waits by size lies all over it. Inline: a call
-// that does nothing else is left out.
+// Prefetches the data of the entries that follow: in order of size they are scattered over memory. Inline, since a call
+// without other effects is optimised away.
 [[gnu::always_inline]] inline void SizeGrading::fetchAhead(std::span<const SizeQueue::Entry> batch) const {
   constexpr std::size_t kSteps = 8;
   if (batch.size() > 3 * kSteps) {
@@ -252,15 +253,14 @@ double SizeGrading::legAt(std::uint32_t v) const {
     if (v != kNone) __builtin_prefetch(&sizes_.size[v]);
 }
 
-// From each place sizes grow with the distance from it on the surface, not with that along edges: every vertex knows
-// the place that decides.
+// Sizes grow with the distance on the surface from their source, not along edges: every vertex stores its source.
 template <typename F>
 void SizeGrading::grow(std::vector<std::uint32_t>&& from, const F& mayLower) {
   sortOnce(from);
   SizeQueue queue;
   for (const std::uint32_t v : from)
     if (std::isfinite(sizes_.size[v])) queue.push({sizes_.size[v], v});
-  // What a batch allows is found for all of it at once, and then taken over in its order.
+  // Growth is found for the whole batch at once, and then applied in its order.
   std::vector<SizeQueue::Entry> batch;
   while (queue.take(batch)) {
     std::ranges::sort(batch, {}, [](const SizeQueue::Entry& e) { return e.number; });
@@ -287,7 +287,7 @@ void SizeGrading::grow(std::vector<std::uint32_t>&& from, const F& mayLower) {
   }
 }
 
-// What grows at a vertex lowers round it.
+// Finds what growth at a vertex lowers around it.
 template <typename F>
 void SizeGrading::findGrowth(std::uint32_t v, const F& mayLower, std::vector<Growth>& found) const {
   const std::uint32_t origin = sizes_.source[v] == kNone ? v : sizes_.source[v];
@@ -299,7 +299,7 @@ void SizeGrading::findGrowth(std::uint32_t v, const F& mayLower, std::vector<Gro
     for (const std::uint32_t w : leaves_[l]) {
       if (w == kNone || !mayLower(w)) continue;
       const double limit = sizes_.size[w] * (1.0 - 1e-9), reach = (limit - own) / rate + flat;
-      // Most are no larger than that: seen without a root.
+      // Shows for most vertices, without a root, that they are not lowered.
       if (!curved && !(reach > 0.0 && squaredDistance(from, placeOf(w)) < kSurely * reach * reach)) continue;
       const double way = std::max(grid_.distanceBetween(origin, w) - flat, 0.0);
       const double allowed = own + rate * way;
@@ -310,7 +310,7 @@ void SizeGrading::findGrowth(std::uint32_t v, const F& mayLower, std::vector<Gro
 
 void SizeGrading::flatten() {
   forEachByStretches(loop_, sizes_.size.size(), [&](std::size_t v) { sizes_.size[v] = roundedDown(sizes_.size[v]); });
-  // From below: what is low decides on what is high.
+  // Smallest sizes first, since they determine larger ones.
   SizeQueue queue;
   for (const std::uint32_t l : findSteep()) queue.push({lowestOf(l), l});
   std::vector<SizeQueue::Entry> batch;
@@ -328,8 +328,8 @@ void SizeGrading::flatten() {
   }
 }
 
-// All at once: each from sizes as they are, and of what several lower the lowest counts. Returns those that are steep
-// afterwards; `leaves` is used up.
+// Flattens leaves at once, each from the present sizes; the lowest counts if several lower a vertex. Returns those that
+// are steep afterwards; overwrites `leaves`.
 std::vector<SizeQueue::Entry> SizeGrading::flattenLeaves(std::vector<std::uint32_t>& leaves) {
   constexpr std::size_t kWorthThreads = 500, kStretch = 128;
   ++seen_last_;
@@ -365,9 +365,8 @@ std::vector<SizeQueue::Entry> SizeGrading::flattenLeaves(std::vector<std::uint32
       kStretch));
 }
 
-// The nearest sizes, in the sense of least squares, that make a triangle as steep as allowed: those of its corners go
-// down that lie on the upper side. To tilt it about its lowest corner instead lowers more, and makes its neighbours
-// steep in turn, on and on.
+// Sets the nearest sizes, by least squares, that make each triangle as steep as allowed: corners on its upper side go
+// down. Tilting it about its lowest corner would lower more and make its neighbours steep in turn, without end.
 void SizeGrading::flattenLeaf(std::uint32_t leaf, std::vector<Lowered>& lowered) const {
   const LeafVertices& vertices = leaves_[leaf];
   const double steepest = grid_.slopeIn(vertices);
@@ -380,17 +379,17 @@ void SizeGrading::flattenLeaf(std::uint32_t leaf, std::vector<Lowered>& lowered)
     const std::array<std::size_t, 3> slots = {a, b, c};
     const std::array<Point, 3> places = {placeOf(vertices[a]), placeOf(vertices[b]), placeOf(vertices[c])};
     const Point slope = gradient(places[1] - places[0], places[2] - places[0], size[b] - size[a], size[c] - size[a]);
-    // How the gradient changes while each corner goes down as fast as the square of the slope falls with it.
+    // Change of the gradient if each corner is lowered at the rate at which that reduces the squared slope.
     std::array<double, 3> down;
     Point change;
     for (std::size_t i = 0; i < 3; ++i) {
       const Point p = places[i], q = places[(i + 1) % 3], r = places[(i + 2) % 3];
       const Point normal{q.y - r.y, r.x - q.x};
-      const Point with = (1.0 / dot(normal, p - q)) * normal;  // the gradient of what is 1 here and 0 at the others
+      const Point with = (1.0 / dot(normal, p - q)) * normal;  // gradient of 1 here and 0 at the others
       down[i] = std::max(0.0, dot(with, slope));
       change = change + down[i] * with;
     }
-    // Until |slope - way * change| is what is allowed, or as near as it comes this way.
+    // Until |slope - way * change| is the allowed slope, or as close to it as this direction gets.
     const double allowed = kFlattened * steepest;
     const double aa = squaredLength(change), ab = dot(slope, change);
     const double inside = ab * ab - aa * (squaredLength(slope) - allowed * allowed);
@@ -402,9 +401,9 @@ void SizeGrading::flattenLeaf(std::uint32_t leaf, std::vector<Lowered>& lowered)
     if (vertices[i] != kNone && size[i] < sizes_.size[vertices[i]]) lowered.push_back({vertices[i], size[i]});
 }
 
-// Where flattening takes too long: along both legs of a right angle sizes differ by at most the gradation over the
-// square root of 2, in every cell that has a lowered vertex. That ends: a cell is taken in once, and in those that are
-// in, sizes are lengths of shortest paths.
+// If flattening takes too long: in every cell that has a lowered vertex, sizes along both legs of a right angle differ
+// by at most the gradation over the square root of 2. This always ends: each cell is added once, and in the added cells
+// sizes are lengths of shortest paths.
 void SizeGrading::flattenLegs() {
   std::vector<bool> is_strict(leaves_.size(), false);
   SizeQueue queue;

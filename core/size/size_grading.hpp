@@ -29,7 +29,7 @@ namespace coastmesh {
 //   0 --- 1 --- 2     0 ----------- 2
 using LeafVertices = std::array<std::uint32_t, 9>;
 
-// Sizes start growing by this share of the gradation: between vertices a cone is steeper than it should be.
+// `spread` lets sizes grow by this share of the gradation, since a cone interpolated between vertices is steeper.
 inline constexpr double kSizeGrowth = 0.94;
 
 // For each vertex: the requested size (infinite: none), the allowed size, the vertex from which that grows (kNone if
@@ -37,10 +37,10 @@ inline constexpr double kSizeGrowth = 0.94;
 struct GradedSizes {
   std::vector<double> own, size;
   std::vector<std::uint32_t> source;
-  std::vector<std::uint8_t> is_spread;  // of vertices that are new, missing
+  std::vector<std::uint8_t> is_spread;  // has no entries for new vertices
 };
 
-// Where the vertices of such cells are, and how fast sizes may grow there.
+// The positions of such cells' vertices, and how fast sizes may grow there.
 struct SizeGrid {
   const SizePlaces& places;  // in multiples of `unit`, from `origin`
   double unit = 1.0;
@@ -48,7 +48,7 @@ struct SizeGrid {
   Surface surface;  // represented by the plane
   double gradation = 0.3;
 
-  // From the grid's own origin.
+  // Relative to `origin`.
   Point placeOf(std::uint32_t v) const { return {unit * places[v].x, unit * places[v].y}; }
   double shrinkAt(std::uint32_t v) const;                          // length on the surface over length in the plane
   double distanceBetween(std::uint32_t v, std::uint32_t w) const;  // on the surface
@@ -65,10 +65,10 @@ class SizeGrading {
   // their place.
   void update(std::span<const LeafVertices> leaves, std::span<const std::uint32_t> changed);
 
-  // From the lowest vertices of triangles that are much too steep, and from earlier growth next to new vertices, sizes
-  // grow with the distance on the surface; where none are requested, they grow from their surroundings.
+  // Lets sizes grow with the distance on the surface, from the lowest vertices of triangles that are much too steep,
+  // and from earlier growth next to new vertices. Where none are requested, they grow from their surroundings.
   void spread();
-  // Lowers what is steeper than the gradation as little as each triangle needs, and rounds to single precision.
+  // Lowers sizes that are steeper than the gradation as little as each triangle needs, and rounds to single precision.
   // Afterwards no triangle is too steep.
   void flatten();
 
@@ -113,9 +113,10 @@ class SizeGrading {
   GradedSizes& sizes_;
   SizeGrid grid_;
   std::span<const LeafVertices> leaves_;
-  // The cells around a vertex, by quadrants from the upper right one; twice one with it in the middle of a side.
+  // The cells around a vertex, one for each quadrant from the upper right one; a cell with it in the middle of a side
+  // appears twice.
   std::vector<std::array<std::uint32_t, 4>> round_;
-  std::vector<std::uint32_t> halves_;  // side of the largest cell around each vertex, in units
+  std::vector<std::uint32_t> halves_;  // half the side of the largest cell around each vertex, in units
   std::vector<std::uint32_t> seen_;    // while sizes are flattened: the batch that listed a cell last
   std::uint32_t seen_last_ = 0;
   const ItemLoop& loop_;
@@ -124,7 +125,7 @@ class SizeGrading {
 // The boundary of a cell counter-clockwise.
 inline constexpr std::array<unsigned, 8> kLeafBoundary = {0, 1, 2, 5, 8, 7, 6, 3};
 
-// The triangles of a cell: its centre, and an edge of the boundary.
+// Visits the triangles of a cell: its centre, and an edge of the boundary.
 template <typename F>
 void forEachTriangle(const LeafVertices& leaf, F&& triangle) {
   std::uint32_t last = leaf[0];

@@ -58,8 +58,7 @@ class SizePlaces {
  private:
   static constexpr std::size_t kBlock = 64;
 
-  // Start and step of the search for a point. Points in a row of cells of one level follow one another there: a block
-  // of 8 by 8 stays together.
+  // Start and step of the search for a point. A block of 8 by 8 points of one level has consecutive slots.
   static std::uint64_t firstSlotOf(const Place& place, std::uint64_t* step = nullptr) {
     constexpr int kMostShift = 31;
     const int level = std::min(std::countr_zero(place.x | place.y), kMostShift);

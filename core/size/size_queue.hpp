@@ -30,7 +30,7 @@ class SizeQueue {
     waiting_[batch - lowest_].push_back(entry);
   }
 
-  // Takes the next batch into `batch`; false if there is none. Until another is taken, numbers pushed for it form the
+  // Takes the next batch into `batch`; false if there is none. Numbers pushed for the same batch afterwards form the
   // next one.
   bool take(std::vector<Entry>& batch) {
     batch.clear();

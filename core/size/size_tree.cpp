@@ -8,7 +8,7 @@
 namespace coastmesh {
 
 double SizeTree::at(const Point& x) const {
-  // Share of the way across the root, kept inside it.
+  // Position within the root, 0 to 1, kept inside it.
   constexpr double kBelowOne = 1.0 - 1e-12;
   double u = std::clamp((x.x - origin_.x) / side_, 0.0, kBelowOne);
   double v = std::clamp((x.y - origin_.y) / side_, 0.0, kBelowOne);
@@ -28,7 +28,8 @@ double SizeTree::at(const Point& x) const {
     cell = &cells_[cell->below + right + 2 * up];
   }
   const Leaf& leaf = leaves_[cell->below];
-  // From the centre, -1 to 1; the triangle between the centre, the middle of the nearest side and the nearest corner.
+  // Position relative to the centre, -1 to 1, in the triangle of the centre, the middle of the nearest side and the
+  // nearest corner.
   const double s = 2.0 * u - 1.0, t = 2.0 * v - 1.0;
   const double centre = leaf[4];
   const int dx = s < 0.0 ? -1 : 1, dy = t < 0.0 ? -3 : 3;

@@ -17,9 +17,9 @@ namespace coastmesh {
 struct SizeRange {
   double low = 0.0;
   double high = 0.0;
-  // What `sample` returns for the centre of the box, if computing the bounds found it; otherwise NaN.
+  // The result of `sample` for the centre of the box, if computing the bounds found it; otherwise NaN.
   double at_centre = std::numeric_limits<double>::quiet_NaN();
-  // Whether all sources that decide in the box grow at most by the gradation from place to place.
+  // True if all sources that determine lengths in the box grow at most by the gradation.
   bool is_graded = false;
 };
 
@@ -32,7 +32,7 @@ class SizeSource {
   virtual void sample(std::span<const Point> places, std::span<double> sizes) const = 0;
   // Outer bounds of the lengths within each box. `low` may be 0 and `high` infinite if nothing is known.
   virtual void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const = 0;
-  // Whether lengths within the box will be evaluated: elsewhere the tree stays as coarse as possible.
+  // True if lengths within the box will be evaluated: elsewhere the tree stays as coarse as possible.
   virtual bool isWanted(const SizeBox&) const { return true; }
   // The share of the box to be meshed, 0 to 1, of its area on the surface.
   virtual double share(const SizeBox& box) const { return isWanted(box) ? 1.0 : 0.0; }
@@ -48,15 +48,15 @@ struct SizeDemand {
 struct SizeTreeOptions {
   Surface surface{};       // represented by the plane: lengths, distances and areas are measured on it
   double gradation = 0.3;  // above 0: lengths at two places differ by at most this times their distance
-  // Cells are split down to this many times the smallest length in them, if it changes within them; and further, to
-  // `finest`, if values between their corners are not known from these to `tolerance`: to twice that in a cell half as
-  // large as the length.
+  // Cells in which lengths change are split down to this many times their smallest length; and further, to `finest`, if
+  // interpolation between corners has a larger relative error than `tolerance` (twice that in a cell half as large as
+  // the length).
   double coarsest = 3.0;
   double finest = 0.25;
   double tolerance = 0.04;  // relative
   // The same two for cells in which sizes are graded.
   double finest_graded = 0.25, tolerance_graded = 0.04;
-  std::uint32_t most_cells = 64'000'000;  // more cells are not made
+  std::uint32_t most_cells = 64'000'000;  // no more cells are made
   // If lengths certainly require more vertices, the tree is not completed.
   double most_vertices = std::numeric_limits<double>::infinity();
 };
@@ -90,13 +90,13 @@ class SizeTree final : public SizeFunction {
   double most() const override { return most_; }
   std::size_t cells() const { return cells_.size(); }
   std::size_t leaves() const { return leaves_.size(); }
-  // Whether `most_cells` and `most_vertices` sufficed. If not, only the demand is available.
+  // True if `most_cells` and `most_vertices` sufficed. If not, only the demand is available.
   bool isComplete() const { return complete_; }
-  // If the tree is not complete, from what was known of lengths so far: only its order of magnitude is right.
+  // If the tree is not complete, an estimate from the lengths known so far: only its order of magnitude is right.
   const SizeDemand& demand() const { return demand_; }
   std::size_t bytes() const;
 
-  // Cells are identified by their lower left corner, in units of the finest level.
+  // A node of the quadtree, whose position follows from the path to it.
   struct Cell {
     std::uint32_t below = 0;  // the first of four consecutive children, or, if `is_leaf`, a leaf's number
     bool is_leaf = true;
@@ -120,8 +120,7 @@ class SizeTree final : public SizeFunction {
 
   SizeTree() = default;
 
-  // In rows from below: corners, midpoints of sides, centre. A side's midpoint is NaN if lengths are linear along
-  // it.
+  // In rows from below: corners, midpoints of sides, centre. A side's midpoint is NaN if lengths are linear along it.
   using Leaf = std::array<float, 9>;
 
   Point origin_;

@@ -17,21 +17,21 @@ namespace coastmesh {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Where the least size in a cell is known to be less than that at its corners, sides and centre by this factor,
-// something small lies between them. Bounds of what grows with a distance are off by less.
+// If the lower bound of sizes in a cell is smaller by this factor than the sizes at its corners, sides and centre,
+// something small lies between them. Bounds of sizes that grow with a distance are off by less.
 constexpr double kHidden = 1.5;
 constexpr double kUnasked = -1.0;
-// Room for vertices that grading asks for, as a share of those that are there.
+// Spare room for the vertices that grading adds: one for every kSpare present.
 constexpr std::size_t kSpare = 32;
 constexpr int kLevels = 24;
-constexpr std::uint32_t kUnits = 1u << (kLevels + 1);  // of the root's side: a leaf of the last level has a centre
-// Vertices of equilateral triangles with edges of length 1, on an area of 1.
+constexpr std::uint32_t kUnits = 1u << (kLevels + 1);  // per root side; leaves of the last level have centres too
+// Vertices per unit area of equilateral triangles with edges of length 1.
 const double kVerticesPerArea = 2.0 / std::sqrt(3.0);
-// Where slopes are compared, rounding counts.
+// Margin for rounding in comparisons of slopes.
 constexpr double kSafely = 1.0 - 1e-6;
-// By how much the shrink may change over a cell: over any, so that what is summed over it is right, and over one in
-// which sizes change. Sizes on the triangles of a cell are as steep as they may be where the shrink is least, and a
-// cone that grows by `kSizeGrowth` is to be hardly steeper: what is must be flattened.
+// Largest ratio of scale factors within a cell: any, so that integrals over it are accurate, and one in which sizes
+// change. Slopes in a cell are limited by its smallest scale factor, and a cone that grows by `kSizeGrowth` should
+// hardly be steeper, since the excess must be flattened.
 constexpr double kAnyStretch = 1.3, kGradedStretch = 1.06;
 
 struct Square {
@@ -63,9 +63,9 @@ class SizeTreeBuilder {
   }
 
  private:
-  // Of a cell's vertices those that it always has.
+  // The vertices that every cell has.
   static constexpr std::array<unsigned, 5> kOwn = {0, 2, 4, 6, 8};
-  static constexpr std::size_t kCentre = 2;  // of these
+  static constexpr std::size_t kCentre = 2;  // index in kOwn
   static constexpr std::array<unsigned, 4> kMiddles = {1, 3, 5, 7};
 
   double unit() const { return tree_.side_ / kUnits; }
@@ -77,13 +77,13 @@ class SizeTreeBuilder {
   Point placeOf(const SizePlaces::Place& place) const {
     return tree_.origin_ + Point{unit() * place.x, unit() * place.y};
   }
-  // On the surface, of a cell's longest side; at most.
+  // An upper bound of a cell's longest side, on the surface.
   double sideOf(const SizeBox& box) const { return 2.0 * box.half * shrinkIn(options_.surface, box).high; }
   bool isStretched(const SizeBox& box, double most) const {
     const ShrinkRange shrink = shrinkIn(options_.surface, box);
     return shrink.high > most * shrink.low;
   }
-  // Where vertex i of a cell is, as `LeafVertices` counts them.
+  // The place of vertex i of a cell, numbered as in `LeafVertices`.
   SizePlaces::Place vertexOf(std::uint32_t c, unsigned i) const {
     const Square& s = squares_[c];
     return {s.x + (i % 3) * (s.side() / 2), s.y + (i / 3) * (s.side() / 2)};
@@ -108,7 +108,7 @@ class SizeTreeBuilder {
         known_.push_back(kNone);
         continue;
       }
-      // The first takes its parent's number.
+      // The first child takes its parent's number.
       tree_.cells_.back().below = k == 0 ? leaf : static_cast<std::uint32_t>(leaf_cells_.size());
       if (k == 0)
         leaf_cells_[leaf] = child;
@@ -122,11 +122,11 @@ class SizeTreeBuilder {
     return !tree_.complete_;
   }
 
-  // What cells ask for whose lengths lie in these ranges: surely, probably, and on average.
+  // The vertices that cells require, from the ranges of their lengths: at least, and probably.
   struct Demand {
     double least = 0.0, likely = 0.0;
-    double central = 0.0;     // as the lengths at the centres of cells ask for, where they are known
-    double most_here = -1.0;  // of `likely`, in one cell
+    double central = 0.0;     // from the lengths at the centres of cells, if known
+    double most_here = -1.0;  // the largest `likely` of a cell
     SizeBox most_in;
     double size = 0.0;
 
@@ -147,8 +147,8 @@ class SizeTreeBuilder {
     const double area =
         options_.surface.isCurved() ? share * areaOn(options_.surface, box) : share * 4.0 * box.half * box.half;
     if (!(area > 0.0) || range.low == kInfinity) return {};
-    // Graded, lengths grow no faster from the least one; the mean of 1 / h² of what grows evenly is that of both ends'
-    // product.
+    // Graded lengths grow no faster from the smallest one; the mean of 1 / h² of a linearly growing length is 1 over
+    // the product of its ends.
     const double high = std::min(range.high, range.low + options_.gradation * std::sqrt(2.0) * sideOf(box));
     const double low = range.low > 0.0 ? range.low : high;
     const double likely = kVerticesPerArea * area / low / high;
@@ -158,8 +158,8 @@ class SizeTreeBuilder {
     return {least, likely, central, likely, box, low};
   }
 
-  // Whether what is likely is far too much and has hardly become less over some levels: what small places seem to ask
-  // for halves from one level to the next, and what lines and areas ask for stays.
+  // True if the likely demand is far too large and has hardly decreased over some levels: the apparent demand of small
+  // places halves from level to level, that of lines and areas stays.
   bool isSurelyTooMuch(double likely) {
     constexpr std::size_t kLevelsAlike = 3;
     constexpr double kAlike = 0.8, kFarTooMuch = 1.5;
@@ -169,8 +169,8 @@ class SizeTreeBuilder {
                        [&](double before) { return likely >= kAlike * before; });
   }
 
-  // Whether the lengths at the centres of cells have asked for more than is allowed over some levels. A single level
-  // may mislead, where a straight shore runs through the centres; at the next one it is far from them.
+  // True if the demand from lengths at the centres of cells has exceeded the limit over some levels. A single level may
+  // mislead, where a straight shore runs through the centres; on the next one it is far from them.
   bool isTooMuchOnAverage(double central) {
     constexpr int kLevelsAlike = 3;
     constexpr double kError = 1.1;  // of many cells together
@@ -178,13 +178,13 @@ class SizeTreeBuilder {
     return levels_beyond_ >= kLevelsAlike;
   }
 
-  // Gives up: what is asked for is more than what is allowed.
+  // Gives up on the tree, and records the demand known so far.
   void abandon(const Demand& demand) {
     tree_.complete_ = false;
     tree_.demand_ = {std::max(demand.likely, demand.least), demand.most_in, demand.size};
   }
 
-  // Of graded lengths.
+  // The demand of graded lengths.
   SizeDemand demandOfLeaves() const {
     const std::vector<Demand> parts =
         overStretches(loop_, leaf_cells_.size(), [&](std::size_t first, std::size_t last) {
@@ -198,7 +198,7 @@ class SizeTreeBuilder {
             forEachTriangle(leaf_vertices_[l], [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
               const double x = sizes_.size[a], y = sizes_.size[b], z = sizes_.size[c];
               const auto atMiddle = [](double p, double q) { return 4.0 / (p + q) / (p + q); };
-              // Of area on the surface over area in the plane.
+              // Area on the surface over area in the plane.
               const auto shareOf = [&](std::uint32_t p, std::uint32_t q) {
                 if (!options_.surface.isCurved()) return 1.0;
                 const double shrink =
@@ -224,7 +224,7 @@ class SizeTreeBuilder {
   }
   Point gridPoint(std::uint32_t v) const { return {1.0 * vertices_[v].x, 1.0 * vertices_[v].y}; }
 
-  // Level by level, so that many places are asked for at once.
+  // Splits cells level by level, so that many places are evaluated at once.
   void refine() {
     std::uint32_t first = 0;
     std::vector<SizeBox> boxes;
@@ -232,7 +232,7 @@ class SizeTreeBuilder {
     std::vector<std::uint32_t> unsure;
     std::vector<SizeRange> unsure_ranges;
     std::vector<Demand> demands;
-    Demand settled;  // by cells that stay as they are
+    Demand settled;  // of cells that are not split
     bool too_much = false;
     for (int level = 0; level < kLevels; ++level) {
       const auto end = static_cast<std::uint32_t>(tree_.cells_.size());
@@ -254,10 +254,10 @@ class SizeTreeBuilder {
       demands.resize(wanted.size());
       forEachByStretches(loop_, wanted.size(), [&](std::size_t k) { demands[k] = demandOf(wanted[k], ranges[k]); });
       for (const Demand& demand : demands) pending.add(demand);
-      // A few cells more cost nothing and make the estimate better.
+      // A few more cells cost nothing and improve the estimate.
       constexpr std::uint32_t kFewCells = 20'000;
       too_much |= isSurelyTooMuch(pending.likely) || pending.least > options_.most_vertices;
-      // Bounds alone tell what is a little too much only when the tree is nearly complete.
+      // Bounds alone reveal a slight excess only when the tree is nearly complete.
       if (isTooMuchOnAverage(pending.central) && end >= kFewCells) {
         pending.least = std::max(pending.least, pending.central);
         return abandon(pending);
@@ -289,8 +289,8 @@ class SizeTreeBuilder {
     return range.is_graded ? options_.tolerance_graded : options_.tolerance;
   }
 
-  // Splits cells whose centre or sides differ from what the corners give, or that hold something much smaller than all
-  // of these.
+  // Splits cells whose centre or sides differ from interpolation between the corners, or that contain something much
+  // smaller than all of these.
   void splitWhereBent(const std::vector<std::uint32_t>& cells, const std::vector<SizeRange>& ranges) {
     std::vector<std::array<std::uint32_t, 4>> middles(cells.size());
     for (std::size_t k = 0; k < cells.size(); ++k) {
@@ -311,7 +311,7 @@ class SizeTreeBuilder {
       std::array<double, 9> v;
       for (std::size_t i = 0; i < kOwn.size(); ++i) v[kOwn[i]] = sizes_.own[own_vertices_[known_[cells[k]]][i]];
       for (std::size_t i = 0; i < kMiddles.size(); ++i) v[kMiddles[i]] = sizes_.own[middles[k][i]];
-      // How far off four triangles would be; eight of them are about half as far off.
+      // The error of four triangles; eight have about half of it.
       double off = std::abs(0.25 * (v[0] + v[2] + v[6] + v[8]) - v[4]);
       off = 0.5 * std::max({off, std::abs(0.5 * (v[0] + v[2]) - v[1]), std::abs(0.5 * (v[0] + v[6]) - v[3]),
                             std::abs(0.5 * (v[2] + v[8]) - v[5]), std::abs(0.5 * (v[6] + v[8]) - v[7])});
@@ -332,7 +332,7 @@ class SizeTreeBuilder {
       for (std::size_t i = 0; i < kOwn.size(); ++i) around[kOwn[i]] = own_vertices_[known_[cells[k]]][i];
       for (std::size_t i = 0; i < kMiddles.size(); ++i) around[kMiddles[i]] = middles[k][i];
       split(cells[k]);
-      // Four of each child's vertices have a number.
+      // Four of each child's vertices already have a number.
       for (std::uint32_t child = 0; child < 4; ++child) {
         const std::uint32_t c = tree_.cells_[cells[k]].below + child, first = child % 2 + 3 * (child / 2);
         known_[c] = static_cast<std::uint32_t>(own_vertices_.size());
@@ -342,7 +342,7 @@ class SizeTreeBuilder {
     }
   }
 
-  // Asks for the sizes at vertices that are new, save where bounds have told them.
+  // Samples sizes at new vertices, except those that bounds have already provided.
   void sample() {
     const std::size_t known = sizes_.own.size();
     sizes_.own.resize(vertices_.size(), kUnasked);
@@ -362,7 +362,7 @@ class SizeTreeBuilder {
     forEachByStretches(loop_, asked.size(), [&](std::size_t k) { sizes_.own[asked[k]] = sizes[k]; });
   }
 
-  // The cell that holds the unit square with this lower left corner, no deeper than `level`.
+  // The cell that contains the unit square with this lower left corner, no deeper than `level`.
   std::uint32_t find(std::uint32_t x, std::uint32_t y, int level) const {
     std::uint32_t c = 0;
     for (int l = 1; l <= level && !tree_.cells_[c].is_leaf; ++l) {
@@ -372,23 +372,22 @@ class SizeTreeBuilder {
     return c;
   }
 
-  // The cell beside one side of this, as large or larger; kNone beyond the root. The sides are the left, the right, the
-  // lower and the upper one.
+  // The cell beside a side of this one, as large or larger; kNone beyond the root. Sides: left, right, lower, upper.
   std::uint32_t beside(std::uint32_t c, unsigned side) const {
     const Square& s = squares_[c];
     const bool is_across = side < 2, is_up = side % 2 != 0;
     const std::uint32_t along = is_across ? s.x : s.y;
-    // Brothers stand in a row behind the root.
+    // Siblings are consecutive, after the root.
     if (s.level > 0 && ((along & s.side()) != 0) != is_up) return ((c - 1) ^ (is_across ? 1u : 2u)) + 1;
     if (is_up ? along + s.side() >= kUnits : along == 0) return kNone;
     const std::uint32_t to = is_up ? along + s.side() : along - s.side();
     return is_across ? find(to, s.y, s.level) : find(s.x, to, s.level);
   }
   static constexpr unsigned kSides = 4;
-  // Of a cell's vertices the middle of that side.
+  // The vertex in the middle of each side.
   static constexpr std::array<unsigned, kSides> kMiddleOf = {3, 5, 1, 7};
 
-  // A leaf beside this one, two levels coarser or more; kNone where there is none.
+  // A leaf beside this one that is two levels coarser or more; kNone if there is none.
   std::uint32_t tooLargeBeside(std::uint32_t c) const {
     for (unsigned side = 0; side < kSides; ++side) {
       const std::uint32_t other = beside(c, side);
@@ -397,7 +396,7 @@ class SizeTreeBuilder {
     return kNone;
   }
 
-  // Splits leaves until those side by side differ by one level at most. Those before `first` do.
+  // Splits leaves until adjacent ones differ by at most one level. REQUIRES: leaves before cell `first` already do.
   void balance(std::size_t first) {
     std::vector<std::uint32_t> waiting =
         joined(overStretches(loop_, tree_.cells_.size() - first, [&](std::size_t from, std::size_t to) {
@@ -418,8 +417,7 @@ class SizeTreeBuilder {
     }
   }
 
-  // Numbers leaves, their corners, centres and middles of sides, so that what lies near in the plane lies near in
-  // memory; asks for the sizes at those that are new.
+  // Numbers leaves and their vertices so that neighbours are close in memory; samples sizes at new vertices.
   void number() {
     const auto list = [&](const auto& self, std::uint32_t c) -> void {
       SizeTree::Cell& cell = tree_.cells_[c];
@@ -450,8 +448,8 @@ class SizeTreeBuilder {
     sizes_.source.assign(vertices_.size(), kNone);
   }
 
-  // The middle of a side is a vertex where smaller leaves meet it, or where that on the other side is as large and its
-  // size is known.
+  // The middle of a side is a vertex if smaller leaves meet it, or if the leaf on the other side is as large and the
+  // size there is known.
   void findMiddles(std::uint32_t l) {
     const std::uint32_t c = leaf_cells_[l];
     for (unsigned side = 0; side < kSides; ++side) {
@@ -462,7 +460,7 @@ class SizeTreeBuilder {
     }
   }
 
-  // Vertices as leaves come upon them; last those that none has.
+  // Renumbers vertices as leaves use them; unused ones come last.
   void putInOrder() {
     std::vector<std::uint32_t> order, numbers(vertices_.size(), kNone);
     order.reserve(vertices_.size());
@@ -483,7 +481,7 @@ class SizeTreeBuilder {
     sizes_.own = std::move(own);
   }
 
-  // Numbers what `split` made of leaves since there were so many cells. Returns the leaves that are new or have other
+  // Numbers the leaves that `split` has made, from cell `first` on. Returns the leaves that are new or have other
   // vertices.
   std::vector<std::uint32_t> numberNew(std::size_t first) {
     is_wanted_.resize(leaf_cells_.size());
@@ -521,15 +519,15 @@ class SizeTreeBuilder {
       const std::vector<std::uint32_t> changed = numberNew(before);
       grading.update(leaf_vertices_, changed);
     }
-    // Where nothing is wanted anywhere: as large as the whole.
+    // If no size is requested anywhere: as large as the whole.
     const double whole =
         options_.surface.isCurved() ? std::min(tree_.side_, 2.0 * options_.surface.radius()) : tree_.side_;
     for (double& size : sizes_.size) size = std::min(size, whole);
     grading.flatten();
   }
 
-  // Splits leaves that are too large for what grows into them, or too stretched; of those that nobody will ask for the
-  // latter alone, since through them sizes grow as well.
+  // Splits leaves that are too large for the sizes that grow into them, or too stretched. Leaves that will not be
+  // evaluated are split only for the latter, since sizes grow through them too.
   bool splitGraded() {
     struct Due {
       std::uint32_t leaf;
@@ -586,7 +584,7 @@ class SizeTreeBuilder {
     return sideOf(boxOf(c)) > options_.coarsest * low;
   }
 
-  // Cells and leaves as the tree keeps them: depth first, so that what lies near in the plane lies near in memory.
+  // Stores cells and leaves depth first, so that neighbours are close in memory.
   void fill() {
     std::vector<SizeTree::Cell> cells;
     cells.reserve(tree_.cells_.size());
@@ -629,7 +627,7 @@ class SizeTreeBuilder {
     }
   }
 
-  // A table as large as a share of the tree.
+  // Makes a table of start cells, in proportion to the tree.
   void makeStart() {
     constexpr int kMostLevels = 11;
     int& levels = tree_.start_levels_;
@@ -655,8 +653,8 @@ class SizeTreeBuilder {
   const SizeSource& source_;
   const SizeTreeOptions& options_;
   const ItemLoop& loop_;
-  std::vector<Square> squares_;                             // one a cell
-  std::vector<std::uint32_t> known_;                        // one a cell: where its vertices stand, if it has some
+  std::vector<Square> squares_;                             // one for each cell
+  std::vector<std::uint32_t> known_;                        // for each cell: index in own_vertices_, or kNone
   std::vector<std::array<std::uint32_t, 5>> own_vertices_;  // numbers, in the order of kOwn
   SizePlaces vertices_;                                     // in units; some are of cells that were split
   GradedSizes sizes_;                                       // at the vertices
@@ -664,17 +662,17 @@ class SizeTreeBuilder {
     std::uint32_t vertex;
     double size;
   };
-  std::vector<Told> told_;  // sizes that bounds have told since `sample`
+  std::vector<Told> told_;  // sizes that bounds have provided since `sample`
   std::vector<std::uint32_t> leaf_cells_;
   std::vector<LeafVertices> leaf_vertices_;
-  std::vector<char> is_wanted_;  // leaves
-  std::vector<double> likely_;   // demand as estimated at each level of cells
-  int levels_beyond_ = 0;        // successive ones whose centres ask for too much
+  std::vector<char> is_wanted_;  // one for each leaf
+  std::vector<double> likely_;   // demand estimated at each level
+  int levels_beyond_ = 0;        // consecutive levels whose centres require too much
 };
 
 SizeTree::SizeTree(const Point& low, const Point& high, const SizeSource& source, const SizeTreeOptions& options,
                    const ItemLoop& loop) {
-  // A little larger, so that nothing lies on the root's own sides.
+  // Slightly larger, so that nothing lies on the root's own sides.
   const double extent = std::max(high.x - low.x, high.y - low.y);
   side_ = 1.01 * (extent > 0.0 ? extent : 1.0);
   origin_ = midpoint(low, high) - Point{0.5 * side_, 0.5 * side_};

@@ -10,7 +10,7 @@ namespace coastmesh {
 
 namespace {
 
-// Cells of space that are as wide as a clearance: what is nearer than that lies in a cell or one beside it.
+// Cubic cells as wide as the clearance: points closer to each other are in the same cell or adjacent ones.
 class Cells {
  public:
   explicit Cells(double width) : per_unit_(1.0 / width) {}
@@ -20,7 +20,7 @@ class Cells {
   }
 
  private:
-  // From 1 on, so that the cells beside it have numbers too.
+  // Numbers start above 0, so that adjacent cells have valid numbers too.
   std::uint64_t along(double x, int step) const {
     return static_cast<std::uint64_t>(static_cast<std::int64_t>((x + 1.0) * per_unit_) + 2 + step);
   }
@@ -42,7 +42,7 @@ class Samples {
   bool isNear(const SpacePoint& p) const {
     for (int dx = -1; dx <= 1; ++dx) {
       for (int dy = -1; dy <= 1; ++dy) {
-        // Three cells in a row.
+        // Cells adjacent along z have consecutive numbers.
         const auto first = std::ranges::lower_bound(samples_, cells_.of(p, dx, dy, -1), {}, &Sample::cell);
         const std::uint64_t last = cells_.of(p, dx, dy, 1);
         for (auto s = first; s != samples_.end() && s->cell <= last; ++s) {
@@ -60,7 +60,7 @@ class Samples {
   std::vector<Sample> samples_;
 };
 
-// The points between a and b that lie `step` apart or less on the sphere, by halves.
+// Adds points between a and b, at most `step` apart on the sphere, by repeated halving.
 void addBetween(const Point& a, const Point& b, const Surface& surface, double step, int depth, Samples& samples) {
   constexpr int kMostHalvings = 40;
   const Point middle{0.5 * (a.x + b.x), 0.5 * (a.y + b.y)};

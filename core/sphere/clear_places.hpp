@@ -11,7 +11,7 @@
 
 namespace coastmesh {
 
-// Those of some points, in the plane, that are within a convex ring and no closer to its corners, or to a segment or
+// The places, as points in the plane, that are within a convex ring and no closer to its corners, or to a segment or
 // point of `pslg`, than the clearance, a length on the surface. REQUIRES: the surface is curved, the ring
 // counter-clockwise around the origin, the clearance above 0.
 std::vector<Point> clearPlaces(std::span<const SpacePoint> places, const Pslg& pslg, std::span<const Point> ring,

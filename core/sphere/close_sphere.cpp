@@ -12,7 +12,7 @@ namespace coastmesh {
 
 namespace {
 
-// So many diameters from the origin: of the Earth, less than a micrometre from the place meant.
+// Distance of the apex from the origin, in diameters: for the Earth, less than a micrometre from the pole.
 constexpr double kFarAway = 1e14;
 
 }  // namespace
@@ -75,7 +75,7 @@ bool isClosed(const TriMesh& mesh) {
 
 std::int64_t eulerNumber(const TriMesh& mesh) {
   const std::vector<std::uint8_t> used = usedVertices(mesh);
-  std::int64_t halves = 0;  // of edges; one with one triangle alone is two
+  std::int64_t halves = 0;  // half-edges; a boundary edge counts as two
   for (const Triangle& t : mesh.triangles)
     for (const EdgeRef twin : t.adj) halves += twin == kNone ? 2 : 1;
   return std::ranges::count(used, std::uint8_t{1}) - halves / 2 + static_cast<std::int64_t>(mesh.triangles.size());

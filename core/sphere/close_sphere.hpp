@@ -9,7 +9,7 @@
 
 namespace coastmesh {
 
-// What a mesh of a whole sphere leaves out while it is made: the point at infinity of the plane, and the triangles
+// The part of a whole sphere that a mesh omits while it is made: the point at infinity of the plane, and the triangles
 // between it and the edges of a ring.
 struct SphereCap {
   Point apex;               // so far from the origin that it cannot be distinguished from that point
@@ -33,7 +33,7 @@ void freezeRing(TriMesh& mesh, VertexId first, const SphereCap& cap);
 // counter-clockwise on the sphere. REQUIRES: as above, and edges as `freezeRing` left them.
 void closeSphere(TriMesh& mesh, VertexId first, const SphereCap& cap);
 
-// Whether every edge has two triangles.
+// True if the mesh is not empty and every edge has two triangles.
 bool isClosed(const TriMesh& mesh);
 
 // Vertices in use minus edges plus triangles: 2 for a whole sphere.

@@ -21,8 +21,8 @@ using Corners = std::array<SpacePoint, 3>;
 
 SpacePoint unit(const SpacePoint& a) { return (1.0 / lengthOf(a)) * a; }
 
-// The corners of an icosahedron: the pole, five near it, five near the other, and that. None lies on an axis of the
-// plane but the poles.
+// The corners of an icosahedron: the pole, five near it, five near the other pole, and that. Only the poles lie on an
+// axis of the plane.
 std::array<SpacePoint, 12> icosahedron() {
   constexpr double kTurn = 0.2;  // radians
   const double height = 1.0 / std::sqrt(5.0), radius = 2.0 * height;
@@ -54,15 +54,15 @@ std::array<Numbers, kFaces> faces() {
   return faces;
 }
 
-// The place that has these shares of a face's corners, which add up to 1. Arcs from corner to corner are cut evenly,
-// and within the face areas differ by less than a fifth: sines of shares of the arc in place of the shares.
+// The place with these shares of a face's corners, which add up to 1. The sine of each share of the arc is its weight,
+// so that arcs between corners are divided evenly, and areas within the face differ by less than a fifth.
 SpacePoint placeIn(const Corners& face, double a, double b, double c) {
   static const double kArc = std::atan(2.0);
   return unit(std::sin(a * kArc) * face[0] + std::sin(b * kArc) * face[1] + std::sin(c * kArc) * face[2]);
 }
 
-// Of step (a, b) of the lattice, whose steps have 60 degrees between them: how much of the second and of the third
-// corner of the face it lies in, in parts of `trianglesOfFace`. The corners lie at (0, 0), (h, k) and (-k, h + k).
+// The shares of a face's second and third corner at lattice point (a, b), with axes 60 degrees apart, in units of 1 /
+// `trianglesOfFace`. The corners are at (0, 0), (h, k) and (-k, h + k).
 struct Shares {
   std::int64_t second, third;
 };
@@ -137,8 +137,8 @@ std::vector<VertexId> numbersInMesh(const std::vector<SpacePoint>& places) {
   return numbers;
 }
 
-// The triangles of a lattice without turns, whose faces are cut into h rows. In a face, place (a, b) is a steps from
-// the first corner towards the second and b towards the third.
+// The triangles of a lattice without turns, whose faces are divided into h rows. In a face, place (a, b) is a steps
+// from the first corner towards the second and b towards the third.
 class LatticeFaces {
  public:
   explicit LatticeFaces(std::int64_t h) : h_(static_cast<std::uint32_t>(h)), corners_(faces()) {
@@ -148,7 +148,7 @@ class LatticeFaces {
         if (face[i] < face[next3(i)]) edge_[face[i]][face[next3(i)]] = edge_[face[next3(i)]][face[i]] = known++;
   }
 
-  // Makes the triangles of a face, and what links them to one another.
+  // Makes the triangles of a face and links them to one another.
   void fill(std::size_t f, std::span<const VertexId> numbers, std::span<Triangle> triangles) const {
     const auto vertex = [&](std::uint32_t a, std::uint32_t b) { return numbers[placeAt(f, a, b)]; };
     for (std::uint32_t b = 0; b < h_; ++b) {
@@ -168,7 +168,7 @@ class LatticeFaces {
     }
   }
 
-  // Links each face to those beside it.
+  // Links each face to the adjacent ones.
   void join(std::span<Triangle> triangles) const {
     std::array<std::vector<EdgeRef>, kEdges> before;
     for (std::size_t f = 0; f < kFaces; ++f) {
@@ -191,7 +191,7 @@ class LatticeFaces {
   }
   TriId down(std::size_t f, std::uint32_t a, std::uint32_t b) const { return up(f, a, b) + 1; }
 
-  // As `placesInOrder` has them.
+  // The index of a place in `placesInOrder`.
   std::size_t placeAt(std::size_t f, std::uint32_t a, std::uint32_t b) const {
     const Numbers& corner = corners_[f];
     if (b == 0) return placeAlong(corner[0], corner[1], a);
@@ -205,7 +205,7 @@ class LatticeFaces {
     if (step == h_) return to;
     return kCorners + std::size_t{edge_[from][to]} * (h_ - 1) + (from < to ? step : h_ - step) - 1;
   }
-  // From the corner after a side's opposite one to that before it.
+  // The edges along a side, from the corner after the opposite one.
   std::vector<EdgeRef> edgesAlong(std::size_t f, unsigned side) const {
     std::vector<EdgeRef> along;
     for (std::uint32_t i = 0; i < h_; ++i)
@@ -225,8 +225,8 @@ SphereLattice sphereLattice(double edge) {
   const auto offness = [&](const SphereLattice& l) {
     return std::abs(static_cast<double>(l.trianglesOfFace()) - wanted);
   };
-  // Without turns triangles are a little better: none of them lies across an edge of the icosahedron.
-  constexpr double kNearEnough = 0.02;  // of their number: half of that of lengths
+  // Without turns triangles are slightly better: none crosses an edge of the icosahedron.
+  constexpr double kNearEnough = 0.02;  // share of the triangles, twice that of lengths
   SphereLattice best{std::max<std::int64_t>(1, std::llround(std::sqrt(wanted))), 0};
   if (offness(best) <= kNearEnough * wanted) return best;
   for (SphereLattice l{1, 0}; static_cast<double>((l.h - 1) * (l.h - 1)) <= wanted; ++l.h) {

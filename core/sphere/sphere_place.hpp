@@ -11,7 +11,7 @@ namespace coastmesh {
 // From the sphere of radius 1 to the plane of a curved surface, and back: (0, 0, 1) is the origin, (0, 0, -1) the point
 // at infinity.
 inline Point planeOf(const SpacePoint& place, const Surface& surface) {
-  // Near the pole, without the difference of two almost equal numbers.
+  // Avoids the difference of two almost equal numbers near the pole.
   const double up = place.z > 0.0 ? 1.0 + place.z : (place.x * place.x + place.y * place.y) / (1.0 - place.z);
   const double scale = 2.0 * surface.radius() / up;
   return {scale * place.x, scale * place.y};
