@@ -7,7 +7,7 @@
 
 namespace coastmesh {
 
-// What CGAL does with the same input, to compare with.
+// The same input meshed by CGAL, for comparison.
 
 struct Mesh2Result {
   std::size_t vertices = 0;

@@ -4,8 +4,8 @@
 
 namespace coastmesh {
 
-// Processor time of this process, in seconds. What is measured runs on one thread and reads no files, so on an idle
-// machine it is the time on the wall; on a busy one it is what the wall would show on an idle one.
+// Processor time of this process, in seconds. The measured work runs on one thread and reads no files, so this is the
+// wall-clock time on an idle machine, even if the machine is busy.
 inline double cpuSeconds() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);

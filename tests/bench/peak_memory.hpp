@@ -5,9 +5,9 @@
 
 namespace coastmesh {
 
-// By how many bytes the resident memory of a process grows at most while it does the work: what getrusage reports of a
-// forked child, less what the child held when it started. Pages that the parent has freed but kept would hide growth:
-// measure before anything else is done.
+// The largest growth, in bytes, of a process's resident memory during the work: the peak that getrusage reports for a
+// forked child, minus the child's memory at its start. Pages that the parent freed but kept would hide growth, so
+// measure before any other work.
 std::uint64_t peakGrowth(const std::function<void()>& work);
 
 }  // namespace coastmesh

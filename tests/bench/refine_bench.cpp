@@ -1,4 +1,4 @@
-// Times of our stages and of CGAL's on the same input, in one run on one thread, with the ratios.
+// Times of our stages and of CGAL's on the same input, in one run on one thread, and their ratios.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdint>

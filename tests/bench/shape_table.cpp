@@ -1,4 +1,4 @@
-// The shapes of sized meshes, a line a file: of any program's mesh that we can read.
+// Shapes of sized meshes, a line per file, in any format that the program can read.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -24,12 +24,12 @@ using namespace coastmesh;
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-// min(most, shore + gradation times the distance from the mesh's boundary).
+// The requested size: min(most, shore + gradation * distance from the mesh's boundary).
 struct SizeRule {
   double shore = 0.0, gradation = 0.0, most = std::numeric_limits<double>::infinity();
 };
 
-// The triangles beside each edge, the second kNone on the boundary.
+// The triangles on both sides of each edge; the second is kNone on the boundary.
 std::map<Edge, std::array<std::uint32_t, 2>> edgesOf(const Grid& grid) {
   std::map<Edge, std::array<std::uint32_t, 2>> edges;
   for (std::uint32_t t = 0; t < grid.triangles.size(); ++t) {
@@ -147,7 +147,7 @@ void printRow(const std::string& file, const SizeRule& rule) {
     lengths.push_back(distance(p, q) / size(midpoint(p, q)));
     near += lengths.back() >= 0.8 && lengths.back() <= 1.25 ? 1 : 0;
     if (beside[1] == kNone) continue;
-    // What D-Flow FM calls a small flow link.
+    // D-Flow FM's definition of a small flow link.
     const double least = 0.1 * 0.5 * (std::sqrt(areas[beside[0]]) + std::sqrt(areas[beside[1]]));
     links += distance(centres[beside[0]], centres[beside[1]]) < least ? 1 : 0;
   }

@@ -1,5 +1,5 @@
-// Table 1 of Erten & Üngör (2007) for any .poly files and angles. Every mesh is checked; exit code 1 where the checker
-// finds a defect.
+// Table 1 of Erten & Üngör (2007) for any .poly files and angles. Checks every mesh; exit code 1 if the checker finds a
+// defect.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <limits>
@@ -23,7 +23,7 @@ void printHeader() {
               "IV", "moved", "merged", "removed", "splits", "vertices", "Steiner", "short", "seconds");
 }
 
-// Returns how many defects there are.
+// Returns the number of defects.
 std::size_t printRow(const std::string& name, double angle, const Pslg& pslg, const RefineOptions& options,
                      const TriMesh& mesh, const RefineStats& stats, double seconds) {
   const auto count = [](auto n) { return static_cast<unsigned long long>(n); };
@@ -50,7 +50,7 @@ std::size_t runAlgorithm(const Pslg& pslg, const RefineOptions& options) {
   if (options.algorithm != Algorithm::Relocate) return defects;
   seconds += cpuSecondsOf([&] {
     RefineStats coarsened = coarsen(mesh, pslg, options);
-    stats.unresolved.clear();  // those of coarsen replace them
+    stats.unresolved.clear();  // replaced by those of coarsen
     stats.add(coarsened);
   });
   return defects + printRow(name + " + coarsen", options.min_angle_deg, pslg, options, mesh, stats, seconds);

@@ -1,4 +1,4 @@
-// Types of the boundary that the input itself defines, or files beside it.
+// Boundary types defined by the input itself or by separate files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ Json feature(const Json& properties, const std::string& type, const Json& coordi
       {"type", "Feature"}, {"properties", properties}, {"geometry", {{"type", type}, {"coordinates", coordinates}}}};
 }
 
-// A rectangle of some 6 km.
+// A rectangle of some 7 by 6 km.
 Json lakeAt(double west, const Json& properties) {
   const Json ring = {{west, 50.0}, {west + 0.1, 50.0}, {west + 0.1, 50.05}, {west, 50.05}, {west, 50.0}};
   return feature(properties, "Polygon", Json::array({ring}));
@@ -110,7 +110,7 @@ TEST_F(BoundaryTypes, TheFilterIsNotForFilesOfBoundaries) {
   EXPECT_EQ(roles.count("open"), 0u);
 }
 
-// All the names that --help lists are looked for.
+// All column names listed by --help are searched for.
 TEST_F(BoundaryTypes, AFileWithoutTypesIsRefusedWithTheColumnsLookedFor) {
   const std::string input = lakeWithLine();
   const std::string types = put("types.geojson", Json::array({westOf(5, {{"ib", 22}})}));
@@ -121,7 +121,7 @@ TEST_F(BoundaryTypes, AFileWithoutTypesIsRefusedWithTheColumnsLookedFor) {
   EXPECT_NE(runProgram({"mesh", "--help"}).output.find(columns), std::string::npos);
 }
 
-// It can be read only once.
+// Standard input and pipes can be read only once.
 TEST_F(BoundaryTypes, StandardInputAndPipesDefineThemToo) {
   lakeWithLine();
   const std::string options = " --boundary-column type --quiet --overwrite ";
@@ -144,7 +144,7 @@ TEST_F(BoundaryTypes, StandardInputAndPipesDefineThemToo) {
   EXPECT_TRUE(readText(file("again.gpkg")) == readText(file("cleaned.gpkg")));
 }
 
-// What cannot be used is said before a long job has begun.
+// Unusable types are reported before a long job begins.
 TEST_F(BoundaryTypes, AnUnknownTypeIsRefusedBeforeMeshing) {
   const std::string input = put("lake.geojson", Json::array({lakeAt(5, {{"type", "reed"}})}));
   const std::string types = put("types.geojson", Json::array({lakeAt(5, {{"type", "reed"}})}));
@@ -173,9 +173,9 @@ TEST_F(BoundaryTypes, AColumnThatIsNotThereIsRefusedWithThoseThatAre) {
     EXPECT_TRUE(isOneErrorLine(run.errors)) << run.errors;
     EXPECT_THAT(run.errors, HasSubstr("no input has the column \"sohre\" of boundary types; there are Name, shore"));
   }
-  // One without a value anywhere is there, for any case of its letters.
+  // A column exists, in any case of its letters, even if no feature has a value in it.
   done({"mesh", input, "-o", file("a.nc"), "--boundary-column", "SHORE", "--quiet"});
-  // Beside files of boundary types it may be theirs alone, but has to be there.
+  // Files of boundary types must have the column; the input then need not.
   const std::vector<std::string> options{"mesh",    input,          "-o",  file("b.nc"),
                                          "--quiet", "--boundaries", types, "--boundary-column"};
   std::vector<std::string> side = options, none = options;
@@ -201,7 +201,7 @@ TEST_F(BoundaryTypes, FilesThatConcernNoFeatureAreNamedOnce) {
   EXPECT_EQ(std::ranges::count(run.errors, '\n'), 1) << run.errors;
   EXPECT_THAT(run.errors, HasSubstr("warning: " + none + ": says nothing of the mesh's boundary"));
   EXPECT_EQ(rolesIn("lake-2.gpkg").count("river"), 1u);
-  // A share of the features says nothing of the others.
+  // A shard has only some of the features, so it does not warn about the others.
   std::vector<std::string> share = options;
   share.insert(share.end(), {"--shard", "1/2", "--overwrite"});
   EXPECT_EQ(runProgram(share).errors, "");
@@ -230,7 +230,7 @@ TEST_F(BoundaryTypes, EachFeatureHasItsOwnForAnyNumberOfThreads) {
   }
 }
 
-// What a file or the input opens is no shore: --size-shore is not for it.
+// Boundaries opened by a file or by the input are not shore: --size-shore does not apply to them.
 TEST_F(BoundaryTypes, OpeningsDoNotDrawTheSizeOfTheShore) {
   const Json open = southOf(5, {{"type", "open"}}), river = southOf(5, {{"type", "river"}});
   put("lake.geojson", Json::array({lakeAt(5, Json::object())}));
@@ -248,12 +248,12 @@ TEST_F(BoundaryTypes, OpeningsDoNotDrawTheSizeOfTheShore) {
   const int opened = vertices("lake.geojson", {"--boundaries", types});
   EXPECT_LT(opened, 0.85 * all);
   EXPECT_EQ(rolesIn("a.gpkg").count("open"), 1u);
-  // Coarse edges but for those beside the shores at both ends.
+  // Edges are coarse except near the shores at both ends.
   EXPECT_LT(rolesIn("a.gpkg")["open"], 40);
   EXPECT_EQ(vertices("own.geojson", {"--boundary-column", "type"}), opened);
   // A river's mouth is as fine as the shore.
   EXPECT_EQ(vertices("lake.geojson", {"--boundaries", put("river.geojson", Json::array({river}))}), all);
-  // A coast that follows the sizes is one vertex a size as well.
+  // The same applies to a coast that follows the sizes.
   EXPECT_LT(vertices("lake.geojson", {"--boundaries", types, "--coast", "follow"}), 0.85 * all);
 }
 
@@ -264,7 +264,7 @@ TEST_F(BoundaryTypes, APlaneGraphHasNoColumn) {
     EXPECT_EQ(run.code, 2);
     EXPECT_THAT(run.errors, HasSubstr("leave out --boundary-column"));
   }
-  // Beside it the column is that of the files.
+  // The column is then that of the files of boundary types.
   const std::string types = put("types.geojson", Json::array({lakeAt(5, {{"side", "open"}})}));
   const ProgramRun run = runProgram(
       {"mesh", file("lake.poly"), "--boundaries", types, "--boundary-column", "side", "-o", file("a.nc"), "--quiet"});

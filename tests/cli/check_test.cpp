@@ -1,4 +1,4 @@
-// What `check` says of meshes of other programs.
+// `check` on meshes of other programs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ using ::testing::HasSubstr;
 
 class Check : public ProgramTest {
  protected:
-  // A fort.14 of squares of 1 km without boundaries, one sheet for each of `origins`.
+  // A fort.14 without boundaries: 4 by 4 squares of 1 km at each of `origins`, in metres.
   std::string sheets(const std::string& name, const std::vector<std::pair<double, double>>& origins,
                      double depth) const {
     constexpr int kSide = 4, kNodes = (kSide + 1) * (kSide + 1);
@@ -79,7 +79,7 @@ TEST_F(Check, TimeStepsNeedDepths) {
   EXPECT_EQ(runProgram({"check", sheets("wet.14", {{0, 0}}, 10.0), "--time-step", "10"}).code, 0);
 }
 
-// A run that falls short says so, however quiet it is to be.
+// A run that misses its bounds reports it even with --quiet.
 TEST_F(Check, QuietMeshesSayThatTheyFallShort) {
   const std::vector<std::string> command{"mesh",    lake(),           "-o", file("m.nc"), "--min-angle", "40",
                                          "--quiet", "--max-vertices", "14"};

@@ -24,7 +24,7 @@ using Json = nlohmann::json;
 
 constexpr int kKilled = 128 + SIGKILL;
 
-// Which file has that name now.
+// Identifies the file that has this name now; zeros if there is none.
 std::tuple<ino_t, time_t, long> fileAt(const std::string& path) {
   struct stat status {};
   if (stat(path.c_str(), &status) != 0) return {0, 0, 0};
@@ -53,7 +53,7 @@ class Checkpoint : public ProgramTest {
     further.insert(further.begin(), {"--checkpoint", file("kept")});
     return command(input, further);
   }
-  // The files of a run that nothing was kept of, and then without them.
+  // The outputs of a run without a checkpoint; they are removed afterwards.
   std::vector<std::string> plainBytes(const std::string& input) const {
     const ProgramRun run = runProgram(command(input));
     EXPECT_EQ(run.code, 0) << run.errors;
@@ -72,12 +72,12 @@ class Checkpoint : public ProgramTest {
     ASSERT_EQ(bytes.size(), expected.size());
     for (std::size_t i = 0; i < bytes.size(); ++i) EXPECT_TRUE(bytes[i] == expected[i]) << i;
   }
-  // A run that was killed when it had done a round.
+  // Kills a run after its first round.
   void killInRounds(const std::string& input) const {
     const ProgramRun run = killWhen(input, [&] { return std::filesystem::exists(roundsFile()); });
     ASSERT_EQ(run.code, kKilled) << run.errors;
   }
-  // A run that was killed when `due` first said so, having begun with nothing kept.
+  // Starts a run without a checkpoint folder and kills it as soon as `due` returns true.
   ProgramRun killWhen(const std::string& input, const std::function<bool()>& due) const {
     return runUntilSignalled(keeping(input), due, SIGKILL, [&] { removeAllMade(); });
   }
@@ -89,7 +89,7 @@ class Checkpoint : public ProgramTest {
     std::filesystem::remove_all(file("kept"));
     for (const char* name : {"x.nc", "x.2dm", "x.gpkg", "x.json"}) std::filesystem::remove(file(name));
   }
-  // Those of the large lake.
+  // The rounds of the large lake.
   std::string roundsFile() const {
     return std::filesystem::exists(kept("rounds-0")) ? kept("rounds-0") : kept("rounds-1");
   }
@@ -115,7 +115,7 @@ TEST_F(Checkpoint, ChangesNoByteAndLeavesNothing) {
   EXPECT_EQ(names(), (std::set<std::string>{"lakes.geojson", "x.prj"}));
 }
 
-// Each run does one round more and is killed, until what is left is done before that.
+// Each run is killed after one more round, until a run completes before that.
 TEST_F(Checkpoint, KilledAgainAndAgainInRounds) {
   const std::string input = lakes();
   const std::vector<std::string> expected = plainBytes(input);
@@ -162,14 +162,14 @@ TEST_F(Checkpoint, KilledWhileWriting) {
   const ProgramRun killed = stopInWriting(input, SIGKILL);
   ASSERT_EQ(killed.code, kKilled) << killed.errors;
   EXPECT_FALSE(std::filesystem::exists(file("x.nc")));
-  // The number of threads is no matter.
+  // The number of threads may differ.
   EXPECT_EQ(runProgram(keeping(input, {"--threads", "1"})).code, 0);
   expectSame(takeBytes(), expected);
   EXPECT_EQ(used("groups_taken"), 2u);
   EXPECT_EQ(used("rounds_kept"), 0u);
 }
 
-// What was being appended when the run was killed is made again.
+// A group that was being appended when the run was killed is meshed again.
 TEST_F(Checkpoint, TakesTheGroupsThatAreWhole) {
   const std::string input = lakes();
   const std::vector<std::string> expected = plainBytes(input);
@@ -202,7 +202,7 @@ TEST_F(Checkpoint, IsOfOneCommandAndInput) {
   expectRefused(keeping(input, {"--no-coarsen"}), 2, "was begun with another --coarsen: remove the folder '");
   expectRefused(keeping(input, {"--shard", "1/2"}), 2, "was begun with another --shard");
   expectRefused(keeping(lake()), 2, "was begun with another INPUT");
-  // What belongs to the input too.
+  // Sidecar files of the input count too.
   writeText(file("lakes.geojson.aux.xml"), "<PAMDataset></PAMDataset>");
   expectRefused(keeping(input), 3, "lakes.geojson.aux.xml' has changed since");
   const std::string text = readText(input);
@@ -226,7 +226,7 @@ TEST_F(Checkpoint, OfAnotherVersionIsRefused) {
     expectRefused(keeping(input), 2,
                   "kept: was begun by coastmesh " + other + ", this is " + programVersion() + ": remove the folder '");
   }
-  // Nothing of it was lost meanwhile.
+  // The refusals have not damaged the checkpoint.
   writeText(kept("run"), whole);
   EXPECT_EQ(runProgram(keeping(input)).code, 0);
   takeBytes();
@@ -253,7 +253,7 @@ TEST_F(Checkpoint, TheFolderIsItsOwn) {
   expectRefused(keeping(input), 2, "there are other files in it");
   EXPECT_EQ(readText(kept("precious")), "text");
   std::filesystem::remove(kept("precious"));
-  // One that is there already, and empty, will do.
+  // An existing empty folder is accepted.
   EXPECT_EQ(runProgram(keeping(input)).code, 0);
   write("text", "text");
   expectRefused(command(input, {"--overwrite", "--checkpoint", file("text")}), 2, "is not a folder");
@@ -271,7 +271,7 @@ TEST_F(Checkpoint, BelongsToOneRunAtATime) {
   EXPECT_EQ(runProgram(keeping(input)).code, 0);
 }
 
-// The run that has the folder removes it when it is done.
+// The run that holds the lock removes the folder when it is done.
 TEST_F(Checkpoint, BeginsAnewWhereTheRunBeforeIsDoneMeanwhile) {
   const std::string input = lake();
   std::filesystem::create_directory(file("kept"));
@@ -303,7 +303,7 @@ TEST_F(Checkpoint, AFailureBeforeAnythingIsKeptLeavesNoFolder) {
   const ProgramRun piped = runShell("\"$0\" mesh - -o " + file("x.nc") + " --checkpoint " + file("kept"));
   EXPECT_EQ(piped.code, 2) << piped.errors;
   EXPECT_THAT(piped.errors, HasSubstr("standard input"));
-  // Under its other name, as a pipe of a name, and for what is read besides.
+  // Standard input under its other name, a named pipe, and pipes for other inputs.
   ASSERT_EQ(mkfifo(file("pipe").c_str(), 0600), 0);
   for (const std::string& words : {std::string("/dev/stdin"), file("pipe"), lake() + " --constraints -",
                                    lake() + " --size-features " + file("pipe")}) {
@@ -316,7 +316,7 @@ TEST_F(Checkpoint, AFailureBeforeAnythingIsKeptLeavesNoFolder) {
                 "--skip-existing");
 }
 
-// A shard's file is the same too.
+// A resumed shard is the same too.
 TEST_F(Checkpoint, OfAShard) {
   const std::string input = lakes();
   const auto words = [&](const std::string& out) {

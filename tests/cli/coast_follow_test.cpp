@@ -11,7 +11,7 @@ namespace {
 
 class CoastFollow : public ProgramTest {
  protected:
-  // Meshes the sea of a box of a degree, with land given, and returns the report.
+  // Meshes the sea in a box of 1 by 1 degree, with the given land, and returns the report.
   nlohmann::json sea(const std::vector<std::vector<LonLatRing>>& land, const std::vector<std::string>& options) {
     std::vector<std::string> arguments{"mesh",        write("land.geojson", geoJsonPolygons(land)),
                                        "-o",          file("sea.2dm"),
@@ -41,7 +41,7 @@ TEST_F(CoastFollow, WhatIsDroppedLeavesNoFineElementsBehind) {
   EXPECT_NEAR(vertices(with), without, 0.03 * without);
 }
 
-// An island of 30 km along the coast, with a strait of 500 m that goes round it, and a line through that.
+// An island 33 km long beside the coast, a strait of 500 m between them, and a line through the strait.
 TEST_F(CoastFollow, StraitsAreNamedAndPassagesKeepThemOpen) {
   const LonLatRing island{{0.3, 0.0545}, {0.6, 0.0545}, {0.6, 0.15}, {0.3, 0.15}};
   const std::vector<std::string> sizes{"--size-shore", "2000", "--grade", "0.2", "--size-max", "20000"};
@@ -70,8 +70,8 @@ TEST_F(CoastFollow, StraitsAreNamedAndPassagesKeepThemOpen) {
   EXPECT_EQ(sea({{kCoast}, {island}}, with)["boundaries"]["island"], 0);
 }
 
-// A lagoon behind the coast, which nothing joins to the sea: kept, it is a defect; by default it is left out for a
-// model.
+// A lagoon behind the coast without a connection to the sea: it is a defect if kept; for a model it is left out by
+// default.
 TEST_F(CoastFollow, WaterThatNothingJoinsToAnOpenBoundaryIsADefect) {
   const std::vector<std::string> sizes{"--size",
                                        "3000",
@@ -89,7 +89,7 @@ TEST_F(CoastFollow, WaterThatNothingJoinsToAnOpenBoundaryIsADefect) {
     std::vector<std::string> options = sizes;
     options.insert(options.end(), {"--keep-water", all ? "all" : "auto"});
     const nlohmann::json report = sea({{shore, lagoon}}, options);
-    // 0.08 of 0.68 square degrees: more than a few percent.
+    // The lagoon is 0.08 of 0.68 square degrees, more than a few percent.
     EXPECT_EQ(report["warnings"].dump().find("(12 %) of the water is left out") != std::string::npos, !all)
         << report["warnings"];
     EXPECT_EQ(run_.errors.find("without a connection in the data") != std::string::npos, !all) << run_.errors;
@@ -99,7 +99,7 @@ TEST_F(CoastFollow, WaterThatNothingJoinsToAnOpenBoundaryIsADefect) {
   }
 }
 
-// Half of a small lake is cut off from it: a third of a percent of the water.
+// Half of a small lake is cut off: a third of a percent of all water.
 TEST_F(CoastFollow, WhatIsLeftOutIsAShareOfAllWaters) {
   const LonLatRing large{{0, 0}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}};
   const LonLatRing two{{1, 0},       {1.03, 0},    {1.03, 0.0149}, {1.05, 0.0149}, {1.05, 0},    {1.08, 0},
@@ -112,7 +112,7 @@ TEST_F(CoastFollow, WhatIsLeftOutIsAShareOfAllWaters) {
   EXPECT_NE(run.output.find("(0.36 %) of the water is left out, 1 water"), std::string::npos) << run.output;
 }
 
-// A strait of 10 km between two coasts, with elements of 50 km.
+// A strait of 11 km between two coasts, with elements of 3 km and of 30 km.
 TEST_F(CoastFollow, WaterThatSizesAreTooLargeForIsWarnedOf) {
   const LonLatRing south{{-0.1, -0.1}, {1.1, -0.1}, {1.1, 0.1}, {0.4, 0.1}, {0.4, 0.45}, {-0.1, 0.45}};
   const LonLatRing north{{-0.1, 0.55}, {0.4, 0.55}, {0.4, 0.9}, {1.1, 0.9}, {1.1, 1.1}, {-0.1, 1.1}};
@@ -126,7 +126,7 @@ TEST_F(CoastFollow, WaterThatSizesAreTooLargeForIsWarnedOf) {
   EXPECT_LT(report["mesh"]["area_m2"].get<double>(), 0.98 * report["input"]["area_m2"].get<double>());
 }
 
-// One island of two hectares is given up: the layer says so, and where it lay.
+// An island of 5 hectares is removed; the layer has this edit and its place.
 TEST_F(CoastFollow, EditsAreALayer) {
   const LonLatRing islet{{0.5, 0.6}, {0.502, 0.6}, {0.502, 0.602}, {0.5, 0.602}};
   const nlohmann::json report =

@@ -51,7 +51,7 @@ TEST_F(Commands, EveryOptionOfTheJsonUsageIsInTheHelp) {
   EXPECT_EQ(verbs, (std::set<std::string>{"mesh", "check", "info", "plot", "convert", "clean", "partition", "gather"}));
 }
 
-// What people read in QGIS, and look for in the help and the manual pages.
+// QGIS, the help and the manual pages show labels and sections.
 TEST_F(Commands, EveryOptionHasALabelOfItsOwnAndASection) {
   const std::vector<std::string> sections = {
       "Input",   "Domain", "Triangles", "Sizes", "Coast", "Depths", "Boundaries and models",
@@ -123,11 +123,11 @@ TEST_F(Commands, CheckFindsDefectsAndPlacesThem) {
   EXPECT_EQ(angles.code, 1) << angles.errors;
   EXPECT_FALSE(Json::parse(readText(file("defects.geojson")))["features"].empty());
 
-  // Of another lake.
+  // The mesh of another lake.
   const std::string other = write("other.geojson", geoJsonPolygons({{{{0, 0}, {0.1, 0}, {0.1, 0.1}}}}));
   EXPECT_EQ(runProgram({"check", mesh, "--input", other}).code, 1);
 
-  // One triangle turned round.
+  // One triangle with reversed orientation.
   std::string text = readText(mesh);
   const std::size_t line = text.find("E3T 1 ");
   std::istringstream words(text.substr(line, text.find('\n', line) - line));
@@ -194,7 +194,7 @@ TEST_F(Commands, PlotDraws) {
   }
   EXPECT_EQ(runProgram({"plot", mesh, "-o", file("b.svg"), "--bbox", "-87.49,41.60,-87.48,41.61"}).code, 0);
   EXPECT_EQ(runProgram({"plot", mesh, "-o", file("a.jpg")}).code, 4);
-  EXPECT_EQ(runProgram({"plot", mesh, "-o", file("a.html"), "--color", "piece"}).code, 2);  // none said
+  EXPECT_EQ(runProgram({"plot", mesh, "-o", file("a.html"), "--color", "piece"}).code, 2);  // pieces are not marked
   EXPECT_EQ(runProgram({"plot", mesh, "-o", file("a.html"), "--color", "depth"}).code, 3);
   EXPECT_FALSE(std::filesystem::exists(file("a.html")));
   EXPECT_EQ(runProgram({"plot", mesh, "-o", file("a.html")}).code, 0);
@@ -204,7 +204,7 @@ TEST_F(Commands, PlotDraws) {
   EXPECT_EQ(page.find("{{"), std::string::npos);
 }
 
-// Nobody writes to it: what opens it would wait for ever.
+// Nothing writes to these pipes: opening one would block forever.
 TEST_F(Commands, PipesThatNoFormatReadsAreRefused) {
   for (const char* const name : {"p.nc", "p.msh", "p.gpkg", "p.fgb"}) {
     ASSERT_EQ(mkfifo(file(name).c_str(), 0600), 0);
@@ -226,7 +226,7 @@ TEST_F(Commands, PipesThatNoFormatReadsAreRefused) {
   }
 }
 
-// What is read from its beginning to its end may come through one.
+// Formats that are read from beginning to end can be read through a pipe.
 TEST_F(Commands, PipesThatFormatsReadAreRead) {
   ASSERT_EQ(runProgram({"mesh", lake(), "-o", file("m.14"), "--quiet"}).code, 0);
   for (const auto& [pipe, from] : {std::pair{"p.14", file("m.14")}, {"p.geojson", lake()}}) {

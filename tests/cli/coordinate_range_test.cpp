@@ -14,7 +14,7 @@ using Json = nlohmann::json;
 
 class CoordinateRange : public ProgramTest {
  protected:
-  // A square with sides as long as `side` says.
+  // A square with sides of length `side`.
   std::string squarePoly(const std::string& side) const {
     return write("square.poly", "4 2 0 0\n1 0 0\n2 " + side + " 0\n3 " + side + " " + side + "\n4 0 " + side +
                                     "\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n");
@@ -25,7 +25,7 @@ class CoordinateRange : public ProgramTest {
   }
 };
 
-// Simplifying used to bring edges of overlapping polygons as near as rounding: triangles turned over in the output.
+// Simplification used to bring edges of overlapping polygons within rounding of each other: triangles turned over.
 TEST_F(CoordinateRange, SimplifiedPolygonsThatOverlapMakeASoundMesh) {
   const std::string input = inputFile("simplify/overlapping_polygons.geojson");
   const std::vector<std::vector<std::string>> variants{{},

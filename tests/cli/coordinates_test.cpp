@@ -1,5 +1,5 @@
-// Meshes where coordinates are odd: across ±180, at a pole, of triangles a quarter of the globe wide, and no longitudes
-// at all.
+// Meshes with unusual coordinates: across ±180, at a pole, with triangles a quarter of the globe wide, without
+// longitudes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -38,7 +38,7 @@ class Coordinates : public ProgramTest {
     for (int lon = -180; lon < 180; lon += 10) cap.emplace_back(lon, 75.0);
     return ring("lake.geojson", cap);
   }
-  // Two spikes, 87 degrees long and a fifth of a degree at their tips.
+  // Spikes 87 degrees long, with angles of 0.2 to 0.3 degrees at their tips.
   std::string spikes() const {
     return ring(
         "lake.geojson",
@@ -49,7 +49,7 @@ class Coordinates : public ProgramTest {
     return {{x, y}, {x + 4000, y}, {x + 4000, y + 5000}, {x + 2000, y + 1000}, {x + 300, y + 5000}, {x, y + 5000}};
   }
 
-  // Of the mesh, by way of a format of text that has every digit: nodes and triangles in their order.
+  // The mesh as .2dm text with all digits, nodes and triangles in their order.
   std::string textOf(const std::string& mesh) const {
     const ProgramRun run = runProgram({"convert", mesh, "-o", file("text.2dm"), "--overwrite", "--quiet"});
     EXPECT_EQ(run.code, 0) << run.errors;
@@ -61,7 +61,7 @@ class Coordinates : public ProgramTest {
     return Json::parse(run.output);
   }
 
-  // Every layer format has to say what the .nc says; `code` is that of `mesh` and of `check`.
+  // Expects the same mesh in every layer format as in the .nc; `code`: exit code of `mesh` and `check`.
   void expectAlikeInLayers(const std::string& input, int code) const {
     std::vector<std::string> arguments{"mesh", input, "--dissolve", "-o", file("m.nc"), "--quiet"};
     for (const char* ending : {"gpkg", "shp", "geojson", "fgb"}) {
@@ -76,7 +76,7 @@ class Coordinates : public ProgramTest {
       EXPECT_EQ(runProgram({"check", mesh}).code, code);
       EXPECT_EQ(textOf(mesh), textOf(file("m.nc")));
       const Json info = infoOf(mesh);
-      const double area = told["area_m2"];  // of longitudes that may have fewer digits, past 180
+      const double area = told["area_m2"];  // longitudes past 180 may have fewer digits
       EXPECT_NEAR(info["area_m2"].get<double>(), area, 1e-12 * area);
       EXPECT_EQ(info["boundaries"], told["boundaries"]);
     }
@@ -88,7 +88,7 @@ TEST_F(Coordinates, LayersAcross180) { expectAlikeInLayers(lakeAt180(), 0); }
 
 TEST_F(Coordinates, LayersAroundAPole) { expectAlikeInLayers(polarCap(), 0); }
 
-// Which shore is an island every reader and every check say alike, roles in the file or none.
+// All readers and checks agree on which shore is an island, with or without roles in the file.
 TEST_F(Coordinates, IslandsAcross180AndAtAPoleAreIslands) {
   LonLatRing cap, hole;
   for (int lon = -180; lon < 180; lon += 20) cap.emplace_back(lon, 70.0), hole.emplace_back(-lon, 85.0);
@@ -113,7 +113,7 @@ TEST_F(Coordinates, IslandsAcross180AndAtAPoleAreIslands) {
     for (const char* name : meshes) told[name] = infoOf(file(name))["boundaries"];
     for (const char* name : meshes) {
       const Json& boundaries = told[name];
-      // ADCIRC and SCHISM take an outer shore as two segments.
+      // ADCIRC and SCHISM files split an outer shore into two segments.
       const bool in_two = std::string(name).ends_with(".14") || std::string(name).ends_with(".gr3");
       EXPECT_EQ(boundaries["land"], in_two ? 2 : 1) << name << boundaries;
       EXPECT_EQ(boundaries["island"], 1) << name << boundaries;
@@ -122,7 +122,7 @@ TEST_F(Coordinates, IslandsAcross180AndAtAPoleAreIslands) {
       const ProgramRun check = runProgram({"check", file("m.14"), "--target", model});
       EXPECT_EQ(check.output.find("shore"), std::string::npos) << check.output;
     }
-    // Nothing but the option says that these are degrees.
+    // Without .prj files only --assume-crs says that coordinates are degrees.
     for (const std::string& name : names())
       if (name.ends_with(".prj")) std::filesystem::remove(file(name));
     for (const char* name : {"m_grd.dat", "m_ww3.msh", "m.2dm", "unnamed.msh", "m.slf"}) {
@@ -132,7 +132,7 @@ TEST_F(Coordinates, IslandsAcross180AndAtAPoleAreIslands) {
   }
 }
 
-// Between the spikes' sides a triangle comes out turned over on the ground: reported, by `mesh` as by `check`.
+// A triangle between the spikes' sides is turned over on the ground; `mesh` and `check` report it.
 TEST_F(Coordinates, TrianglesTurnedOverOnTheGroundAreTold) {
   expectAlikeInLayers(spikes(), 1);
   const ProgramRun run =
@@ -146,7 +146,7 @@ TEST_F(Coordinates, TrianglesTurnedOverOnTheGroundAreTold) {
   EXPECT_TRUE(place["lon"] > -87 && place["lon"] < 0 && place["lat"] > 47 && place["lat"] < 60) << place;
 }
 
-// A plane of the user's choice that ends at ±180 has the two halves of a lake there at its two ends.
+// In a plane that the user chose and that ends at ±180, the two halves of a lake there are at opposite ends.
 TEST_F(Coordinates, ACrsThatTearsTheInputIsRefused) {
   const std::string lake = ring("across.geojson", {{179.9, 10}, {-179.8, 10}, {-179.8, 10.3}, {179.9, 10.3}});
   for (const char* crs : {"EPSG:4326", "EPSG:3857"}) {
@@ -157,7 +157,7 @@ TEST_F(Coordinates, ACrsThatTearsTheInputIsRefused) {
       EXPECT_NE(run.errors.find(part), std::string::npos) << run.errors;
     EXPECT_FALSE(names().contains("m.nc"));
   }
-  // Metres of a CRS for the Pacific, where the same lake is in one piece.
+  // In a CRS for the Pacific the same lake is in one piece.
   ASSERT_EQ(runProgram({"mesh", lake, "-o", file("whole.nc"), "--quiet"}).code, 0);
   const ProgramRun pacific = runProgram({"mesh", lake, "--crs", "EPSG:3832", "-o", file("pacific.nc"), "--quiet"});
   ASSERT_EQ(pacific.code, 0) << pacific.errors;
@@ -166,7 +166,7 @@ TEST_F(Coordinates, ACrsThatTearsTheInputIsRefused) {
 }
 
 TEST_F(Coordinates, ACrsThatShowsAWideInputInOnePieceIsTaken) {
-  // From end to end of the map, by edges that span half of it, with an island; and as far north as it goes.
+  // Spans the map from end to end, with edges half as wide as the map, an island, and latitudes up to 89.
   const std::string belt = write(
       "belt.geojson",
       geoJsonPolygons({{{{-180, -60}, {0, -60}, {180, -60}, {180, 89}, {-180, 60}}, {{-60, 0}, {60, 0}, {0, 40}}}}));
@@ -176,7 +176,7 @@ TEST_F(Coordinates, ACrsThatShowsAWideInputInOnePieceIsTaken) {
   }
 }
 
-// Angles of a plane that is not conformal are not those on the ground.
+// Angles in a plane that is not conformal differ from those on the ground.
 TEST_F(Coordinates, ACrsThatDistortsShapesIsWarnedOf) {
   const std::string lake = ring("lake.geojson", {{10, 56}, {10.5, 56}, {10.5, 56.3}, {10, 56.3}});
   const std::string far = ring("far.geojson", {{-30, 40}, {-29, 40}, {-29, 41}, {-30, 41}});
@@ -188,7 +188,7 @@ TEST_F(Coordinates, ACrsThatDistortsShapesIsWarnedOf) {
     EXPECT_EQ(run.code, 0) << crs << run.errors;
     EXPECT_EQ(run.errors, "") << crs;
   }
-  // An equal-area map far from its centre, longitudes and latitudes, degrees as metres.
+  // Equal-area maps far from where they keep shapes, longitudes and latitudes, and degrees as metres.
   for (const auto& [input, crs] : {std::pair{far, "EPSG:3035"}, std::pair{lake, "EPSG:4326"},
                                    std::pair{lake, "ESRI:54001"}, std::pair{lake, "EPSG:6933"}}) {
     const ProgramRun run = mesh(input, crs);
@@ -200,7 +200,7 @@ TEST_F(Coordinates, ACrsThatDistortsShapesIsWarnedOf) {
   }
 }
 
-// Mercator's metres go on past the end of the longitudes, as the input's do.
+// Mercator coordinates continue past the antimeridian, as in the input.
 TEST_F(Coordinates, MetresGoOnPastTheAntimeridian) {
   for (const double turn : {0.0, -40075016.685578488}) {
     std::string text = R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:3857"}},)";
@@ -231,7 +231,7 @@ TEST_F(Coordinates, MetresGoOnPastTheAntimeridian) {
   }
 }
 
-// What lies within the snap distance becomes one, whichever features it is of.
+// Points within the snap distance are merged, even if they belong to different features.
 TEST_F(Coordinates, FeaturesASmallGapApartAreSnapped) {
   const double gap = 1e-9;  // degrees: a tenth of a millimetre
   const std::string sheets =
@@ -249,7 +249,7 @@ TEST_F(Coordinates, FeaturesASmallGapApartAreSnapped) {
   EXPECT_EQ(piecesOf({"--snap", "0"}), 2);
 }
 
-// GDAL's own words about it stay inside.
+// GDAL's own messages about it are suppressed.
 TEST_F(Coordinates, HeightsAloneAreRefusedInOneLine) {
   const std::string input = write(
       "heights.geojson",
@@ -286,7 +286,7 @@ TEST_F(Coordinates, OceanAndLandAreTheTwoSidesOfAllCoasts) {
   EXPECT_NE(run.errors.find("--domain ocean takes longitudes"), std::string::npos) << run.errors;
 }
 
-// A plane shows all of the globe but a place on an island, wherever that is and small as it may be, down to a degree.
+// A plane can show the whole globe except for a place on an island, anywhere, if the island measures a degree or more.
 TEST_F(Coordinates, TheGlobeLessAnIsland) {
   const auto mesh = [&](const Point2& at, double side, std::vector<std::string> options) {
     const std::string island =
@@ -313,7 +313,7 @@ TEST_F(Coordinates, TheGlobeLessAnIsland) {
   EXPECT_EQ(advised.code, 0) << advised.errors;
 }
 
-// What GeoJSON calls longitudes, in metres: taken as a plane where that is asked for.
+// Metres in place of GeoJSON's longitudes: taken as a plane with --crs plane.
 TEST_F(Coordinates, MetresInAPlane) {
   for (const double at : {0.0, 1000.0, 448123.0, -5e6}) {
     SCOPED_TRACE(at);
@@ -344,7 +344,7 @@ TEST_F(Coordinates, MetresThatAreSaidToBeDegreesAreRefused) {
   EXPECT_NE(other.errors.find("metres.geojson"), std::string::npos) << other.errors;
 }
 
-// Degrees taken as a plane keep their longitudes and their CRS, whichever revolution they are in.
+// Degrees taken as a plane keep their CRS, and their longitudes in any revolution.
 TEST_F(Coordinates, DegreesInAPlane) {
   const std::string input = ring("wide.geojson", {{-10, 0}, {400, 0}, {400, 50}, {200, 20}, {-10, 50}});
   const ProgramRun run =
@@ -364,7 +364,7 @@ TEST_F(Coordinates, DegreesInAPlane) {
   EXPECT_EQ(infoOf(file("m.2dm"))["crs"], "EPSG:4326");
 }
 
-// What has no place on Earth is refused where it is read, whatever the format, so that nothing unreadable is written.
+// Every format refuses coordinates that are not on Earth when they are read, so that no unreadable output is written.
 TEST_F(Coordinates, NodesOffTheEarthAreRefused) {
   const std::string two_dm = "MESH2D\nE3T 1 1 2 3 1\nND 1 0 0 0\nND 2 1e9 0 0\nND 3 0 1 0\n";
   const std::string gmsh =
@@ -405,7 +405,7 @@ TEST_F(Coordinates, LatitudesBeforeLongitudesAreNamed) {
   EXPECT_NE(errorOf("[500000,4200000]").find("--crs plane"), std::string::npos);
 }
 
-// A projected CRS has places too that are none.
+// Coordinates in a projected CRS can be off the Earth too.
 TEST_F(Coordinates, NodesOffAProjectionAreRefused) {
   const std::string mesh = write("m.2dm", "MESH2D\nE3T 1 1 2 3 1\nND 1 5e5 5e6 0\nND 2 6e5 5e6 0\nND 3 1e30 5e6 0\n");
   const ProgramRun run = runProgram({"convert", mesh, "-o", file("o.gpkg"), "--assume-crs", "EPSG:32616"});
@@ -414,7 +414,7 @@ TEST_F(Coordinates, NodesOffAProjectionAreRefused) {
   EXPECT_NE(run.errors.find("node 3"), std::string::npos) << run.errors;
 }
 
-// What is counter-clockwise on the ground is not so in coordinates to the south and west.
+// Coordinates to the south and west turn counter-clockwise rings of the ground into clockwise ones.
 TEST_F(Coordinates, InputsThatMirrorTheGroundAreRefused) {
   const auto inCrs = [&](const std::string& code) {
     return write("field.geojson",
@@ -432,7 +432,7 @@ TEST_F(Coordinates, InputsThatMirrorTheGroundAreRefused) {
     EXPECT_NE(run.errors.find("EPSG:5513 mirrors the ground"), std::string::npos) << run.errors;
     EXPECT_NE(run.errors.find("EPSG:5514"), std::string::npos) << run.errors;
   }
-  // As a plane it is what it is.
+  // With --crs the coordinates are taken as a plane.
   for (const std::string crs : {"plane", "EPSG:5513"}) {
     const ProgramRun run =
         runProgram({"mesh", krovak, "--crs", crs, "-o", file("field.2dm"), "--size", "2000", "--quiet", "--overwrite"});
@@ -445,7 +445,7 @@ TEST_F(Coordinates, InputsThatMirrorTheGroundAreRefused) {
   EXPECT_NE(run.errors.find("give EPSG:5514"), std::string::npos) << run.errors;
 }
 
-// GDAL's own words may have line ends; an error has none.
+// GDAL's messages may contain line ends; an error has none.
 TEST_F(Coordinates, ErrorsAreOneLine) {
   const std::string geojson = lake();
   ASSERT_EQ(runProgram({"mesh", geojson, "-o", file("m.fgb"), "-o", file("m.shp"), "--quiet"}).code, 0);
@@ -469,7 +469,7 @@ TEST_F(Coordinates, ErrorsAreOneLine) {
   }
 }
 
-// Models read metres. Layers carry the CRS, and UGRID says units, as UDUNITS knows them.
+// Models read metres. Layers carry the CRS, and UGRID files name the units as in UDUNITS.
 TEST_F(Coordinates, InOtherUnitsThanMetresAreWarnedOfForModels) {
   const auto lakeIn = [&](int epsg) {
     return write("lake" + std::to_string(epsg) + ".geojson",
@@ -497,7 +497,7 @@ TEST_F(Coordinates, InOtherUnitsThanMetresAreWarnedOfForModels) {
   EXPECT_NE(run.errors.find("EPSG:2263"), std::string::npos) << run.errors;
 }
 
-// As in Web Mercator far from the equator.
+// For example in Web Mercator far from the equator.
 TEST_F(Coordinates, NotTrueToScaleAreWarnedOfForModels) {
   const auto errorsAt = [&](double south, const std::string& output) {
     const std::string y = std::to_string(south), top = std::to_string(south + 10000.0);

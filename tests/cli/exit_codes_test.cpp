@@ -8,7 +8,7 @@ namespace {
 
 class ExitCodes : public ProgramTest {
  protected:
-  // The program refuses the input and leaves nothing in the folder but what was there.
+  // Expects that the program refuses the input and leaves the folder as it was.
   void expectRefused(const std::string& input, int code) {
     const std::set<std::string> before = names();
     const ProgramRun run = runProgram({"mesh", input, "-o", file("out.2dm")});
@@ -130,7 +130,7 @@ TEST_F(ExitCodes, SwitchesWithAValueThatIsNoTruthValue) {
   EXPECT_EQ(names(), std::set<std::string>{"lake.geojson"});
 }
 
-// As from a variable of the shell that is not set.
+// For example from an unset shell variable.
 TEST_F(ExitCodes, EmptyValues) {
   const std::string input = lake();
   for (const std::string option : {"--checkpoint", "--clip", "--report", "--edits", "--shard", "--bbox", "--where",
@@ -160,7 +160,7 @@ TEST_F(ExitCodes, AnArgumentMayBeCalledAsACommandIs) {
   EXPECT_EQ(many.code, 2) << many.errors;
 }
 
-// What the file holds does not matter: it is not looked for.
+// The file is not opened, so its content does not matter.
 TEST_F(ExitCodes, ABoxUpsideDownIsWrongUsageThatNamesTheSides) {
   const ProgramRun run = runProgram({"mesh", file("none.geojson"), "-o", file("out.2dm"), "--bbox", "-87,42.5,-86,41"});
   EXPECT_EQ(run.code, 2) << run.errors;

@@ -1,4 +1,4 @@
-// Seas in a frame: where their open boundaries are, and how deep.
+// Seas in a frame: positions and depths of their open boundaries.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ class Frame : public ProgramTest {
   std::string island() const {
     return write("island.geojson", geoJsonPolygons({{{{1, 61}, {2, 61}, {2.2, 61.4}, {1.4, 61.6}, {1, 61}}}}));
   }
-  // The nodes of a fort.14 file: x, y, depth; and those of its open boundaries, by boundary.
+  // A fort.14 file: x, y, depth of its nodes, and the nodes of each open boundary, counted from 0.
   struct Fort14 {
     std::vector<std::array<double, 3>> nodes;
     std::vector<std::vector<std::size_t>> open;
@@ -51,7 +51,7 @@ class Frame : public ProgramTest {
   }
 };
 
-// Its sides in the wrong order are a box too, round most of the Earth.
+// A box with west and east swapped is valid, but spans most of the Earth.
 TEST_F(Frame, ABoxRoundMostOfTheEarthIsTold) {
   const std::vector<std::string> common{"mesh",    island(), "--domain",    "outside", "--size",      "300000",
                                         "--coast", "follow", "--overwrite", "-o",      file("sea.nc")};
@@ -90,7 +90,7 @@ TEST_F(Frame, ARingOfOpenBoundaryIsSaidToBeTwo) {
   EXPECT_EQ(grid.open[0].back(), grid.open[1].front());
 }
 
-// The frame cuts through land whose heights the raster has, 30 m above the water.
+// The frame cuts through land that the raster has 30 m above the water.
 TEST_F(Frame, OpenNodesAreUnderWater) {
   const std::string land = write("land.geojson", geoJsonPolygons({{{{-1, -1}, {5, -1}, {5, 1}, {-1, 1}, {-1, -1}}}}));
   std::string text = "ncols 60\nnrows 60\nxllcorner -1\nyllcorner -1\ncellsize 0.1\n";
@@ -132,7 +132,7 @@ TEST_F(Frame, ShortPiecesOfOpenBoundaryGo) {
   EXPECT_EQ(read(file("sea.14")).open.size(), 1u);
 }
 
-// "outside" says what --water-at does, "inside" something else.
+// --domain outside agrees with --water-at, inside contradicts it.
 TEST_F(Frame, WaterAtAPlaceIsOutsideOfLand) {
   const std::string lake = write("lake.geojson", geoJsonPolygons({{{{1, 61}, {2, 61}, {2, 62}, {1, 62}, {1, 61}}}}));
   const auto errorsWith = [&](const std::string& side) {

@@ -1,4 +1,4 @@
-// What the program makes for models of the whole Earth, judged by the rules of these models and by nothing of ours.
+// Outputs for models of the whole Earth, checked against the rules of these models without code of the library.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -49,7 +49,7 @@ Vector vectorOf(const std::array<double, 2>& lonlat) {
   return {std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)};
 }
 
-// The largest angle of all, and how many triangles have one of more than 90 degrees: flat, through places on a sphere.
+// The largest angle, and the number of triangles with an angle above 90 degrees: flat ones with corners on a sphere.
 std::pair<double, std::size_t> obtuseIn(const FesomMesh& mesh) {
   double largest = 0.0;
   std::size_t obtuse = 0;
@@ -68,7 +68,8 @@ std::pair<double, std::size_t> obtuseIn(const FesomMesh& mesh) {
   return {largest, obtuse};
 }
 
-// How many triangles have fewer than two neighbours; every edge is one of two triangles at most.
+// The number of triangles with fewer than two neighbours. Expects at most two triangles per edge, and tag 1 on the
+// coast only.
 std::size_t lonelyIn(const FesomMesh& mesh) {
   std::map<std::pair<std::size_t, std::size_t>, int> uses;
   for (const auto& v : mesh.triangles)
@@ -135,7 +136,7 @@ TEST_F(GlobalModels, MpasGetsNoObtuseTriangle) {
   EXPECT_EQ(runProgram({"check", file("sea_mpas.nc"), "--target", "mpas"}).code, 0);
 }
 
-// Round the pole edges are 192 and 112 km long; the longest lies at the equator.
+// Edges around the pole are 192 and 112 km long; the longest edge is at the equator.
 TEST_F(GlobalModels, InfoMeasuresEdgesAtThePole) {
   write("nod2d.out", "7\n1 0 89 1\n2 120 89 1\n3 240 89 1\n4 77 90 0\n5 10 0 1\n6 11.85 0 1\n7 11 1.2 1\n");
   write("elem2d.out", "4\n1 2 4\n2 3 4\n3 1 4\n5 6 7\n");

@@ -1,4 +1,4 @@
-// A mesh of the whole globe, judged from longitudes and latitudes alone, by arithmetic of this file's own.
+// Meshes of the whole globe, checked from longitudes and latitudes with arithmetic of this file.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ using ::testing::HasSubstr;
 using Json = nlohmann::json;
 using Vector = std::array<double, 3>;
 
-constexpr double kEarthArea = 5.10065621724e14;  // square metres, of WGS 84
+constexpr double kEarthArea = 5.10065621724e14;  // square metres on WGS 84
 
 Vector placeOf(double lon_deg, double lat_deg) {
   const double lon = lon_deg * M_PI / 180.0, lat = lat_deg * M_PI / 180.0;
@@ -43,7 +43,7 @@ struct Closed {
   std::map<int, std::size_t> materials;
 };
 
-// Of a .2dm in longitudes and latitudes.
+// Reads a .2dm in longitudes and latitudes.
 Closed closedIn(const std::string& text) {
   std::vector<Vector> places;
   std::vector<std::array<std::size_t, 3>> triangles;
@@ -161,7 +161,7 @@ TEST_F(Globe, LandAndSeaAreRegionsOfOneMesh) {
   EXPECT_EQ(made.materials.size(), 5u);
   EXPECT_GT(made.least_angle, 33.0);
   EXPECT_NEAR(report()["mesh"]["area_m2"].get<double>() / kEarthArea, 1.0, 1e-9);
-  // With sides that meet made one nothing is left of the antimeridian.
+  // --dissolve joins the two halves, so that no border along the antimeridian remains.
   ASSERT_EQ(mesh({land, "--size", "600000", "--dissolve"}).code, 0);
   EXPECT_EQ(closed().materials.size(), 4u);
   expectClosed(closed());

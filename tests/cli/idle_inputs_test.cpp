@@ -1,5 +1,5 @@
-// Files that were given for sizes, passages, barriers, constraints, weirs or regions and have nothing where the mesh
-// lies are warned of.
+// The program warns of files for sizes, passages, barriers, constraints, weirs or regions that have nothing where the
+// mesh lies.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -69,7 +69,7 @@ TEST_F(IdleInputs, OfLinesAndRegionsOutsideTheWaterAreWarnedOf) {
               HasSubstr("island.geojson: nothing of it lies in the water"));
 }
 
-// They lie in the water, in the right CRS.
+// The polygons are in the water and in the right CRS.
 TEST_F(IdleInputs, PolygonsAmongLinesAreWarnedOfAsSuch) {
   const std::string polygon =
       R"({"type":"Polygon","coordinates":[[[-87.8,47.7],[-87.6,47.7],[-87.7,47.8],[-87.8,47.7]]]})";
@@ -100,8 +100,7 @@ TEST_F(IdleInputs, OfPassagesAndBarriersElsewhereAreWarnedOf) {
   }
 }
 
-// What lies beyond the box is dropped when it is read.
-// Of several lakes a line is in one at most.
+// A line meets at most one of several lakes.
 TEST_F(IdleInputs, ALineThatMeetsNoLakeIsNotedOnce) {
   const auto collection = [](const std::vector<std::string>& features) {
     std::string text = R"({"type":"FeatureCollection","features":[)";

@@ -10,7 +10,7 @@ namespace {
 
 class Interrupted : public ProgramTest {
  protected:
-  // Triangles of a metre on a lake of kilometres: millions of them.
+  // Edges of 1 m on a lake of some kilometres: millions of triangles.
   std::vector<std::string> endlessRun() const {
     return {"mesh",       lake(),
             "-o",         file("out.gpkg"),
@@ -45,10 +45,10 @@ TEST_F(Interrupted, ExistingOutputsStayAsTheyWere) {
   EXPECT_EQ(names(), (std::set<std::string>{"lake.geojson", "out.gpkg"}));
 }
 
-// What a library does wrong, or we: the files that stood there are as they were, and one line says what happened.
+// After a crash in a library or in our code, existing files are unchanged and one line reports the crash.
 TEST_F(Interrupted, ByACrash) {
 #ifdef COASTMESH_SANITIZED
-  const std::vector<int> crashes = {SIGABRT};  // the others are the sanitizer's
+  const std::vector<int> crashes = {SIGABRT};  // sanitizers handle the other signals
 #else
   const std::vector<int> crashes = {SIGABRT, SIGSEGV, SIGBUS};
 #endif
@@ -64,8 +64,8 @@ TEST_F(Interrupted, ByACrash) {
   }
 }
 
-// Whoever starts the program may have signals ignored, as nohup does with SIGHUP, and a shell with SIGINT in what it
-// runs in the background: that stays, and the others stop it still.
+// The caller may ignore signals, as nohup does with SIGHUP, and a shell with SIGINT for background jobs: these stay
+// ignored, and the others still stop the program.
 TEST_F(Interrupted, NotByWhatIsIgnored) {
   const std::string run = "\"$0\" mesh '" + lake() + "' -o '" + file("out.gpkg") +
                           "' --size-max 1 --progress json > '" + file("log") + "' & until grep -qs refine '" +
@@ -80,7 +80,7 @@ TEST_F(Interrupted, NotByWhatIsIgnored) {
   EXPECT_EQ(runShell("trap '' HUP INT TERM; \"$0\" mesh '" + lake() + "' -o '" + file("x.2dm") + "'").code, 0);
 }
 
-// Opening a pipe that nobody writes to does not come back: nothing but the watcher can end the program then.
+// Opening a pipe that nobody writes to blocks: only the watcher thread can then end the program.
 TEST_F(Interrupted, WhileALibraryCallHangs) {
   ASSERT_EQ(mkfifo(file("pipe.geojson").c_str(), 0600), 0);
   const ProgramRun run = runAndSignal({"mesh", file("pipe.geojson"), "-o", file("out.gpkg"), "-o", file("out.nc"),

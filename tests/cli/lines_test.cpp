@@ -1,5 +1,4 @@
-// Lines, regions and types of boundaries that the user gives: in every output, or reported where it has no room for
-// them.
+// Lines, regions and boundary types given by the user: every output holds them, or a warning says what it cannot hold.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -14,14 +13,14 @@ using Json = nlohmann::json;
 
 class NamedLines : public ProgramTest {
  protected:
-  // Runs and expects nothing wrong; standard error.
+  // Runs the program, expects exit code 0 and returns standard error.
   std::string done(const std::vector<std::string>& arguments) const {
     const ProgramRun run = runProgram(arguments);
     EXPECT_EQ(run.code, 0) << run.errors;
     return run.errors;
   }
 
-  // A layer of the mesh in `path`, whatever its format.
+  // A layer of the mesh in `path`, of any format.
   Json layerOf(const std::string& path, const std::string& layer) const {
     const std::string out = file("layer.geojson");
     EXPECT_EQ(runProgram({"convert", path, "-o", out, "--overwrite", "--quiet"}).code, 0);
@@ -50,7 +49,7 @@ std::vector<std::string> outputsIn(const std::string& stem) {
   return arguments;
 }
 
-// No output takes a weir for any line without a word.
+// No output turns a weir into an ordinary line without a warning.
 TEST_F(NamedLines, WeirsAreNoMereConstraints) {
   const std::string lake = inputFile("lines/lake.geojson"), weirs = inputFile("lines/weirs.geojson");
   const auto meshed = [&](const std::string& option, const std::string& stem) {
@@ -72,7 +71,7 @@ TEST_F(NamedLines, WeirsAreNoMereConstraints) {
     ASSERT_EQ(lines.size(), 1u) << ending;
     EXPECT_EQ(valuesOf(lines, "kind"), std::set<std::string>{"weir"}) << ending;
     EXPECT_EQ(valuesOf(lines, "name"), std::set<std::string>{"w1"}) << ending;
-    // All of the input's line, from its first point to its last.
+    // The line is complete, from its first point to its last.
     const Json& points = lines[0]["geometry"]["coordinates"];
     EXPECT_EQ(points.front(), Json::parse("[-87.9, 47.55]")) << ending;
     EXPECT_EQ(points.back(), Json::parse("[-87.7, 47.6]")) << ending;
@@ -113,7 +112,7 @@ TEST_F(NamedLines, RegionsComeThroughEveryFormatThatHoldsThem) {
   EXPECT_TRUE(readText(file("a.gpkg")) == readText(file("b.gpkg")));
 }
 
-// Two regions are of two colours, and of one where they have one name.
+// Two regions have two colours, or one if they have the same name.
 TEST_F(NamedLines, PlotColoursRegionsByTheirNames) {
   const auto coloursOf = [&](const std::string& regions) {
     done({"mesh", inputFile("lines/lake.geojson"), "--regions", write("regions.geojson", regions), "-o", file("a.nc"),
@@ -146,7 +145,7 @@ TEST_F(NamedLines, ConvertSaysWhatAFileCannotHold) {
   EXPECT_EQ(valuesOf(layerOf(file("a.nc"), "boundaries"), "ibtype"), std::set<std::string>{"24"});
 }
 
-// What was cleaned first is meshed as the inputs themselves are, with all that is known of them.
+// A cleaned file has all data of its inputs and gives the same mesh as they do.
 TEST_F(NamedLines, CleanedFilesHoldAllOfTheInput) {
   const std::vector<std::string> given{inputFile("lines/lake.geojson"), "--weirs", inputFile("lines/weirs.geojson"),
                                        "--regions", inputFile("lines/regions.geojson")};
@@ -157,7 +156,7 @@ TEST_F(NamedLines, CleanedFilesHoldAllOfTheInput) {
   run({"clean", "-o", file("cleaned.gpkg"), "--quiet"}, given);
   run({"mesh", "-o", file("direct.gpkg"), "--quiet"}, given);
   done({"mesh", file("cleaned.gpkg"), "-o", file("then.gpkg"), "--quiet"});
-  // Vertices where lines cross are points of the cleaned file, so its projection's centre has other last bits.
+  // The cleaned file has extra points where lines cross, so the centre of its projection differs in the last bits.
   const Json direct = layerOf(file("direct.gpkg"), "triangles"), then = layerOf(file("then.gpkg"), "triangles");
   ASSERT_EQ(direct.size(), then.size());
   for (std::size_t t = 0; t < direct.size(); ++t) {
@@ -174,7 +173,7 @@ TEST_F(NamedLines, CleanedFilesHoldAllOfTheInput) {
   EXPECT_TRUE(readText(file("cleaned.gpkg")) == readText(file("again.gpkg")));
 }
 
-// A column with types of boundaries comes along with the other attributes.
+// A column of boundary types is kept like the other attributes.
 TEST_F(NamedLines, CleanedFilesHoldTypesOfBoundaries) {
   std::string lake = readText(inputFile("lines/lake.geojson"));
   lake.replace(lake.find("\"id\": 1"), 7, "\"type\": \"river\"");
@@ -186,7 +185,7 @@ TEST_F(NamedLines, CleanedFilesHoldTypesOfBoundaries) {
   EXPECT_EQ(valuesOf(layerOf(file("then.nc"), "boundaries"), "role"), std::set<std::string>{"river"});
 }
 
-// Types of single lines, which are joined into one shore, need no option once they are in the cleaned file.
+// Types of single lines that are joined into one shore need no option when read from a cleaned file.
 TEST_F(NamedLines, CleanedFilesHoldTypesOfLines) {
   const auto line = [](const std::string& type, const std::string& points) {
     return R"({"type": "Feature", "properties": {"type": ")" + type +

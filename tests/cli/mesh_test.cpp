@@ -38,7 +38,7 @@ TEST_F(MeshRun, WritesEveryOutputAndNothingElse) {
   EXPECT_EQ(run.code, 0) << run.errors;
   EXPECT_EQ(run.errors, "");
   EXPECT_NE(run.output.find("Steiner points"), std::string::npos) << run.output;
-  // The .prj goes with formats that hold no CRS.
+  // Formats that cannot hold a CRS get a .prj.
   EXPECT_EQ(names(),
             (std::set<std::string>{"lake.geojson", "a.2dm", "a.prj", "a.msh", "a.nc", "a.gpkg", "a.vtu", "a.json"}));
 }
@@ -148,7 +148,7 @@ TEST_F(MeshRun, TrianglesThatBreakTheBoundsAreCountedByWhatExcusesThem) {
 TEST_F(MeshRun, SizeBoundIsInMetres) {
   const Json json = report({"--size-max", "100"});
   const double area = json["mesh"]["area_m2"].get<double>();
-  // No triangle with edges of 100 m is larger than the equilateral one.
+  // A triangle with edges of at most 100 m is no larger than the equilateral one.
   EXPECT_GE(json["mesh"]["triangles"].get<double>(), area / (0.4331 * 100 * 100));
   const Json info = Json::parse(runProgram({"info", file("report.2dm"), "--assume-crs", "EPSG:4326", "--json"}).output);
   EXPECT_LE(info["longest_edge_m"].get<double>(), 100.0 * 1.001);
@@ -222,7 +222,7 @@ TEST_F(MeshRun, OptionsChangeTheMesh) {
   EXPECT_NE(report({"--algorithm", "circumcenter", "--no-coarsen"})["mesh"]["digest"], plain);
 }
 
-// One version long: in scripts and files that were written for the last one.
+// Former names are accepted for one version, for existing scripts and files.
 TEST_F(MeshRun, FormerNamesOfOptionsAndKeysAreTakenWithAWarning) {
   const auto warning = [](const std::string& former, const std::string& present) {
     return former + " is called " + present + " now; the next version will not accept the former name";
@@ -287,7 +287,7 @@ TEST_F(MeshRun, ProgressIsJsonLines) {
   EXPECT_EQ(last, "done");
 }
 
-// An island drawn as a polygon on its lake is no island; of many such lakes some are named.
+// A polygon inside another one is no island; if there are many, only some are named.
 TEST_F(MeshRun, PolygonsInPolygonsAreWarnedOf) {
   std::vector<std::vector<LonLatRing>> polygons;
   for (const double lon : {0, 1, 2, 3, 4})
@@ -307,7 +307,7 @@ TEST_F(MeshRun, PolygonsInPolygonsAreWarnedOf) {
   EXPECT_EQ(last, "5 more warnings of other features are not shown");
 }
 
-// Features of several files have the same numbers.
+// Features of different files may have the same number.
 TEST_F(MeshRun, EditsNameTheSourceOfTheirFeature) {
   const auto bowTie = [&](const std::string& name, double lon) {
     return write(name, geoJsonPolygons({{{{lon, 0}, {lon + 0.4, 0.4}, {lon + 0.4, 0}, {lon, 0.4}}}}));

@@ -1,4 +1,4 @@
-// Numbers that no mesh can be made with, given to every option that takes one.
+// Unusable numbers, given to every option that takes a number.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ using Json = nlohmann::json;
 
 class Numbers : public ProgramTest {
  protected:
-  // Refused as misuse, by the option's name, before anything is read.
+  // Expects exit code 2 and the option's name in the error, before anything is read.
   void expectMisuse(const std::string& command, const std::string& option, const std::string& value) const {
     SCOPED_TRACE(command + " " + option + "=" + value);
     std::vector<std::string> arguments{command, file("nowhere.nc"), option + "=" + value};

@@ -1,4 +1,4 @@
-// What a run writes never replaces what it reads, nor what another of its outputs writes, nor what is no file.
+// Outputs never replace an input, another output of the same run, or something that is not a regular file.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 
 class Outputs : public ProgramTest {
  protected:
-  // Refused before anything is read or written, although --overwrite is given.
+  // Expects a refusal before anything is read or written, despite --overwrite.
   void expectRefused(std::vector<std::string> arguments, const std::string& named) {
     const std::set<std::string> before = names();
     std::map<std::string, std::string> texts;
@@ -52,7 +52,7 @@ TEST_F(Outputs, NeverReplaceAFileThatAnyOptionReads) {
   expectRefused({"convert", other, "--bathymetry", input, "-o", file("x.2dm"), "-o", input}, "--bathymetry");
 }
 
-// However few files may be open, what is begun goes again.
+// No temporary file remains, however low the limit of open files is.
 TEST_F(Outputs, LeaveNothingWhereDescriptorsLack) {
   const std::string input = lake();
   for (const char* const ending : {".gpkg", ".nc", ".14", ".shp", ".geojson", ".vtu"}) {
@@ -90,7 +90,7 @@ TEST_F(Outputs, NeverReplaceWhatBelongsToAnInput) {
   expectRefused({"mesh", file("sea.shp"), "-o", file("out.nc"), "--report", file("sea.dbf")}, "sea.shp");
 }
 
-// Virtual data sets hold nothing themselves: what they name is read.
+// A virtual data set has no data of its own: the files that it names are inputs too.
 TEST_F(Outputs, NeverReplaceWhatAVirtualInputTakesItsDataFrom) {
   std::filesystem::copy_file(lake(), file("inner.geojson"));
   const std::string layers =
@@ -115,13 +115,13 @@ TEST_F(Outputs, NeverReplaceWhatAVirtualInputTakesItsDataFrom) {
     expectRefused({"mesh", lake(), option, "vrt://" + inner, "-o", file("m.nc"), "--report", file("depths.asc")},
                   option);
   }
-  // They are read, too, and others beside them may be replaced.
+  // These inputs are readable, and other files beside them may be replaced.
   const ProgramRun run =
       runProgram({"mesh", layers, "--bathymetry", outer, "-o", file("other.geojson"), "--overwrite"});
   EXPECT_EQ(run.code, 0) << run.errors;
 }
 
-// What is there beside an input, and has nothing to do with it, may be replaced: a run can be repeated.
+// Outputs of an earlier run beside an input may be replaced, so that a run can be repeated.
 TEST_F(Outputs, OfAnEarlierRunAreReplaced) {
   const std::vector<std::string> arguments{"mesh", lake(),           "-o",         file("lake.shp"),
                                            "-o",   file("lake.2dm"), "-o",         file("lake.node"),
@@ -155,7 +155,7 @@ TEST_F(Outputs, ThatShareAFileAreRefused) {
   expectRefused({"mesh", input, "-o", file("o.nc"), "--report", file("folder/o.nc")}, "folder/o.nc");
 }
 
-// Two formats that say their CRS in a .prj may share it.
+// Formats that store their CRS in a .prj may share it.
 TEST_F(Outputs, ThatShareAPrjAreWritten) {
   const ProgramRun run =
       runProgram({"mesh", lake(), "-o", file("o.2dm"), "-o", file("o.msh"), "-o", file("o.14"), "-o", file("o.shp")});
@@ -243,7 +243,7 @@ TEST_F(Outputs, PipesAreRead) {
   EXPECT_EQ(readText(file("a.2dm")), readText(file("b.2dm")));
 }
 
-// What cannot be read is not taken for the end, or for nothing.
+// A read error is not taken for the end of the input or for an empty input.
 TEST_F(Outputs, StandardInputThatCannotBeReadIsRefused) {
   for (const std::string& words : {"mesh - -o '" + file("a.2dm") + "'", std::string("info /dev/stdin")}) {
     const ProgramRun run = runShell("\"$0\" " + words + " < '" + file(".") + "'");

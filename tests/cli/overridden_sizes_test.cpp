@@ -1,4 +1,4 @@
-// Sizes that other options override, or that have no effect, are told of.
+// The program reports sizes that other options override, or that have no effect.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ class OverriddenSizes : public ProgramTest {
     EXPECT_LE(run.code, 1) << run.errors;
     return run;
   }
-  // Round the lake.
+  // A raster of constant depth around the lake.
   std::string depths(double depth_m) const {
     std::ostringstream text;
     text << "ncols 20\nnrows 20\nxllcorner -87.51\nyllcorner 41.595\ncellsize 0.0025\n";
@@ -49,7 +49,7 @@ TEST_F(OverriddenSizes, ContradictionsOfOptionsAreNoted) {
               Not(HasSubstr("overrides")));
 }
 
-// Waves travel 31 m a second: elements are no smaller than 5/3 of what that is in a step.
+// Waves travel at 31 m/s: edges must be at least 5/3 of their way in a time step.
 TEST_F(OverriddenSizes, ATimeStepThatTheShoreIsTooFineForIsNoted) {
   const auto output = [&](const std::string& step) {
     return mesh({"--bathymetry", depths(100), "--size-shore", "200", "--time-step", step}).output;
@@ -68,7 +68,7 @@ TEST_F(OverriddenSizes, BandsThatNoDepthIsInAreWarnedOf) {
   EXPECT_THAT(errors("5000,6000,100", {}),
               HasSubstr("--depth-band 5000,6000,100 has no effect: no depth of the mesh lies in it"));
   EXPECT_THAT(errors("40,60,200", {}), Not(HasSubstr("no effect")));
-  // Nodes are lowered, to 80 m; depths are still those of the raster.
+  // --min-depth lowers nodes to 80 m, but bands apply to depths of the raster.
   EXPECT_THAT(errors("40,60,200", {"--min-depth", "80"}), Not(HasSubstr("no effect")));
   EXPECT_THAT(errors("90,95,200", {"--min-depth", "80"}), HasSubstr("no effect"));
 }

@@ -16,7 +16,7 @@ namespace {
 using ::testing::HasSubstr;
 using Json = nlohmann::json;
 
-// A line of a file that a Fortran program reads with `read(unit, *)` must hold these numbers, and ours nothing else.
+// The numbers of each line, `columns` of them, as Fortran's `read(unit, *)` needs them. Expects nothing else in a line.
 std::vector<std::vector<long>> rowsOf(const std::string& path, std::size_t columns) {
   std::ifstream file(path);
   EXPECT_TRUE(file) << path;
@@ -40,7 +40,7 @@ class Partition : public ProgramTest {
     EXPECT_EQ(run.code, 0) << run.errors;
     return path;
   }
-  // Triangles of a 2dm, in its order, and how many nodes there are.
+  // The triangles of a .2dm in file order, nodes counted from 1, and the number of nodes.
   static std::pair<std::vector<std::array<long, 3>>, std::size_t> trianglesOf(const std::string& path) {
     std::ifstream in(path);
     std::vector<std::array<long, 3>> triangles;
@@ -57,8 +57,8 @@ class Partition : public ProgramTest {
   }
 };
 
-// What SCHISM's partition_hgrid asks of partition.prop: elements in their order, ranks from 0 to one less than there
-// are processes, each of which has some.
+// partition.prop as SCHISM's partition_hgrid requires it: elements in order, ranks from 0 to one less than the number
+// of processes, each with some elements.
 TEST_F(Partition, SchismReadsItsFile) {
   const std::string grid = mesh();
   ASSERT_EQ(runProgram({"partition", grid, "7", "-o", file("partition.prop"), "--quiet"}).code, 0);
@@ -77,7 +77,7 @@ TEST_F(Partition, SchismReadsItsFile) {
     EXPECT_LE(static_cast<double>(size), 1.03 * static_cast<double>(rows.size()) / 7.0) << rank;
 }
 
-// What adcprep asks of partmesh.txt: a subdomain a node, from 1 (it would add 1 to all where one is 0).
+// partmesh.txt as adcprep requires it: a subdomain per node, from 1 (with a 0 in it, adcprep adds 1 to all).
 TEST_F(Partition, AdcprepReadsItsFile) {
   const std::string grid = mesh();
   ASSERT_EQ(runProgram({"partition", grid, "7", "-o", file("partmesh.txt"), "--quiet"}).code, 0);
@@ -107,7 +107,7 @@ TEST_F(Partition, OfAMeshIsThatOfItsFile) {
   EXPECT_EQ(report["parts"], 5);
   EXPECT_LE(report["elements"]["balance"], 1.03);
   EXPECT_GT(report["nodes"]["edge_cut"], 0);
-  // From the file again, and on another number of threads.
+  // Again from the file, with the default number of threads.
   ASSERT_EQ(runProgram({"partition", file("a.nc"), "5", "-o", file("b.prop"), "-o", file("b_partmesh.txt"), "-o",
                         file("b.nc"), "--quiet"})
                 .code,
@@ -124,8 +124,8 @@ TEST_F(Partition, OfAMeshIsThatOfItsFile) {
   EXPECT_EQ(readText(file("a.msh")), readText(file("d.msh")));
 }
 
-// A reader made from Gmsh's manual, of the sections that parts are in: every element in a partitioned entity that is
-// declared, whose parent is, and which belongs to one part; tags of entities used once.
+// Reads the sections about parts as Gmsh's manual describes them: every element is in a declared partitioned entity,
+// which belongs to one part and whose parent is declared; tags of entities are unique.
 TEST_F(Partition, GmshEntitiesAreDeclared) {
   ASSERT_EQ(runProgram({"partition", mesh(), "5", "-o", file("a.msh"), "-o", file("a.prop"), "--quiet"}).code, 0);
   std::ifstream in(file("a.msh"));

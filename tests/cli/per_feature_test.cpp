@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 using Json = nlohmann::json;
 using Names = std::set<std::string>;
 
-// Squares of a kilometre and more; the first and the second share a side.
+// Squares of a kilometre or more; the first and the second share a side.
 class PerFeature : public ProgramTest {
  protected:
   static Json square(double west, double south, double side, const Json& properties) {
@@ -31,7 +31,7 @@ class PerFeature : public ProgramTest {
     return writeFeatures({square(5, 50, 0.01, {{"name", "West/Lake"}}), square(5.01, 50, 0.01, {{"name", "Müggelsee"}}),
                           square(6, 50, 0.03, {{"name", nullptr}}), square(7, 50, 0.02, {{"name", " .hidden "}})});
   }
-  // A sliver without area in place of the third.
+  // The third feature is a sliver without area.
   std::string lakesWithOneThatCannotBe() const {
     Json bad = square(6, 50, 0.03, {{"name", "flat"}});
     bad["geometry"]["coordinates"] = {{{6, 50}, {6.1, 50}, {6, 50}, {6, 50}}};
@@ -154,7 +154,7 @@ TEST_F(PerFeature, WhatIsThereStaysAndIsGoneOnWith) {
   const std::string first = readText(file("1.nc"));
   std::filesystem::remove(file("1.nc"));  // one of its two
   write("2.nc", "precious");
-  // Said plainly, nothing is replaced.
+  // Without an option nothing is replaced.
   const ProgramRun plain = mesh(input, {"-o", file("{}.nc"), "-o", file("{}.2dm")});
   expectRefused(plain, 4, "--skip-existing");
   EXPECT_EQ(made(".nc").count("1.nc"), 0u);
@@ -163,7 +163,7 @@ TEST_F(PerFeature, WhatIsThereStaysAndIsGoneOnWith) {
   EXPECT_THAT(on.output, HasSubstr("1 of 4 features meshed, 3 were there already"));
   EXPECT_TRUE(readText(file("1.nc")) == first);
   EXPECT_EQ(readText(file("2.nc")), "precious");
-  // A full disk left no more of it.
+  // An empty file, as a full disk leaves it, counts as missing.
   write("1.nc", "");
   EXPECT_EQ(mesh(input, {"-o", file("{}.nc"), "-o", file("{}.2dm"), "--skip-existing", "--quiet"}).code, 0);
   EXPECT_TRUE(readText(file("1.nc")) == first);
@@ -183,7 +183,7 @@ TEST_F(PerFeature, SharesAreMadeOnceEach) {
   EXPECT_EQ(made(".2dm").size(), 4u);
 }
 
-// What was finished when the run was stopped is whole, nothing else is left, and the same line makes the rest.
+// After an interrupt finished outputs are complete, nothing else is left, and the same command makes the rest.
 TEST_F(PerFeature, StoppedAndGoneOnWithItIsTheWhole) {
   constexpr std::size_t kFeatures = 20;
   const auto writeInput = [&](double last_side) {
@@ -194,7 +194,7 @@ TEST_F(PerFeature, StoppedAndGoneOnWithItIsTheWhole) {
     return writeFeatures(features);
   };
   const std::vector<std::string> options{"-o", file("{}.2dm"), "--size", "25", "--threads", "2", "--skip-existing"};
-  // Millions of triangles: the last one is not done when others are.
+  // Millions of triangles, so that the last feature is not done before others.
   const std::string input = writeInput(0.5);
   std::vector<std::string> words{"mesh", input, "--per-feature"};
   words.insert(words.end(), options.begin(), options.end());

@@ -39,7 +39,7 @@ class Child {
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out().c_str(), flags, 0600);
     posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err().c_str(), flags, 0600);
-    // A shell starts what runs in the background, which the tests may, with SIGINT ignored.
+    // Shells start background jobs with SIGINT ignored, and the tests may be such a job.
     sigset_t stopping;
     sigemptyset(&stopping);
     for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&stopping, number);

@@ -10,9 +10,9 @@
 
 namespace coastmesh::test {
 
-// What a run of the program left behind.
+// The result of a run of the program.
 struct ProgramRun {
-  int code = -1;       // exit code; 128 + the signal's number where one killed it
+  int code = -1;       // exit code, or 128 + the number of the signal that killed it
   std::string output;  // standard output
   std::string errors;  // standard error
 };
@@ -20,17 +20,17 @@ struct ProgramRun {
 // Runs the coastmesh program to its end.
 ProgramRun runProgram(const std::vector<std::string>& arguments);
 
-// Runs a script of the shell in which "$0" is the program.
+// Runs a shell script in which "$0" is the program.
 ProgramRun runShell(const std::string& script);
 
 // Starts the program, sends `signal_number` once its standard output holds `awaited`, and waits for its end.
 ProgramRun runAndSignal(const std::vector<std::string>& arguments, const std::string& awaited, int signal_number);
 
-// Starts the program, sends `signal_number` as soon as `due` says so, asked every millisecond, and waits for its end.
+// Starts the program, calls `due` every millisecond, sends `signal_number` once it returns true, and waits for the end.
 ProgramRun runAndSignal(const std::vector<std::string>& arguments, const std::function<bool()>& due, int signal_number);
 
-// The same, for what may be over before the signal comes on a busy machine: then `undo` takes away what was made, and
-// it is run again, up to a bound.
+// The same for a run that may end before the signal on a busy machine: `undo` then removes its outputs and the run is
+// repeated, up to a bound.
 template <class Awaited>
 ProgramRun runUntilSignalled(const std::vector<std::string>& arguments, const Awaited& awaited, int signal_number,
                              const std::function<void()>& undo) {
@@ -44,10 +44,10 @@ ProgramRun runUntilSignalled(const std::vector<std::string>& arguments, const Aw
   return run;
 }
 
-// What it says of itself, as 1.2.3.
+// The version that the program prints, such as 1.2.3.
 std::string programVersion();
 
-// The bytes of a file that the program keeps for itself, as those of another version of it would begin.
+// `bytes` of a file in one of the program's own formats, with another version in its header.
 std::string withVersion(std::string bytes, const std::string& version);
 
 // A file of tests/cli/inputs.
@@ -60,7 +60,7 @@ void writeText(const std::filesystem::path& path, const std::string& text);
 using LonLatRing = std::vector<std::pair<double, double>>;
 std::string geoJsonPolygons(const std::vector<std::vector<LonLatRing>>& polygons);
 
-// A test with a folder of its own, which goes with it.
+// A test with its own folder, which is removed at the end.
 class ProgramTest : public testing::Test {
  protected:
   ProgramTest();
@@ -68,7 +68,7 @@ class ProgramTest : public testing::Test {
 
   std::string file(const std::string& name) const { return (folder_ / name).string(); }
   std::string write(const std::string& name, const std::string& text) const;
-  // All that lies in the folder, hidden files too.
+  // The names of all files in the folder, including hidden ones.
   std::set<std::string> names() const;
 
   // A lake of some 2 km with an island.
@@ -78,7 +78,7 @@ class ProgramTest : public testing::Test {
   std::filesystem::path folder_;
 };
 
-// One sentence on standard error, as every error is reported.
+// True if standard error is a single error line.
 testing::AssertionResult isOneErrorLine(const std::string& errors);
 
 }  // namespace coastmesh::test

@@ -16,7 +16,7 @@ using Json = nlohmann::json;
 
 class RasterUnits : public ProgramTest {
  protected:
-  // `value` everywhere around the lake, in a unit of that name.
+  // A raster around the lake with one value and this unit.
   std::string raster(const std::string& value, const std::string& unit) const {
     write("values.asc", "ncols 1\nnrows 1\nxllcorner -88\nyllcorner 41\ncellsize 1\n" + value + "\n");
     return write("values.vrt",

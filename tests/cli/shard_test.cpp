@@ -41,7 +41,7 @@ class Shard : public ProgramTest {
     return write("lakes.geojson", Json{{"type", "FeatureCollection"}, {"features", features}}.dump());
   }
   std::string shardFile(int i) const { return file("s" + std::to_string(i) + ".shard"); }
-  // The codes of all shards.
+  // The exit codes of all shards.
   std::vector<int> runShards(const std::string& input, int count, const std::vector<std::string>& options) const {
     std::vector<int> codes;
     for (int i = 1; i <= count; ++i) {
@@ -66,7 +66,7 @@ class Shard : public ProgramTest {
   }
 };
 
-// Less what is measured anew, or is of the process.
+// The report without measured times and properties of the process.
 Json lasting(Json report) {
   for (const char* key : {"time_s", "parallel", "peak_memory_mib", "threads"}) report.erase(key);
   return report;
@@ -82,7 +82,7 @@ TEST_F(Shard, GatheredIsTheWholeByteForByte) {
   };
   for (const std::vector<std::string>& options : {std::vector<std::string>{"--min-angle", "30", "--no-smooth"},
                                                   {"--size-max", "400", "--max-vertices", "4000", "--mark-pieces"},
-                                                  // Repairs look at each group again, in its own plane.
+                                                  // Repairs process each group again, in its own plane.
                                                   {"--size", "500", "--target", "fvcom", "--partition", "4"}}) {
     std::vector<std::string> whole{
         "mesh",        input,          "-o",      file("w/x.nc"),        "-o",       file("w/x.gpkg"),
@@ -90,7 +90,7 @@ TEST_F(Shard, GatheredIsTheWholeByteForByte) {
         "--overwrite", "--quiet"};
     whole.insert(whole.end(), options.begin(), options.end());
     const ProgramRun one = runProgram(whole);
-    EXPECT_EQ(one.code, 1) << one.errors;  // of the lake that is refused
+    EXPECT_EQ(one.code, 1) << one.errors;  // because of the refused lake
     std::vector<std::string> of_shards = options;
     const bool parts = of_shards.back() == "4";
     if (parts) of_shards.resize(of_shards.size() - 2);
@@ -112,7 +112,7 @@ TEST_F(Shard, GatheredIsTheWholeByteForByte) {
   }
 }
 
-// Each group is in one shard, whoever runs it; a shard's own mesh is that part of the whole.
+// Each group is in exactly one shard; a shard's own mesh is its part of the whole mesh.
 TEST_F(Shard, DealsEveryLakeOnce) {
   const std::string input = lakes();
   std::multiset<std::int64_t> fids;
@@ -143,16 +143,16 @@ TEST_F(Shard, IsNotMadeTwice) {
   EXPECT_EQ(second.code, first.code);
   EXPECT_THAT(second.output, HasSubstr("exist already"));
   EXPECT_EQ(readText(file("r.json")), "precious");
-  // One of its files lacks: all are made anew.
+  // One of its files is missing: all are made again.
   std::filesystem::remove(file("r.json"));
   EXPECT_EQ(runProgram(words({"--skip-existing"})).code, first.code);
   EXPECT_NE(readText(file("r.json")), "precious");
-  // What is there is of another run.
+  // The existing file belongs to another run.
   expectRefused(words({"--skip-existing", "--min-angle", "20"}), 2, "to another run");
   expectRefused(words({}), 4, "exists already");
 }
 
-// Of a full disk, or of a version that wrote it in place.
+// As left by a full disk, or by a version that wrote in place.
 TEST_F(Shard, ThatIsDamagedIsMadeAgain) {
   const std::string input = lakes();
   const std::vector<std::string> words{"mesh", input, "--shard", "2/3", "-o", shardFile(2), "--skip-existing"};
@@ -178,7 +178,7 @@ TEST_F(Shard, ThatIsDamagedIsMadeAgain) {
   writeText(shardFile(2), "");
   EXPECT_EQ(runProgram(words).code, code);
   expectWhole();
-  // What never was a shard stays.
+  // A file that is not a shard is never replaced.
   for (const std::string other : {"precious", "{}", "coastmesh is"}) {
     writeText(shardFile(2), other);
     expectRefused(words, 3, "was not written by mesh --shard");
@@ -186,7 +186,7 @@ TEST_F(Shard, ThatIsDamagedIsMadeAgain) {
   }
 }
 
-// Killed in the middle of its work, it leaves nothing that could be taken for a shard, and is made by the same line.
+// A shard killed midway leaves no file that could pass for a shard, and the same command makes it.
 TEST_F(Shard, KilledIsRunAgain) {
   const std::string input = lakes();
   runShards(input, 3, {});
@@ -205,7 +205,7 @@ TEST_F(Shard, KilledIsRunAgain) {
   EXPECT_TRUE(readText(file("w.nc")) == readText(file("g.nc")));
 }
 
-// The code of a shard stays what it was, for the script that runs it again.
+// A skipped shard returns the exit code of its run, for scripts that run it again.
 TEST_F(Shard, ThatIsSkippedHasTheCodeOfItsRun) {
   const std::string input = lakes();
   const std::vector<int> first = runShards(input, 3, {"--skip-existing"}),
@@ -248,7 +248,7 @@ TEST_F(Shard, WhatDoesNotGoTogetherIsRefused) {
   expectRefused({"mesh", file("pipe"), "--shard", "1/1", "-o", file("a.shard")}, 2, "other pipes");
   for (const std::string wrong : {"0/3", "4/3", "1", "1/", "/3", "1/3x", "-1/3", "1/9999999"})
     expectRefused({"mesh", input, "--shard=" + wrong, "-o", file("a.shard")}, 2, "--shard");
-  // The input changed meanwhile: a name, the CRS, all places.
+  // The input has changed since: a name, the CRS, all coordinates.
   const std::string text = readText(input);
   std::string renamed = text;
   renamed.replace(renamed.find("lake 3"), 6, "loch 3");
@@ -273,7 +273,7 @@ TEST_F(Shard, WhatIsNoRegularFileIsRefused) {
   }
 }
 
-// By name, before anything is said of a checksum, which another version may make otherwise.
+// The version is named before any checksum error, because another version may compute checksums differently.
 TEST_F(Shard, OfAnotherVersionIsRefused) {
   const std::string input = lakes();
   runShards(input, 2, {});
@@ -288,7 +288,7 @@ TEST_F(Shard, OfAnotherVersionIsRefused) {
   EXPECT_EQ(names().count("g.nc"), 0u);
 }
 
-// Two processes that a launcher has started would race for the file.
+// Two processes started by a launcher would race for the file.
 TEST_F(Shard, IsMadeByOneOfTheRanks) {
   const std::string input = lakes();
   const auto as = [&](int rank, const std::string& shard, const std::string& option) {
@@ -311,7 +311,7 @@ TEST_F(Shard, IsMadeByOneOfTheRanks) {
 TEST_F(Shard, MoreShardsThanLakes) {
   const std::string input = lakes();
   const std::vector<int> codes = runShards(input, 30, {});
-  EXPECT_EQ(std::ranges::count(codes, 1), 1);  // of the lake that is refused
+  EXPECT_EQ(std::ranges::count(codes, 1), 1);  // because of the refused lake
   EXPECT_EQ(std::ranges::count(codes, 0), 29);
   ASSERT_EQ(runProgram({"mesh", input, "-o", file("w.nc"), "--quiet"}).code, 1);
   ASSERT_EQ(runProgram(gather(30, {"-o", file("g.nc"), "--quiet"})).code, 1);

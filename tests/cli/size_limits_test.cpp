@@ -1,4 +1,4 @@
-// Sizes that ask for more than there is room for: reported at once, with how much that is, and nothing is made.
+// Sizes that require too many vertices are reported at once, with their number, and nothing is made.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Sanitizers take memory of their own, much of it.
+// Sanitizers use a lot of memory themselves.
 #ifdef COASTMESH_SANITIZED
 constexpr bool kMemoryIsTheProgramsOwn = false;
 #else
@@ -30,7 +30,7 @@ class SizeLimits : public ProgramTest {
   }
   Json report() const { return Json::parse(readText(file("a.json"))); }
   bool isMeshThere() const { return names().contains("a.2dm"); }
-  // Round the lake, with one pixel in it that is not like the others; as text, in the lake's CRS.
+  // A text raster around the lake, in the lake's CRS, with one pixel that differs from the others.
   std::string raster(const std::string& name, double elsewhere, double there) const {
     std::ostringstream text;
     text << "ncols 20\nnrows 20\nxllcorner -87.51\nyllcorner 41.595\ncellsize 0.0025\n";
@@ -68,16 +68,16 @@ TEST_F(SizeLimits, BeyondTheBudgetNothingIsMade) {
   }
 }
 
-// Little more than what the budget allows is known before all of a map is made.
+// A mesh slightly over the budget is recognised before the whole size map is made.
 TEST_F(SizeLimits, ALittleBeyondWhatIsBegunTakesNoWholeMap) {
-  // About 650,000 vertices; up to 520,000 would be begun.
+  // About 650,000 vertices are needed; up to 520,000 would be meshed.
   const ProgramRun run = mesh({"--size-shore", "0.1", "--size-max", "2000", "--max-vertices", "260000"});
   EXPECT_EQ(run.code, 1);
   EXPECT_NE(run.errors.find("--max-vertices allows 260000"), std::string::npos) << run.errors;
   EXPECT_FALSE(isMeshThere());
   EXPECT_NEAR(report()["refine"]["estimated_vertices"].get<double>() / 650e3, 1.0, 0.25);
   if (kMemoryIsTheProgramsOwn) {
-    EXPECT_LT(report()["peak_memory_mib"].get<double>(), 120.0);  // four times as much with the map
+    EXPECT_LT(report()["peak_memory_mib"].get<double>(), 120.0);  // with the whole map four times as much
   }
 }
 
@@ -97,7 +97,7 @@ TEST_F(SizeLimits, BeyondTheMemoryNothingIsTaken) {
   }
 }
 
-// Lattices take less memory a vertex than refinement, and only one algorithm has them.
+// Lattices take less memory per vertex than refinement, and only one algorithm uses them.
 TEST_F(SizeLimits, LatticesFitWhereRefinementDoesNot) {
   const auto room = [&](const std::string& algorithm) {
     const ProgramRun run = mesh({"--size-max", "1e-3", "--algorithm", algorithm});
@@ -109,7 +109,7 @@ TEST_F(SizeLimits, LatticesFitWhereRefinementDoesNot) {
   EXPECT_NEAR(room("relocate") / room("offcenter"), 600.0 / 320.0, 0.3);
 }
 
-// A creek of 200 km, a decimetre wide: finding its widths takes more than the mesh may.
+// A creek 200 km long and 0.1 m wide: finding all widths would take more memory than the mesh may.
 TEST_F(SizeLimits, ChannelsAreWalkedNoFurtherThanTheyMayAskFor) {
   LonLatRing creek;
   for (int k = 0; k <= 200; ++k) creek.emplace_back(1000.0 * k, 30.0 * (k % 2));
@@ -121,7 +121,7 @@ TEST_F(SizeLimits, ChannelsAreWalkedNoFurtherThanTheyMayAskFor) {
   EXPECT_NE(run.errors.find("where --channel-elements asks for"), std::string::npos) << run.errors;
   EXPECT_NE(run.errors.find("--max-vertices allows 20000"), std::string::npos) << run.errors;
   EXPECT_FALSE(isMeshThere());
-  // Edges of a tenth of the width: a vertex each sqrt(3) / 2 of their square.
+  // Edges of a tenth of the width: one vertex per sqrt(3) / 2 of their squared length.
   const double vertices = 200e3 * 0.1 / (0.01 * 0.01 * std::sqrt(3.0) / 2.0);
   EXPECT_NEAR(report()["refine"]["estimated_vertices"].get<double>() / vertices, 1.0, 0.15);
   if (kMemoryIsTheProgramsOwn) {
@@ -129,20 +129,21 @@ TEST_F(SizeLimits, ChannelsAreWalkedNoFurtherThanTheyMayAskFor) {
   }
 }
 
-// Where a thread lacks for its limits, those of memory for stacks among them, it is no bug.
+// A thread that cannot start because of a limit, such as one of memory for stacks, is no bug.
 TEST_F(SizeLimits, ThreadsThatCannotBeStarted) {
   if (!kMemoryIsTheProgramsOwn) GTEST_SKIP() << "no limit can be set on memory";
   const std::string run = "\"$0\" mesh '" + lake() + "' -o '" + file("a.2dm") + "' --size-max 20 --quiet --threads ";
   for (const std::string& limited : {"ulimit -v 200000; " + run + "8", "ulimit -v 1000000; " + run + "1024"}) {
     const ProgramRun refused = runShell(limited);
-    if (refused.code == 0) continue;  // on a machine where threads take less
+    if (refused.code == 0) continue;  // on a machine where threads need less
     EXPECT_EQ(refused.code, 3) << refused.errors;
     EXPECT_TRUE(isOneErrorLine(refused.errors)) << refused.errors;
     EXPECT_EQ(names(), std::set<std::string>{"lake.geojson"});
   }
 }
 
-// Two shores of a kilometre ten micrometres apart: 33 degrees take a hundred million triangles between them.
+// Two shores of a kilometre, ten micrometres apart: a bound of 33 degrees takes a hundred million triangles between
+// them.
 TEST_F(SizeLimits, RefinementBeyondTheMemoryStopsAndSaysWhere) {
   if (!kMemoryIsTheProgramsOwn) GTEST_SKIP() << "no limit can be set on memory";
   const std::string strip = write("strip.geojson", geoJsonPolygons({{{{0, 0}, {1000, 0}, {1000, 1e-5}, {0, 1e-5}}}}));
@@ -201,7 +202,7 @@ TEST_F(SizeLimits, ALittleBeyondTheBudgetItIsRefinedAsFarAsThatGoes) {
   EXPECT_EQ(runProgram({"check", file("a.2dm"), "--assume-crs", "EPSG:4326"}).code, 0);
 }
 
-// What is beyond any wave or model would overflow on the way to a size, and count for nothing.
+// Values beyond any wave or model would overflow in the computation of sizes, and have no effect.
 TEST_F(SizeLimits, NumbersBeyondAnyUseAreRefused) {
   const std::string depths = raster("depths.asc", -100.0, -90.0);
   for (const std::vector<std::string>& wrong :
@@ -215,7 +216,7 @@ TEST_F(SizeLimits, NumbersBeyondAnyUseAreRefused) {
   }
 }
 
-// A plane graph that says with its holes what is inside.
+// A plane graph with a hole point.
 TEST_F(SizeLimits, OfAPlaneGraph) {
   const std::string poly = write("ring.poly",
                                  "8 2 0 0\n0 0 0\n1 10 0\n2 10 10\n3 0 10\n4 1 1\n5 9 1\n6 9 9\n7 1 9\n"
@@ -232,7 +233,7 @@ TEST_F(SizeLimits, OfAPlaneGraph) {
   EXPECT_EQ(report()["mesh"]["triangles"], 0);
 }
 
-// A lake of a hectare, and one that takes some 930,000 vertices: more than `kLittle` leaves. In a plane.
+// A lake of one hectare, and one that takes some 930,000 vertices, more than `kLittle` allows. In a plane.
 class LackingMemory : public SizeLimits {
  protected:
   static constexpr const char* kLittle = "ulimit -v 450000; ";
@@ -267,7 +268,7 @@ TEST_F(LackingMemory, AShardIsMadeAnewWhereThereIsMore) {
 TEST_F(LackingMemory, GatherMeshesWhatShardsCouldNot) {
   const int codes = runShell(kLittle + command("--shard 1/2 -o " + quoted("a.shard"))).code +
                     runShell(kLittle + command("--shard 2/2 -o " + quoted("b.shard"))).code;
-  EXPECT_EQ(codes, 1);  // of one of them
+  EXPECT_EQ(codes, 1);  // for one of them
   const std::string gather =
       "\"$0\" gather " + quoted("a.shard") + quoted("b.shard") + "--overwrite --quiet --threads 1 ";
   EXPECT_EQ(runShell(kLittle + gather + "-o " + quoted("a.2dm")).code, 1);

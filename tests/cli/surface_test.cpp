@@ -1,4 +1,4 @@
-// Angles on the Earth, judged from longitudes and latitudes alone, by arithmetic of this file's own.
+// Angles on the Earth, checked from longitudes and latitudes with arithmetic of this file.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 using Json = nlohmann::json;
 using Vector = std::array<double, 3>;
 
-// In geocentric coordinates of WGS 84, or on the unit sphere with latitudes as they are.
+// Geocentric coordinates on WGS 84 in metres, or on the unit sphere with the same latitudes.
 Vector placeOf(double lon_deg, double lat_deg, bool sphere) {
   const double lon = lon_deg * M_PI / 180.0, lat = lat_deg * M_PI / 180.0;
   const double f = sphere ? 0.0 : 1.0 / 298.257223563, e2 = f * (2.0 - f);
@@ -37,7 +37,7 @@ struct Angles {
   std::size_t triangles = 0;
 };
 
-// Of a .2dm in longitudes and latitudes.
+// The angles of a .2dm in longitudes and latitudes.
 Angles anglesIn(const std::string& text, bool sphere) {
   std::vector<Vector> places;
   std::vector<std::array<std::size_t, 3>> triangles;
@@ -67,7 +67,7 @@ Angles anglesIn(const std::string& text, bool sphere) {
   return angles;
 }
 
-// A sea from Africa to South America, larger than a cap of 30 degrees; a bay of some hundred kilometres.
+// A sea from Africa to South America, larger than a cap of 30 degrees, and a bay of some 400 km.
 const std::vector<LonLatRing> kSea{{{-60, -40}, {15, -42}, {10, 5}, {-15, 12}, {-20, 50}, {-62, 45}},
                                    {{-30, -20}, {-25, -8}, {-38, -10}}};
 const std::vector<LonLatRing> kBay{{{0, 50}, {6, 50}, {6, 54}, {3, 53}, {0, 54}}};
@@ -114,7 +114,7 @@ TEST_F(SurfaceRuns, FiguresAreThoseOfFlatTrianglesOnTheEarth) {
   }
 }
 
-// Nodes on parallels of a frame are moved onto them once the mesh is made.
+// Nodes on a frame's parallels are moved onto them after meshing.
 TEST_F(SurfaceRuns, WithinABoxFiguresAreThoseOfTheFile) {
   const std::string island = layer("island.geojson", {{{0, 0}, {6, 2}, {3, 9}, {-4, 7}}});
   for (const std::string size : {"300000", "600000"}) {
@@ -126,7 +126,7 @@ TEST_F(SurfaceRuns, WithinABoxFiguresAreThoseOfTheFile) {
   }
 }
 
-// What lies within the cap stays in the plane, with its bytes, unless it is asked for.
+// An input within the cap stays in the plane, byte for byte, unless --surface requests otherwise.
 TEST_F(SurfaceRuns, SmallInputsStayInThePlane) {
   const std::string bay = layer("bay.geojson", kBay);
   ASSERT_EQ(mesh(bay, {}).code, 0);
@@ -140,7 +140,8 @@ TEST_F(SurfaceRuns, SmallInputsStayInThePlane) {
   EXPECT_NEAR(reported()["mesh"]["min_angle_deg"].get<double>(), angles.least, 1e-6);
 }
 
-// Triangles round a node: the least angle, there, is 39.8 degrees in the plane, 38.1 on the ellipsoid, 37.9 on spheres.
+// Triangles around a node: the smallest angle, at that node, is 39.8 degrees in the plane, 38.1 on the ellipsoid, 37.9
+// on spheres.
 TEST_F(SurfaceRuns, FilesAreCheckedOnTheEarth) {
   const std::vector<std::pair<int, int>> nodes{{0, 0},   {32, 9},    {13, 30}, {-10, 28},
                                                {-33, 5}, {-25, -22}, {3, -33}, {28, -18}};
@@ -176,7 +177,7 @@ TEST_F(SurfaceRuns, AgainstItsInputAMeshIsMeasuredOnItsSurface) {
   };
   const ProgramRun run = check({});
   EXPECT_EQ(run.code, 0) << run.output << run.errors;
-  // What the plane calls sharp the Earth need not.
+  // An angle that violates the bound in the plane may meet it on the Earth.
   const ProgramRun plane = check({"--surface", "plane"});
   EXPECT_EQ(plane.code, 1);
   EXPECT_THAT(plane.output, HasSubstr("angle beyond the bound"));
@@ -203,7 +204,7 @@ TEST_F(SurfaceRuns, ModelsThatTakeLatitudesAsSphericalGetTheirSphere) {
   EXPECT_EQ(reported()["mesh"]["surface"]["kind"], "plane");
 }
 
-// An island's long edges, as lines of longitudes and latitudes: nodes between their ends lie on them.
+// Edges as lines of longitude and latitude: nodes on the bay's southern edge stay on its parallel.
 TEST_F(SurfaceRuns, EdgesOfTheInputAreTheLinesAskedFor) {
   const std::string bay = layer("bay.geojson", {{{0, 50}, {12, 50}, {12, 56}, {0, 56}}});
   const auto furthestOff = [&](const std::vector<std::string>& options) {

@@ -1,4 +1,4 @@
-// What repairs for models leave in the outputs.
+// Outputs after repairs for models.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace {
 using Target = ProgramTest;
 using Json = nlohmann::json;
 
-// The sizes of the nodes in a layer that the program wrote.
+// The sizes of nodes, by position, in a layer written by the program.
 std::map<std::pair<double, double>, double> sizesIn(const std::string& path) {
   std::map<std::pair<double, double>, double> sizes;
   const Json layer = Json::parse(readText(path));
@@ -28,7 +28,7 @@ std::map<std::pair<double, double>, double> sizesIn(const std::string& path) {
   return sizes;
 }
 
-// A fort.14 file, read by its own lines.
+// A fort.14 file, without code of the library.
 struct Fort14 {
   std::vector<std::array<double, 2>> nodes;
   std::vector<std::array<std::size_t, 3>> triangles;
@@ -53,7 +53,7 @@ Fort14 readFort14(const std::string& path) {
   return grid;
 }
 
-// SWAN reads coordinates as they stand, and stops where the cosine of an angle is -0.8 or less.
+// Angles that SWAN refuses: it takes coordinates as they are and stops if a cosine is -0.8 or less.
 std::size_t refusedBySwan(const Fort14& grid) {
   const auto squareOf = [&](std::size_t a, std::size_t b) {
     const double dx = grid.nodes[a][0] - grid.nodes[b][0], dy = grid.nodes[a][1] - grid.nodes[b][1];
@@ -70,7 +70,7 @@ std::size_t refusedBySwan(const Fort14& grid) {
   return refused;
 }
 
-// A lake of some hundred kilometres whose degrees of longitude are a quarter of those of latitude.
+// A lake some 130 km across, where a degree of longitude is a quarter as long as a degree of latitude.
 TEST_F(Target, SwanGetsNoLargeAngleInTheDegreesOfItsFile) {
   LonLatRing ring;
   for (int k = 0; k < 120; ++k) {
@@ -83,7 +83,7 @@ TEST_F(Target, SwanGetsNoLargeAngleInTheDegreesOfItsFile) {
   ASSERT_EQ(runProgram(plain).code, 0);
   EXPECT_GT(refusedBySwan(readFort14(file("plain.14"))), 0u);
   EXPECT_EQ(runProgram({"check", file("plain.14"), "--target", "swan"}).code, 1);
-  // Held by what repairs leave too; the size is wanted, not a bound.
+  // Repairs keep the angle bound too; the size is a target, not a bound.
   const std::vector<std::string> mended{"mesh", input,      "--size", "3000", "--min-angle",
                                         "15",   "--target", "swan",   "-o",   file("swan.14")};
   const ProgramRun run = runProgram(mended);
@@ -94,7 +94,7 @@ TEST_F(Target, SwanGetsNoLargeAngleInTheDegreesOfItsFile) {
   EXPECT_EQ(runProgram({"check", file("swan.14"), "--target", "swan"}).code, 0);
 }
 
-// A box across the antimeridian with an island: where longitudes jump, SWAN would see triangles round the globe.
+// A box across the antimeridian with an island: if longitudes jumped, SWAN would see triangles around the globe.
 TEST_F(Target, LongitudesGoOnPastTheAntimeridian) {
   const std::string input =
       write("land.geojson", geoJsonPolygons({{{{179.4, -17.1}, {179.7, -17.1}, {179.7, -16.8}, {179.4, -16.8}}}}));
@@ -115,13 +115,13 @@ TEST_F(Target, LongitudesGoOnPastTheAntimeridian) {
     EXPECT_EQ(runProgram({"check", file(mesh), "--target", "swan"}).code, 0) << mesh;
   ASSERT_EQ(runProgram({"convert", file("f.gpkg"), "-o", file("again.14")}).code, 0);
   EXPECT_EQ(readText(file("again.14")), readText(file("f.14")));
-  // Corners of the input are found a turn away; with sizes, edges of the box are not those of the input.
+  // Corners of the input are found 360 degrees away; with sizes, edges of the box are not those of the input.
   for (const char* mesh : {"f.14", "f.gpkg"}) {
     const ProgramRun check =
         runProgram({"check", file(mesh), "--input", input, "--domain", "outside", "--bbox=179,-17.5,-179,-16.5"});
     EXPECT_THAT(check.output, ::testing::Not(::testing::HasSubstr("input vertex missing"))) << mesh;
   }
-  // Depths at 181 lie in a raster from -180 on.
+  // Nodes at 181 get depths from a raster that begins at -180.
   const auto raster = [this](const char* name, const char* corner, const char* depth) {
     return write(name, std::string("ncols 2\nnrows 2\nxllcorner ") + corner + "\nyllcorner -18\ncellsize 1\n" + depth +
                            " " + depth + "\n" + depth + " " + depth + "\n");
@@ -142,7 +142,7 @@ TEST_F(Target, LongitudesGoOnPastTheAntimeridian) {
   }
 }
 
-// How many triangles have an angle below that, coordinates being those of a plane.
+// The number of triangles with an angle below `degrees`; coordinates are plane.
 std::size_t sharperThan(double degrees, const Fort14& grid) {
   std::size_t sharp = 0;
   for (const auto& v : grid.triangles) {
@@ -157,8 +157,8 @@ std::size_t sharperThan(double degrees, const Fort14& grid) {
   return sharp;
 }
 
-// A star without a corner below 60 degrees: every smaller angle is the mesh's own. What is made of it holds 42 degrees,
-// until a repair takes a node elsewhere.
+// A star without a corner below 60 degrees, so that every smaller angle is the mesh's own. Its mesh meets 42 degrees
+// until a repair moves a node.
 TEST_F(Target, WhatRepairsMakeOfTheBoundsIsWhatTheExitCodeSays) {
   const std::vector<std::array<int, 2>> ring{{1000, 0},  {866, 281},   {809, 588},   {526, 724},   {309, 951},
                                              {0, 758},   {-309, 951},  {-486, 670},  {-809, 588},  {-839, 273},
@@ -189,7 +189,7 @@ TEST_F(Target, WhatRepairsMakeOfTheBoundsIsWhatTheExitCodeSays) {
   EXPECT_GT(mesh("mended.14", {"--target", "dflowfm"}), 0u);
 }
 
-// Of two lakes only the larger gets an open boundary.
+// Only the larger of two lakes gets an open boundary.
 TEST_F(Target, WatersOfOtherFeaturesWithoutAnOpenBoundaryAreLeftOut) {
   const std::string lakes =
       write("lakes.geojson", geoJsonPolygons({{{{10, 50}, {10.2, 50}, {10.2, 50.1}, {10, 50.1}}},
@@ -221,7 +221,7 @@ TEST_F(Target, WatersOfOtherFeaturesWithoutAnOpenBoundaryAreLeftOut) {
   }
 }
 
-// Circles round the corners of a square's halves have one centre: no water would flow across its diagonal.
+// The two halves of a square have the same circumcentre: no water would flow across the diagonal.
 TEST_F(Target, FlowLinksOfDflowfmHaveALength) {
   const std::string square =
       write("square.poly", "4 2 0 0\n1 0 0\n2 1000 0\n3 1000 1000\n4 0 1000\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n");
@@ -234,13 +234,13 @@ TEST_F(Target, FlowLinksOfDflowfmHaveALength) {
   EXPECT_EQ(runProgram({"check", mended, "--target", "dflowfm"}).code, 0);
 }
 
-// Gaps of a tenth of a millimetre between features, filled with triangles that are flat but for the last bits.
+// Gaps of a tenth of a millimetre between features, filled with triangles that are flat except for the last bits.
 TEST_F(Target, RepairsTurnNoTriangleOver) {
   const ProgramRun run =
       runProgram({"mesh", inputFile("target/narrow_gaps.geojson"), "--snap", "0", "--pinches", "open", "--max-vertices",
                   "6000", "--size-shore", "2261.2280973999214", "--shore-rate", "0.2", "--smooth", "--target",
                   "dflowfm", "--report", file("report.json"), "-o", file("m.nc")});
-  EXPECT_EQ(run.code, 1) << run.errors;  // some defects stay
+  EXPECT_EQ(run.code, 1) << run.errors;  // some defects remain
   const Json report = Json::parse(readText(file("report.json")));
   EXPECT_GT(report.at("repairs").at("done").size(), 20u);
   EXPECT_EQ(report.at("mesh").at("turned").at("count"), 0) << run.errors;

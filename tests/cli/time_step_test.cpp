@@ -1,4 +1,4 @@
-// What runs say of the time step that their grids leave, and of --time-step and --size-min that do not hold.
+// Reports of the time step that a grid allows, and of violations of --time-step and --size-min.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ class TimeStep : public ProgramTest {
     }
     return write("bed.asc", text);
   }
-  // From 10 m in the south to 500 m; nothing is known of the middle.
+  // From 10 m deep in the south to 500 m in the north, with no data in the middle.
   std::string bedWithGap() const {
     std::string text = "ncols 140\nnrows 100\nxllcorner -5000\nyllcorner -5000\ncellsize 500\nNODATA_value -9999\n";
     for (int j = 0; j < 100; ++j) {
@@ -56,7 +56,7 @@ class TimeStep : public ProgramTest {
     }
     return write("gap.asc", text);
   }
-  // A sea of 120 by 60 km with a ragged coast in the south, and a bed that falls to 305 m from the coast on.
+  // A sea of 120 by 60 km with a ragged coast in the south, and a bed that falls from the coast to 305 m.
   std::string raggedSea() const {
     std::string ring;
     for (int i = 0; i <= 600; ++i) {
@@ -92,7 +92,7 @@ class TimeStep : public ProgramTest {
   struct Node {
     double x, y, z;
   };
-  // The least time step in a .2dm, by its own lines; NaN where depths are not above 0.
+  // The shortest time step in a .2dm, without code of the library; infinite if no node is under water.
   double leastStep() const {
     std::istringstream text(readText(file("bay.2dm")));
     std::vector<Node> nodes;
@@ -119,7 +119,7 @@ class TimeStep : public ProgramTest {
   }
 };
 
-// What mends a time step may not make an obtuse triangle then, and what stays is said.
+// Repairs of the time step must not make obtuse triangles; what they cannot repair is reported.
 TEST_F(TimeStep, RepairsKeepCircumcentresInside) {
   const std::vector<std::string> options{"mesh",         raggedSea(),  "--bathymetry", raggedBed(),
                                          "--size-shore", "800",        "--size-max",   "4000",
@@ -134,7 +134,7 @@ TEST_F(TimeStep, RepairsKeepCircumcentresInside) {
   EXPECT_THAT(run.errors, HasSubstr("--quality centred, which may make no angle above 90 degrees"));
 }
 
-// Nodes get depths there, for which sizes have to be large enough too.
+// Nodes get depths there too, and sizes must be large enough for these.
 TEST_F(TimeStep, HoldsWhereNoRasterHasADepth) {
   const std::vector<std::string> options{"--bathymetry", bedWithGap(), "--size", "400", "--time-step", "15"};
   ProgramRun run = mesh(options);
@@ -160,8 +160,8 @@ TEST_F(TimeStep, IsSaidInSummaryReportAndInfo) {
   const ProgramRun run = mesh({"--size", "2000", "--bathymetry", depths()});
   ASSERT_EQ(run.code, 0) << run.errors;
   EXPECT_THAT(run.output, HasSubstr("time step by CFL "));
-  // Lengths in the file are those of UTM's plane, at most a few thousandths off those on the ground so far from its
-  // meridian.
+  // The file has lengths of UTM's plane, which so near to its meridian differ by at most a few thousandths from those
+  // on the ground.
   EXPECT_NEAR(step().at("time_step_s").get<double>() / leastStep(), 1.0, 0.01);
   const Json info = Json::parse(runProgram({"info", "--json", file("bay.2dm")}).output);
   EXPECT_NEAR(info.at("step").at("time_step_s").get<double>(), leastStep(), 0.01 * leastStep());
@@ -175,7 +175,7 @@ TEST_F(TimeStep, AskedForHoldsOrIsListedWithExitCode1) {
   EXPECT_GE(leastStep(), 20.0 * 0.997);
   EXPECT_EQ(step().at("asked").at("missed"), 0);
 
-  // The notches of a coast that is kept are shorter than that leaves room for.
+  // The notches of a coast that is kept are too short for the time step.
   const ProgramRun keeps = mesh({"--size", "3000", "--time-step", "120", "--bathymetry", depths()});
   EXPECT_EQ(keeps.code, 1);
   EXPECT_THAT(keeps.errors, HasSubstr("--time-step 120 at --courant 1 does not hold in "));
@@ -185,7 +185,7 @@ TEST_F(TimeStep, AskedForHoldsOrIsListedWithExitCode1) {
   EXPECT_NEAR(asked.at("places").at(0).at("time_step_s").get<double>() / leastStep(), 1.0, 0.01);
 }
 
-// Some edges of a shore that follows come out shorter than the step needs: these are mended in the mesh.
+// Some edges of a coast that follows sizes are too short for the step; they are repaired in the mesh.
 TEST_F(TimeStep, AskedForHoldsAlongARaggedCoast) {
   const ProgramRun run =
       runProgram({"mesh", raggedSea(), "-o", file("bay.2dm"), "--report", file("r.json"), "--size", "600", "--size-max",
@@ -197,7 +197,7 @@ TEST_F(TimeStep, AskedForHoldsAlongARaggedCoast) {
   const Json done = report.at("repairs").at("done");
   ASSERT_FALSE(done.empty());
   for (const Json& repair : done) EXPECT_EQ(repair.at("defect"), "courant");
-  // No worse a mesh for it, and the same sea.
+  // The mesh is no worse and the sea is the same.
   EXPECT_EQ(report.at("mesh").at("below_bound"), 0);
   const double meshed = report.at("mesh").at("area_m2"), given = report.at("input").at("area_m2");
   EXPECT_NEAR(meshed / given, 1.0, 0.005);
@@ -236,7 +236,7 @@ TEST_F(TimeStep, SizeMinHoldsForEdgesWhereTheCoastFollows) {
   }
 }
 
-// Edges spread round the size: where that is --size-min everywhere, those a little shorter are no reason to warn.
+// Edge lengths scatter around the size: if that is --size-min everywhere, slightly shorter edges give no warning.
 TEST_F(TimeStep, SizeMinIsNotUndercutByTheUsualSpreadOfEdges) {
   const std::string square = write("square.geojson", geoJsonPolygons({{{{0, 0}, {0.2, 0}, {0.2, 0.2}, {0, 0.2}}}}));
   const ProgramRun run = runProgram(
@@ -299,7 +299,7 @@ TEST_F(TimeStep, ASeaForAModelHasSizesThatSuitIt) {
   EXPECT_LE(report.at("mesh").at("vertices").get<int>(), 100'000);
   EXPECT_GE(report.at("step").at("time_step_s").get<double>(), 5.0);
 
-  // What the summary says makes the same mesh.
+  // The options that the summary names make the same mesh.
   const std::string lead = "as with ";
   const std::size_t at = run.output.find(lead);
   ASSERT_NE(at, std::string::npos) << run.output;

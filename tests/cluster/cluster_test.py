@@ -130,7 +130,7 @@ class SameBytes(Folder):
                 report = json.loads(Path(self.path("many.json")).read_text())
                 use = report["cluster"]
                 self.assertEqual(use["ranks"], ranks)
-                # The others get some pieces, and all of these come back.
+                # Other ranks get some pieces, and all of these come back.
                 (self.assertGreater if ranks > 1 else self.assertEqual)(use["pieces_dealt"], 0)
                 (self.assertGreater if ranks > 1 else self.assertEqual)(use["bytes_moved"], 0)
         self.assertEqual(hidden(self.folder), [])
@@ -189,7 +189,7 @@ class Rasters(Folder):
     def once(self, program, name, ranks=0, *more):
         command = (program, *self.OPTIONS, "-o", name, "--report", name + ".json", *more)
         done = run(on_ranks(ranks, *command) if ranks else command, self.folder)
-        # The time step need not hold everywhere.
+        # The time step may be violated in places.
         self.assertIn(done.returncode, (0, 1), done.stderr)
 
     def read_by(self, name):
@@ -239,7 +239,7 @@ class Rasters(Folder):
             folder.mkdir()
             for name in (*read["raster_files"], *(tile[:-4] + ".hdr" for tile in read["raster_files"])):
                 os.symlink(self.path(name), folder / name)
-            # No link: GDAL would look for tiles beside what that leads to.
+            # Not a link, because GDAL would look for tiles beside the link's target.
             (folder / "dem.vrt").write_text(Path(self.path("dem.vrt")).read_text())
 
     def run_apart(self, ranks):
@@ -351,7 +351,7 @@ class Killed(Folder):
     def test_another_rank_in_refine(self):
         self.kill(2, "refine")
 
-    # The library of messages may abort a rank that reads from one just killed, before that one's end is known.
+    # MPI may abort a rank that reads from one just killed, before the end of the latter is known.
     def test_the_cause_of_a_crash_of_another_rank(self):
         started = self.begin()
         found = workers_in(started, self.folder, "refine")
@@ -370,7 +370,7 @@ class Killed(Folder):
         started = self.begin()
         self.assertIn("refine", phases(started))
         started.send_signal(signal.SIGTERM)
-        # MPICH's mpirun kills what is left, and has a code of its own, on a busy machine even 0.
+        # MPICH's mpirun kills the remaining ranks and returns a code of its own, on a busy machine even 0.
         started.wait(timeout=60)
         self.expect_nothing_left(started, started.returncode)
 
@@ -430,7 +430,7 @@ class GoesOn(Folder):
         self.assertGreater(use["rounds_kept"], 0)
 
     def test_killed_in_stitch(self):
-        # There is no third round but the last.
+        # The third round is the last one.
         self.begin(self.kill_when_kept(0, lambda stage, rounds: (stage, rounds) == (1, 3)))
         use = self.expect_rest(on_ranks(3, PROGRAM, *self.KEEPING))
         self.assertEqual((use["regions_gone_on"], use["groups_taken"], use["rounds_kept"]), (1, 0, 0))

@@ -18,7 +18,7 @@ import subprocess
 import sys
 import tempfile
 
-UTM = "EPSG:32631"  # in the middle of its zone: 0.9996 of the length on the ellipsoid
+UTM = "EPSG:32631"  # in the middle of its zone, where the scale is 0.9996
 X0, Y0 = 500000.0, 5000000.0
 GROUND = 1 / 0.9996**2  # area on the ground over area in the plane
 

@@ -58,10 +58,11 @@ def is_flat(corners, turned, geographic, chosen, projected, extent):
     length, in one fitted to the mesh by that times the mesh's extent, all in radians."""
     sides = sides_of(corners, geographic)
     if min(sides) == 0:
-        return False  # two nodes in one place
+        return False  # two nodes at one place
     grain = 8 * max(math.ulp(abs(v)) for p in corners for v in p)
     if not geographic:
-        # In a projected CRS sides are straight in the plane that the program worked in: some centimetres on ten kilometres.
+        # In a projected CRS, sides that are straight in the program's plane bend by some centimetres over ten
+        # kilometres.
         return -turned <= grain * max(sides) + (max(sides) ** 3 / 1e8 if projected else 0)
     return -turned < 4 * grain / min(sides) + math.radians(max(sides)) * (1 if chosen else extent)
 
@@ -131,7 +132,7 @@ def area_of_ring(ring):
         if ay == by and abs(ay) == 90.0:
             total.append(-math.copysign(width, ay * width))
             continue
-        # Between the edge and the equator.
+        # The area between the edge and the equator.
         low, high = math.tan(math.radians(ay) / 2), math.tan(math.radians(by) / 2)
         total.append(-2.0 * math.atan2(math.tan(width / 2) * (low + high), 1.0 + low * high))
     return math.fsum(total)
@@ -158,7 +159,7 @@ def check_layer(layer, nodes, triangles, geographic, what):
         corners = [tuple(nodes[n]) for n in t]
         if len(rings) == 1 and len(rings[0]) == 3:
             ring = [tuple(p) for p in rings[0]]
-            # In a shapefile the direction says outer or inner, and is GDAL's; it rounds.
+            # In a shapefile the orientation marks outer and inner rings; GDAL sets it, with rounding.
             ways = [ring, ring[::-1]] if what.endswith(".shp") else [ring]
             same = any(all(same_place(p, q, geographic) for p, q in zip(way[i:] + way[:i], corners))
                        for way in ways for i in range(3))

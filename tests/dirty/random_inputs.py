@@ -69,7 +69,7 @@ def any_features(rng):
     for _ in range(rng.choice([1, 1, 1, 2, 3, 5])):
         rings = [any_ring(rng)]
         for _ in range(rng.choice([0, 0, 1, 2, 4])):
-            if earlier and rng.random() < 0.3:  # nearly the same as another
+            if earlier and rng.random() < 0.3:  # almost equal to an earlier ring
                 nudge = rng.choice([0, 1e-12, 1e-9, 1e-6, 1e-3])
                 rings.append([(x + nudge, y - nudge) for x, y in rng.choice(earlier)])
             else:
@@ -108,13 +108,13 @@ class World:
                 self.centre = (rng.choice([180.0, -180.0, 179.999]), lat)
             elif where < 0.4:
                 self.polar = rng.choice([-1, 1])
-        self.past = rng.random() < 0.3  # longitudes go on beyond 180 degrees
+        self.past = rng.random() < 0.3  # longitudes continue beyond 180 degrees
         self.geographic = self.kind == "degrees"
 
     def place(self, p):
         x, y = p
         if self.polar:
-            # Some of the squares hold the pole, some lie beside it.
+            # Some of the squares contain the pole, some are beside it.
             east, north = x * self.half + (self.centre[0] % 3 - 1) * self.half, y * self.half
             lat = 90 - min(170.0, math.hypot(east, north))
             return (math.degrees(math.atan2(north, east)) * self.polar, lat * self.polar)
@@ -174,7 +174,7 @@ class Case:
         lines += [f"{len(segments)} 0"] + [f"{i} {a} {b}" for i, (a, b) in enumerate(segments)]
         hole = self.world.place((0.0, 0.0))
         lines += [f"1\n0 {hole[0]!r} {hole[1]!r}"] if hollow else ["0"]
-        self.keeps_area = sound  # another ring's inside is meshed too
+        self.keeps_area = sound  # the inside of the extra ring is meshed too
         return "\n".join(lines) + "\n"
 
     def length(self, rng, low, high):

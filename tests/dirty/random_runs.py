@@ -28,7 +28,7 @@ from random_inputs import Case
 
 GRIDS = ["m.nc", "m.2dm", "m.14", "m.gr3", "m.msh", "m_22.msh", "m.node", "m.slf", "m.vtu", "m_grd.dat"]
 LAYERS = ["m.gpkg", "m.geojson", "m.shp"]
-# What one format cannot say, and refuses.
+# Part of the refusal by TELEMAC's format, which cannot hold every mesh.
 PINCHED = "which TELEMAC's files cannot hold"
 SECONDS, BYTES = 120, 6 << 30
 LARGEST_COORDINATE, LEAST_DISTANCE = 1e70, 1e-70
@@ -76,7 +76,7 @@ def judge_area(case, nodes, triangles, report):
     if not case.keeps_area or case.world.kind not in ("plane", "poly") or report["input"]["refused"]:
         return
     expected, got = even_odd_union(case.features), area_in_plane(nodes, triangles)
-    # Crossings and points on edges move by the grain of the coordinates.
+    # Crossings and points on edges are rounded to the resolution of coordinates.
     points = [p for rings in case.features for ring in rings for p in ring]
     largest = max(abs(v) for p in points for v in p)
     length = sum(math.dist(a, b) for rings in case.features for ring in rings for a, b in zip(ring, ring[1:] + ring[:1]))
@@ -88,7 +88,8 @@ def judge_outputs(case, folder, outputs):
     report = json.loads((folder / "report.json").read_text())
     nodes, triangles = read_grid(folder / outputs[0])
     geographic = case.world.geographic and outputs[0] == "m.nc"
-    # Reported by the program, with exit code 1: the input has gaps as narrow as its coordinates are fine.
+    # The program reports turned triangles, with exit code 1: the input has gaps as narrow as its coordinates'
+    # resolution.
     check_mesh(nodes, triangles, geographic, report["mesh"]["turned"], "--crs" in case.options,
                case.world.kind == "utm")
     require(len(triangles) == report["mesh"]["triangles"], "the report counts other triangles")
@@ -122,7 +123,7 @@ def check_case(program, case, folder):
         require(seen in (None, found), f"other bytes with {threads} threads than with 1: " +
                 ", ".join(n for n in found[1] if seen and seen[1].get(n) != found[1][n]))
         if seen is None:
-            # 1 with an error: sizes ask for far more than --max-vertices.
+            # Exit code 1 with an error: sizes require far more than --max-vertices.
             if ran.returncode in (2, 3) or "coastmesh: error: " in ran.stderr:
                 judge_refusal(ran, out)
             else:
@@ -157,7 +158,7 @@ def main():
                 print(f"case {number} ({case.world.kind}; {' '.join(case.options)}): {failure}", flush=True)
     print(f"{len(numbers)} runs from {numbers[0]} on: {codes[0]} done, {codes[1]} missing a requirement, "
           f"{codes[2] + codes[3]} refused, {failed} failed")
-    # A harness whose inputs are all refused finds nothing.
+    # If all inputs are refused, the test finds nothing.
     sys.exit(failed > 0 or (len(numbers) >= 40 and codes[0] + codes[1] < len(numbers) / 2))
 
 

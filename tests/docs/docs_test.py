@@ -36,8 +36,8 @@ def blocks(path):
         yield language, words, found.group("text")
 
 
-# Schedulers that are seldom installed, as far as the pages go: sbatch runs the tasks of the array that the script asks for,
-# parallel, where GNU's is not installed, a command for each word behind ":::".
+# Substitutes for schedulers that are seldom installed, as far as the pages need them: sbatch runs the tasks of the
+# array that the script requests; parallel, unless GNU's is installed, runs a command for each word after ":::".
 SBATCH = """#!/bin/bash
 set -u
 script=${!#}
@@ -95,7 +95,7 @@ class Folder:
                                 os.path.join(self.path, f"{name}.{ending}"))
             with open(os.path.join(self.path, "job.toml"), "w", encoding="utf-8") as job:
                 job.write('input = ["lake.geojson"]\noutput = ["job.nc"]\nmin-angle = 30\n')
-            # Depths over all of the lake.
+            # Depths for the whole lake.
             self.run("gdal_create -q -of GTiff -ot Float32 -outsize 20 20 -a_srs EPSG:4326 -a_ullr -93 50 -83 45 -burn -50 dem.tif")
             self.run("coastmesh clean lake.geojson -o lakes.gpkg && coastmesh mesh lake.geojson -o grid.2dm "
                      "&& coastmesh mesh lake.geojson --target adcirc -o fort.14 "
@@ -196,7 +196,7 @@ class GuideTest(unittest.TestCase):
     def test_stable(self):
         folder, ran = self.run_page("stable.md")
         self.assertEqual(ran, 1)
-        # The codes of its table are those of the program.
+        # The table's codes are those of the program.
         page = dict(re.findall(r"^\| (\d+) \| ([^|,]*)", read(os.path.join(SOURCES, "docs/stable.md")), re.M))
         header = re.findall(r"^  kExit\w+ = (\d+),", read(os.path.join(SOURCES, "apps/cli/exit_codes.hpp")), re.M)
         self.assertEqual(sorted(page), sorted(header))
@@ -218,11 +218,11 @@ class GuideTest(unittest.TestCase):
         self.assertGreaterEqual(ran, 3)
         report = json.loads(read(os.path.join(folder.path, "lakes.json")))
         self.assertGreater(report["mesh"]["triangles"], 0)
-        # What was gathered is what one run makes.
+        # The gathered result equals that of a single run.
         folder.run("coastmesh mesh data/samples/finnish_lakes.geojson data/samples/english_lakes.geojson -o whole.nc "
                    "&& cmp whole.nc gathered.nc && cmp lakes.gpkg gathered.gpkg "
                    "&& coastmesh mesh data/samples/finnish_lakes.geojson -o whole.nc --overwrite && cmp whole.nc finnish.nc")
-        # A file for each lake, as it would be alone.
+        # The file of each lake is the same as for the lake alone.
         each = json.loads(read(os.path.join(folder.path, "each.json")))
         self.assertEqual(each["per_feature"], {"made": 6, "short": 0, "skipped": 0, "refused": 0})
         for lake in each["features"]:
@@ -231,7 +231,7 @@ class GuideTest(unittest.TestCase):
         if hasattr(folder, "dask_said"):
             counts = [json.loads(folder.run(f"coastmesh info --json '{lake['name']}.nc'"))["triangles"] for lake in each["features"]]
             self.assertEqual(folder.dask_said.strip(), str(tuple(counts)))
-        # A shard that was lost is made again, the others are not.
+        # A lost shard is made again, the others are not.
         folder.run("rm lakes-3.shard gathered.nc && touch -d 2000-01-01 lakes-*.shard && sbatch lakes.sbatch "
                    "&& test lakes-3.shard -nt lakes-1.shard && test ! lakes-2.shard -nt lakes-1.shard "
                    "&& coastmesh gather lakes-*.shard -o gathered.nc")
@@ -239,7 +239,7 @@ class GuideTest(unittest.TestCase):
     def test_mpi(self):
         folder, ran = self.run_page("mpi.md")
         self.assertGreaterEqual(ran, 1)
-        # What was kept is gone, and the mesh is the one that it always is.
+        # The checkpoint is removed, and the mesh is the same as without one.
         self.assertFalse(os.path.exists(os.path.join(folder.path, "kept")))
         self.assertIn("rounds_kept", json.loads(read(os.path.join(folder.path, "lake.json")))["checkpoint"])
         folder.run("coastmesh mesh data/lake_superior.geojson --size-max 400 -o whole.nc && cmp whole.nc lake.nc")

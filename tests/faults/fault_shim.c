@@ -1,21 +1,21 @@
-// A library to be loaded before all others (LD_PRELOAD) that lets one call fail, or ends the program at one.
+// A library to preload (LD_PRELOAD) that makes one call fail, or ends the program at one.
 //
-// COASTMESH_FAULT=KIND:N:WHAT  the N-th call, from 1, of a KIND: `new` (C++'s operator new), `malloc` (malloc, calloc,
-//   realloc and aligned ones, which `new` asks too: all allocations), or `disk` (whatever changes a disk: write, pwrite,
-//   writev, fwrite, fflush, fclose, fsync, fdatasync, ftruncate, rename, link, unlink, rmdir, mkdir, and opening for
-//   writing; standard output and errors left out). WHAT is for memory `fail`, or `gone` (this call, and from then on
-//   every one of 1 KiB or more), for either `kill` (SIGKILL, before the call) or `int` (SIGINT, before the call), and
-//   for a disk `short` (half of it is written, and then the disk is full), `EIO` or `ENOSPC` (from then on nothing can be
-//   written; names can be changed and files removed again, as they can on a full disk).
-// COASTMESH_FAULT_EVERY=KIND:WHAT:FIRST:STEP:MOST:OUT:IN  every STEP-th call of memory from FIRST on: the process splits
-//   in two there, one that fails and one that goes on to the next, so that what leads to a call is run once, and not once
-//   for each. Of calls from the same place, by all the functions on the stack, MOST at most. The one that fails goes on
-//   in a copy of the folder it is in, which sweep.py makes: before each it is told so, through the descriptor OUT, and
-//   says `g` through IN; then it is told how that one ended, and says `g`, or `t` to be told the stack.
-// COASTMESH_FAULT_TRACE=1  where memory fails, says from where it was asked for.
-// COASTMESH_FAULT_COUNT=FILE  at its end the program writes there how many calls of each kind there were.
-// COASTMESH_FAULT_LOG=FILE  the program writes there the changes of the disk, one a line: what, which file, and how many
-//   allocations there were before.
+// COASTMESH_FAULT=KIND:N:WHAT  selects the N-th call, from 1, of a KIND: `new` (C++'s operator new), `malloc` (malloc,
+//   calloc, realloc and aligned ones, also those from `new`: all allocations), or `disk` (all changes of the disk:
+//   write, pwrite, writev, fwrite, fflush, fclose, fsync, fdatasync, ftruncate, rename, link, unlink, rmdir, mkdir, and
+//   opening for writing; not on standard output and error). WHAT is for memory `fail`, or `gone` (this call and all
+//   later ones of 1 KiB or more); for both `kill` (SIGKILL before the call) or `int` (SIGINT before the call); for the
+//   disk `short` (half is written, then the disk is full), `EIO` or `ENOSPC` (from then on nothing can be written; files
+//   can still be renamed and removed, as on a full disk).
+// COASTMESH_FAULT_EVERY=KIND:WHAT:FIRST:STEP:MOST:OUT:IN  every STEP-th allocation from FIRST on. The process forks
+//   there: one process fails, the other continues to the next, so that the way to a call runs once instead of once for
+//   each call. At most MOST calls are tried for each call stack. The failing process continues in a copy of its folder,
+//   made by sweep.py: a message is sent through the descriptor OUT before the fork, and `g` is awaited through IN; a
+//   second message says how that process ended, and is answered with `g`, or with `t` to request the call stack.
+// COASTMESH_FAULT_TRACE=1  prints the call stack of the allocation that fails.
+// COASTMESH_FAULT_COUNT=FILE  at its end the program writes the number of calls of each kind to FILE.
+// COASTMESH_FAULT_LOG=FILE  the program writes its changes of the disk to FILE, one a line: operation, file, and the
+//   number of allocations before it.
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -48,9 +48,9 @@ static atomic_int g_memory_gone = 0;
 static char g_count_file[1024] = "";
 static int g_log = -1;
 
-// Every one.
+// Settings of COASTMESH_FAULT_EVERY.
 static struct {
-  int kind;  // -1: it is not asked for
+  int kind;  // -1 if it is not set
   long first, step, most;
   int out, in;
   char folder[2048];
@@ -77,7 +77,7 @@ __attribute__((constructor)) static void readEnvironment(void) {
   if (every != NULL) {
     void* frames[4];
     t_inside = 1;
-    backtrace(frames, 4);  // the first one loads a library
+    backtrace(frames, 4);  // the first call loads a library
     t_inside = 0;
     if (sscanf(every, "%15[^:]:%15[^:]:%ld:%ld:%ld:%d:%d", name, g_what, &g_every.first, &g_every.step, &g_every.most,
                &g_every.out, &g_every.in) != 7 || getcwd(g_every.folder, sizeof g_every.folder) == NULL)
@@ -88,7 +88,7 @@ __attribute__((constructor)) static void readEnvironment(void) {
   }
 }
 
-// Constructors of other libraries run before this one's, and ask for memory.
+// Called first by constructors of other libraries, which run, and allocate, before this one's.
 static void readFault(void) {
   static int read = 0;
   if (read) return;
@@ -103,7 +103,7 @@ static void readFault(void) {
 __attribute__((destructor)) static void writeCounts(void) {
   if (g_count_file[0] == '\0') return;
   char text[128];
-  // A rank is several processes, and the others of them do little.
+  // A rank is several processes; the largest number of allocations counts.
   const int before = (int)syscall(SYS_openat, AT_FDCWD, g_count_file, O_RDONLY);
   if (before >= 0) {
     const long got = syscall(SYS_read, before, text, sizeof text - 1);
@@ -119,7 +119,7 @@ __attribute__((destructor)) static void writeCounts(void) {
   syscall(SYS_close, file);
 }
 
-// Every one ----------------------------------------------------------------------------------------------------------
+// COASTMESH_FAULT_EVERY ----------------------------------------------------------------------------------------------
 
 enum { kFrames = 64, kStacks = 1 << 18 };
 static struct {
@@ -127,7 +127,7 @@ static struct {
   long times;
 } g_stacks[kStacks];
 
-// How often this stack has been seen before.
+// How often this call stack was seen before.
 static long timesSeen(void* const* frames, int count) {
   unsigned long hash = 1469598103934665603UL;
   for (int i = 0; i < count; ++i) hash = (hash ^ (unsigned long)frames[i]) * 1099511628211UL;
@@ -147,9 +147,9 @@ static char tell(const char* text, int size) {
   return answer;
 }
 
-// The folder that this process was in is `folder`.kept now, and a copy of it stands in its place: what is open in the one
-// is opened in the other, at the same byte. What is read elsewhere is opened anew too: two processes that share a place in
-// a file move it for one another.
+// Called when this process's folder has been renamed to `folder`.kept, with a copy in its place: files open in the
+// former are reopened in the copy, at the same offset. Files read elsewhere are reopened too, because the two processes
+// would share their offsets.
 static void moveToCopy(void) {
   static char from[4096], path[4096];
   const size_t length = strlen(g_every.folder);
@@ -171,7 +171,7 @@ static void moveToCopy(void) {
       continue;
     }
     const int copy = (int)syscall(SYS_openat, AT_FDCWD, path, flags & ~(O_CREAT | O_EXCL | O_TRUNC), 0);
-    if (copy < 0) continue;  // it is removed already
+    if (copy < 0) continue;  // already removed
     lseek(copy, lseek(file, 0, SEEK_CUR), SEEK_SET);
     if (dup3(copy, file, (fcntl(file, F_GETFD) & FD_CLOEXEC) != 0 ? O_CLOEXEC : 0) < 0) _exit(98);
     syscall(SYS_close, copy);
@@ -182,8 +182,8 @@ static void moveToCopy(void) {
   alarm(10);
 }
 
-// A mutex that this thread holds knows it by a number, which is another one in the process that is split off: there it
-// would wait for itself. The C library keeps that number in what it knows of the thread.
+// A mutex stores the thread number of its owner. The forked process has another number, and would wait for a mutex that
+// it holds itself. Returns the place in the C library's thread data that holds the number.
 static int* threadNumber(void) {
   int* const known = (int*)pthread_self();
   const int number = (int)syscall(SYS_gettid);
@@ -193,13 +193,13 @@ static int* threadNumber(void) {
   _exit(96);
 }
 
-// What pthread_atfork leads to. Nothing is done at a fork: PROJ would lock what this thread may hold.
+// pthread_atfork calls this function. No handlers are registered, because PROJ's would lock what this thread may hold.
 int __register_atfork(void (*before)(void), void (*parent)(void), void (*child)(void), void* library) {
   (void)before, (void)parent, (void)child, (void)library;
   return 0;
 }
 
-// Splits the process. True in the one that is to fail.
+// Forks. Returns 1 in the process that is to fail, otherwise 0.
 static int split(long at) {
   void* frames[kFrames];
   t_inside = 1;
@@ -237,7 +237,7 @@ static int isDue(enum Kind kind) {
   readFault();
   const long at = atomic_fetch_add(&g_counts[kind], 1) + 1;
   if (g_every.kind == (int)kind && at >= g_every.first && (at - g_every.first) % g_every.step == 0) {
-    // What another thread asks for cannot be tried so: the main one would not be there.
+    // An allocation of another thread cannot be tried: the forked process would lack the main thread.
     return syscall(SYS_gettid) == getpid() && split(at);
   }
   if (at != g_at || g_kind != (int)kind) return 0;
@@ -250,7 +250,7 @@ static int isDue(enum Kind kind) {
   return 1;
 }
 
-// A signal where one is asked for. True where there was one: the call itself is not to fail.
+// Sends the signal if one is requested. Returns 1 if the process continues; the call itself must not fail then.
 static int signals(void) {
   if (strcmp(g_what, "kill") == 0) kill(getpid(), SIGKILL);
   if (strcmp(g_what, "int") != 0) return 0;
@@ -300,7 +300,7 @@ int posix_memalign(void** memory, size_t alignment, size_t size) {
   return *memory == NULL ? ENOMEM : 0;
 }
 
-// operator new(std::size_t), whose name C can say: where it is to fail, one that is too large is asked for.
+// operator new(std::size_t) by its mangled name. To make it fail, requests too much memory.
 void* _Znwm(size_t size) {
   static void* (*next)(size_t) = NULL;
   if (next == NULL) next = (void* (*)(size_t))dlsym(RTLD_NEXT, "_Znwm");
@@ -326,7 +326,8 @@ static void logOpen(const char* what, int file) {
   logChange(what, path);
 }
 
-// Whether a call is to fail; sets errno. `half`: may be asked for, where half can be done. `names`: it changes names alone.
+// Returns whether a call fails; sets errno. `half`, if not NULL: set if half of the work should be done instead.
+// `names`: the call only changes names.
 static int failsAt(int* half, int names) {
   const int due = isDue(kDisk);
   if (atomic_load(&g_disk_gone) && !names) return errno = strcmp(g_what, "EIO") == 0 ? EIO : ENOSPC, 1;
@@ -393,7 +394,7 @@ int fflush(FILE* file) {
   return NEXT(fflush)(file);
 }
 
-// Where it fails the file is closed all the same.
+// The file is closed even if the call fails.
 int fclose(FILE* file) {
   int failure = 0;
   if (isWritten(file)) {
@@ -429,7 +430,7 @@ int rename(const char* from, const char* to) {
   return failsAt(NULL, 1) ? -1 : NEXT(rename)(from, to);
 }
 
-// A disk that is full lets files go: these are counted, for what comes before them, and never fail.
+// A full disk still allows files to be removed: these calls never fail, and are counted for signals before them.
 static void comesBefore(void) {
   if (strcmp(g_what, "kill") == 0 || strcmp(g_what, "int") == 0) failsAt(NULL, 1);
   else atomic_fetch_add(&g_counts[kDisk], 1);

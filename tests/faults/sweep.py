@@ -23,16 +23,16 @@ import threading
 VARYING = 200  # allocations that may differ from run to run
 OLD = b"what stood there\n"
 REPORT = "report.json"
-# Exit codes that each fault may lead to, that of a run without one apart.
+# Exit codes that each fault may lead to, besides that of a run without a fault.
 CODES = {"fail": {3, 4}, "gone": {3, 4}, "short": {4}, "EIO": {4}, "ENOSPC": {4}, "int": {5},
          "kill": {-signal.SIGKILL}}
 MESH = ["mesh", "INPUT", "--overwrite", "--threads", "THREADS", "--quiet"]
 WRITE = ["--overwrite", "--quiet"]
 SOURCE = [["mesh", "INPUT", "-o", "source.nc", "--quiet"]]
 KEPT = "kept"  # the folder of --checkpoint
-# What is tried: outputs, the command but for these, and what has to be made before it. INPUT is the file that is meshed.
-# KEPT stays where a run ends early, and what goes on with it has to make the same files. A run that is called `resumed`
-# begins with the folder of one that was killed half-way.
+# For each case: the outputs, the command without them, and commands to run before it. INPUT is the file to mesh. KEPT
+# remains if a run ends early; a run that resumes from it must make the same files. The case `resumed` starts with the
+# folder of a run that was killed half-way.
 CASES = {
     "mesh": (["m.nc", "m.14", "m.msh", "m.2dm", "m.gpkg"], MESH + ["--report", REPORT], []),
     "formats": (["a.geojson", "b.shp", "c.fgb", "d.gr3", "e.slf", "f_grd.dat", "nod2d.out", "g_jigsaw.msh",
@@ -61,7 +61,7 @@ WATCHED = re.compile(r"\((?:malloc|calloc|realloc|memalign|aligned_alloc|posix_m
 BUG = "exit code 70, not 3 or 4"
 
 
-# Of several ranks, the one that faults are for alone is given the shim. What mpirun does is no matter of ours.
+# Only the rank under test loads the shim; mpirun is not under test.
 ON_RANK = """if [ "${OMPI_COMM_WORLD_RANK:-$PMI_RANK}" = "$FAULTY_RANK" ]; then
   LD_PRELOAD=$FAULTY_SHIM; export LD_PRELOAD
 fi
@@ -73,7 +73,7 @@ class Sweep:
     def __init__(self, program, shim, input_file, scratch, threads, case, launcher=(), rank=0):
         self.scratch = scratch
         self.shim = shim
-        self.writes = rank == 0 or not launcher  # the other ranks send what they made
+        self.writes = rank == 0 or not launcher  # other ranks send their results
         self.preload = {"LD_PRELOAD": str(shim)}
         if launcher:
             self.preload = {"FAULTY_SHIM": str(shim), "FAULTY_RANK": str(rank), "OMPI_ALLOW_RUN_AS_ROOT": "1",
@@ -97,7 +97,7 @@ class Sweep:
             self.begun = self.killed_half_way()
         self.learn()
 
-    # What a run leaves to go on with that is killed at the middle one of its changes of the disk, or after it.
+    # Returns the checkpoint of a run that was killed at the middle one of its changes of the disk, or later.
     def killed_half_way(self):
         self.outputs = []
         count_file = self.scratch / "counts"
@@ -112,7 +112,7 @@ class Sweep:
                 return self.scratch / KEPT
         sys.exit("nothing is kept of a run that is killed")
 
-    # What a run without a fault makes and says, and how many calls there are.
+    # Runs without a fault: learns the outputs, the exit code and the number of calls.
     def learn(self):
         self.outputs, self.done = [], None
         folder, code, errors = self.run(None)
@@ -131,8 +131,8 @@ class Sweep:
         if self.writes:
             self.look_at_order(log_file.read_text().splitlines())
 
-    # A file is moved into place after it has been waited for, and is not written to any more in between. Allocations before
-    # the first of them is waited for are those that an output may lack.
+    # A file is synced before it is moved into place, and not written to in between. If an allocation before the first
+    # sync fails, outputs may be incomplete.
     def look_at_order(self, lines):
         waited, moved = set(), set()
         for line in lines:
@@ -177,11 +177,11 @@ class Sweep:
     def contents(self, folder):
         return {p.name: self.content(p) for p in folder.iterdir() if p.is_file()}
 
-    # Folders that are left, less the one that is to stay where a run ends early.
+    # Remaining folders, without the one that may remain if a run ends early.
     def hidden(self, folder, early):
         return [path.name for path in folder.iterdir() if path.is_dir() and not (early and self.keeps and path.name == KEPT)]
 
-    # Whether what was kept is of use, or no harm.
+    # Checks that a checkpoint is usable, or at least does no harm.
     def judge_going_on(self, folder):
         _, code, errors = self.run_in(folder, None)
         if code != self.done:
@@ -191,7 +191,7 @@ class Sweep:
         elif (folder / KEPT).exists():
             yield "what was kept stays where all is done"
 
-    # Reports and shards tell times.
+    # Reports and shards contain times.
     def content(self, path):
         content = path.read_bytes()
         if content == OLD or path.name not in (REPORT, "m.shard"):
@@ -224,12 +224,12 @@ class Sweep:
         if set(left) != set(self.outputs):
             yield f"left {sorted(set(left) ^ set(self.outputs))}"
         new = {name for name in self.outputs if name in left and left[name] != OLD}
-        if self.apart:  # each feature's come into place together, whatever becomes of the others
+        if self.apart:  # files of one feature are moved into place together, independently of other features
             new -= self.whole_features(left)
         for name in sorted(new):
             yield f"{name} is not what stood there"
 
-    # Files of features that have all of theirs.
+    # The files of features all of whose files are in place.
     def whole_features(self, left):
         features = collections.defaultdict(set)
         for name in self.outputs:
@@ -261,7 +261,7 @@ class Sweep:
         if tried % 1000 == 0:
             print(f"{tried} faults, the last {fault}", flush=True)
 
-    # Every STEP-th allocation from FIRST on, in one run: fault_shim.c says how.
+    # Every STEP-th allocation from FIRST on, in a single run; see fault_shim.c.
     def check_every(self, kind, what, first, step, most):
         around = pathlib.Path(tempfile.mkdtemp(dir=self.scratch))
         for name in self.scratch.iterdir():
@@ -292,7 +292,7 @@ class Sweep:
                     code = "does not end"
                 errors = (around / "errors").read_text(errors="replace")
                 found = list(self.judge(fault, folder, code, errors))
-                if found:  # a library may tell a process that was split off from one that began anew: the latter counts
+                if found:  # a library may behave differently in a forked process, so a new run decides
                     anew, code, errors = self.run(fault)
                     found = list(self.judge(fault, anew, code, errors))
                     shutil.rmtree(anew)
@@ -316,8 +316,8 @@ class Sweep:
             self.note(f"{kind}:{first}:{what}", f"the run that was split came to exit code {process.returncode}", errors)
         shutil.rmtree(around)
 
-    # Where it is a library in C, or GDAL, that was given no memory and crashed for it: all is removed and told, as a bug,
-    # and no one here can do more. True for such a one.
+    # True if a C library, or GDAL, crashed for lack of memory: everything is removed and reported as a bug, which is
+    # all that the program can do.
     def note_library(self, lines, stack):
         for line in lines:
             place = os.path.basename(line.split("(")[0])
@@ -331,7 +331,7 @@ class Sweep:
             return True
         return False
 
-    # The functions on a stack, innermost first, of which nothing is said that differs from run to run.
+    # The functions on a call stack, innermost first, without details that vary between runs.
     def named(self, lines):
         places = [re.match(r"(.*?)\(([^+)]*)(?:\+(0x[0-9a-f]+))?\)", line) for line in lines]
         ours = [place[3] for place in places if place and place[1] == str(self.program) and place[3]]

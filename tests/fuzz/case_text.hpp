@@ -6,7 +6,7 @@
 
 namespace coastmesh {
 
-// A case in the corpus format, see case_file.hpp. `note` goes into comments of its own.
+// A case in the corpus format, see case_file.hpp. `note` is written as comment lines.
 std::string caseText(const RefineCase& refine_case, const std::string& note);
 
 }  // namespace coastmesh

@@ -13,7 +13,7 @@ std::uint64_t Choices::word(unsigned bytes) {
 }
 
 std::uint32_t Choices::below(std::uint32_t n) {
-  // As few bytes as will do: a fuzzer finds its way better where every byte counts.
+  // Takes as few bytes as possible: a fuzzer searches better if every byte has an effect.
   return static_cast<std::uint32_t>(word(n <= 256 ? (from_bytes_ ? 1 : 2) : 4) % n);
 }
 

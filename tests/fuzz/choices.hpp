@@ -6,16 +6,16 @@
 
 namespace coastmesh {
 
-// The decisions that make a random input: drawn from a seed, or read from a fuzzer's bytes, so that both kinds of test
-// share their generators. Once the bytes run out every decision is 0.
+// The decisions that define a random input: drawn from a seed, or read from a fuzzer's bytes, so that both kinds of
+// test share their generators. When the bytes are used up, every decision is 0.
 class Choices {
  public:
   explicit Choices(std::uint64_t seed) : random_(seed) {}
   explicit Choices(std::span<const std::uint8_t> bytes) : from_bytes_(true), bytes_(bytes) {}
 
-  // 0 <= answer < n. REQUIRES: n > 0.
+  // 0 <= result < n. REQUIRES: n > 0.
   std::uint32_t below(std::uint32_t n);
-  // 0 <= answer < 1, in steps of 2^-32.
+  // 0 <= result < 1, in steps of 2^-32.
   double share();
   double between(double low, double high) { return low + (high - low) * share(); }
   bool oneIn(std::uint32_t n) { return below(n) == n - 1; }

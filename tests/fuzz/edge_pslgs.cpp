@@ -36,7 +36,7 @@ Point onLines(Choices& choices) {
   return {along, across};
 }
 
-// Near one of the points there are, at any distance down to a millionth.
+// Near an existing point, at distances down to a millionth, or anywhere.
 Point inClusters(Choices& choices, const std::vector<Point>& points) {
   const Point p = inSquare(choices);
   if (points.empty() || choices.oneIn(3)) return p;
@@ -144,7 +144,7 @@ void addUnlabelled(Choices& choices, Pslg& pslg, const TriMesh& mesh) {
     pslg.holes.push_back(centroid(mesh, choices.below(static_cast<std::uint32_t>(mesh.triangles.size()))));
 }
 
-// A region a triangle: by chance alone, or blobs that grow from a few.
+// A region for each triangle: random ones, or blobs that grow from a few triangles.
 std::vector<RegionId> randomRegions(Choices& choices, const TriMesh& mesh) {
   const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
   std::vector<RegionId> regions(count, kOutside);
@@ -184,7 +184,7 @@ void addLabelled(Choices& choices, Pslg& pslg, const TriMesh& mesh) {
   }
   for (const auto& [e, region] : inner) {
     if (one_in == 1 || !choices.oneIn(one_in)) continue;
-    // Only open lines may go without labels: they must not close a ring.
+    // Only open lines may be unlabelled: unlabelled segments must not close a ring.
     const bool open = components.join(mesh.origin(e), mesh.target(e));
     const RegionId label = open && region >= 0 && choices.oneIn(2) ? kUnlabelled : region;
     addSegment(choices, pslg, mesh, e, label, label);
@@ -199,7 +199,7 @@ Pslg edgePslg(Choices& choices, const Placement& placement) {
   pslg.points = randomPoints(choices);
   addNearDuplicates(choices, pslg.points);
   for (Point& p : pslg.points) p = placement(p);
-  // In the order drawn, less those that are there already.
+  // In the order drawn, without repeated points.
   std::vector<Point> distinct;
   for (const Point& p : pslg.points)
     if (std::ranges::find(distinct, p) == distinct.end()) distinct.push_back(p);

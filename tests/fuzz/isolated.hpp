@@ -6,14 +6,14 @@
 
 namespace coastmesh {
 
-// Runs one case in a process of its own: a crash, a failed assert or a run without an end becomes a failure like any
-// other. `cpu_seconds`: how long it may take.
+// Runs one case in a process of its own, so that a crash, a failed assert or an endless run becomes a failure like any
+// other. `cpu_seconds`: the time limit.
 CaseResult runIsolated(const RefineCase& refine_case, const CaseLimits& limits, unsigned cpu_seconds);
 
-// What became of a child process that should have ended by itself, in words; empty where it did.
+// Describes how a child process ended; empty if it ended with exit code 0.
 std::string howItDied(int wait_status);
 
-// Ends this process by a signal once it has used this much processor time.
+// Ends this process by a signal when it has used this much processor time.
 void limitCpuTime(unsigned cpu_seconds);
 
 }  // namespace coastmesh

@@ -13,7 +13,7 @@ import tempfile
 
 NEXT_FILE = b"\n%%%%\n"
 
-# By reader: the files of an output of that name, the one that is named first.
+# By reader: the files of an output with the first of these names, and its format.
 GRIDS = {
     "adcirc": (["s.14"], "adcirc"),
     "schism": (["s.gr3"], "schism"),
@@ -131,7 +131,7 @@ def main():
                 try:
                     run("convert", f"{mesh}.gpkg", "-o", target / files[0], "--format", fmt)
                 except subprocess.CalledProcessError:
-                    continue  # formats of the Earth refuse a plane
+                    continue  # formats for the whole Earth refuse a plane
                 keep(reader, mesh, *(p.read_bytes() if (p := target / f).exists() else b"" for f in files))
             for fmt, name in GMSH.items():
                 run("convert", f"{mesh}.gpkg", "-o", at / mesh / name, "--format", fmt)
@@ -146,7 +146,7 @@ def main():
             keep("cleaned_gpkg", name, (at / f"{name}_clean.gpkg").read_bytes())
 
         run("mesh", "lake.geojson", "--shard", "1/1", "-o", "lake.shard")
-        keep("shard", "lake", (at / "lake.shard").read_bytes()[:-8])  # less the checksum, which the reader's case puts there
+        keep("shard", "lake", (at / "lake.shard").read_bytes()[:-8])  # without the checksum, which reader_cases adds
 
     for name, features in {"lake": LAKE, "across": ACROSS, "crossed": CROSSED, "coast": COAST, "others": OTHERS,
                            "none": []}.items():

@@ -6,7 +6,7 @@
 
 namespace coastmesh {
 
-// Turns, scales and moves, in this order.
+// Rotates, scales and translates, in this order.
 struct Placement {
   double cosine = 1.0;
   double sine = 0.0;
@@ -18,7 +18,7 @@ struct Placement {
   }
 };
 
-// Scales from 1e-6 to 1e6, and offsets to a million times that.
+// Scales from 1e-6 to 1e6, and offsets up to a million times the scale.
 Placement randomPlacement(Choices& choices);
 
 }  // namespace coastmesh

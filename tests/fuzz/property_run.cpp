@@ -1,5 +1,5 @@
-// Runs random inputs through the core and its checker for as long as asked. Every failure is written in the corpus
-// format, as found and made smaller. Exit code 1 where something failed.
+// Runs random inputs through the core and its checker, up to a number of runs or seconds. Writes each failure in the
+// corpus format, as found and reduced. Exit code 1 if anything failed.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -27,29 +27,29 @@ using namespace coastmesh;
 
 struct Settings {
   std::uint64_t runs = 10000;
-  std::uint64_t first = 0;  // the run to begin with
+  std::uint64_t first = 0;  // number of the first run
   std::uint64_t seed = 1;
   double seconds = 1e9;  // wall clock
   std::uint64_t most_vertices = 60000;
   std::uint64_t usual_vertices = 100;
   unsigned cpu_seconds = 60;  // for one run
   int reduce_trials = 2000;
-  unsigned reduce_each = 3;  // failures of a kind that are made smaller; the rest is counted
+  unsigned reduce_each = 3;  // failures of one kind that are reduced; the rest are counted
   std::string out = "failures";
   std::vector<std::string> files;
   std::vector<std::string> bytes;
 };
 
-// What the worker reports.
+// Shared by the worker with its parent.
 struct Progress {
-  std::uint64_t current;  // the run under way
+  std::uint64_t current;  // the run in progress
   std::array<std::uint64_t, 4> by_verdict;
   std::uint64_t vertices;
   bool failed;  // the worker ended because the current run failed
 };
 
 CaseLimits limitsOf(std::uint64_t run, const Settings& settings) {
-  // Large meshes and asking twice for the same are expensive: now and then.
+  // Large meshes and repetitions are expensive, so only some runs have them.
   const bool large = run % 64 == 5;
   return {.most_vertices = large ? settings.most_vertices : std::min(settings.usual_vertices, settings.most_vertices),
           .repeat = run % 16 == 0};
@@ -74,7 +74,7 @@ class Failures {
   std::size_t count() const { return count_; }
   const std::map<std::string, unsigned>& byKind() const { return by_kind_; }
 
-  // Runs a case that failed once more, by itself, and writes it down.
+  // Runs a failed case once more, on its own, and writes it to a file.
   void add(const RefineCase& c, const CaseLimits& limits, const std::string& name) {
     const CaseResult result = runIsolated(c, limits, settings_.cpu_seconds);
     if (result.verdict != Verdict::Failed) {
@@ -91,7 +91,7 @@ class Failures {
     const auto still_fails = [&](const RefineCase& smaller) {
       return runIsolated(smaller, limits, settings_.cpu_seconds).failure == result.failure;
     };
-    // A run that does not end costs its limit every time.
+    // A run that does not end takes the full time limit in every trial.
     const int trials = result.failure == "does not end" ? settings_.reduce_trials / 10 : settings_.reduce_trials;
     const RefineCase small = reduceCase(c, still_fails, trials);
     const CaseResult last = runIsolated(small, limits, settings_.cpu_seconds);

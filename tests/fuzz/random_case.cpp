@@ -14,7 +14,7 @@ namespace coastmesh {
 
 namespace {
 
-// Those that the tests of the core use too, with other numbers.
+// PSLGs that the tests of the core use too, with random parameters.
 Pslg namedPslg(Choices& choices) {
   const unsigned seed = choices.below(1u << 16);
   switch (choices.below(11)) {
@@ -100,7 +100,7 @@ RefineOptions randomOptions(Choices& choices) {
 
 RefineCase randomCase(Choices& choices) {
   RefineCase c;
-  // The options first: a fuzzer finds them at the same place in every input.
+  // Options are drawn first, so that a fuzzer finds them at the same place in every input.
   c.coarsen = !choices.oneIn(4);
   c.options = randomOptions(choices);
   const double size_share = choices.between(0.05, 1.0);

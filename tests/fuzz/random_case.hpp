@@ -5,8 +5,8 @@
 
 namespace coastmesh {
 
-// A random input of some dozen points, of a shape that is easy to get wrong, with random options. Most are PSLGs;
-// rounding turns a few into something that constrainedDelaunay refuses.
+// A random input of some dozen points, of a shape that is easy to get wrong, with random options. Most are valid PSLGs;
+// rounding makes constrainedDelaunay refuse a few.
 RefineCase randomCase(Choices& choices);
 
 }  // namespace coastmesh

@@ -36,7 +36,7 @@ void write(const std::string& path, std::string_view bytes) {
   if (!file) throw std::runtime_error("cannot write '" + path + "'");
 }
 
-// What lets a run go on for long without a fault of anyone's: longer inputs are read, and nothing more.
+// Longer inputs are only read: processing them would take long without a bug in any reader.
 constexpr std::size_t kMostPoints = 2000;
 
 void readMesh(const std::string& path) {
@@ -47,7 +47,7 @@ void readMesh(const std::string& path) {
   requireConsistent(grid);
   try {
     toJson(describeMesh(grid));
-  } catch (const InputError&) {  // what was read may be no mesh that can be measured; that names no file
+  } catch (const InputError&) {  // a readable mesh may be impossible to measure; that error names no file
   }
 }
 
@@ -74,7 +74,7 @@ void readConfig(const std::string& path) {
   takeConfig(path, table, {"mesh", "clean", "check"}, warnings);
 }
 
-// Where the groups are, and not what they hold: a checksum, which is put behind the bytes here, keeps that.
+// Reads the positions of the groups, not their content, which a checksum protects. It is appended here.
 void readShard(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   write(path, sealedShard({std::istreambuf_iterator<char>(file), {}}));
@@ -159,9 +159,9 @@ ReadOutcome runReader(const ReaderCase& reader, std::span<const std::uint8_t> by
   } catch (const OptionError& error) {
     outcome.refusal = error.what();
   }
-  // Besides ours there may be what libraries put beside a file.
+  // Libraries may have added files of their own.
   for (const auto& entry : std::filesystem::directory_iterator(folder)) std::filesystem::remove_all(entry);
-  // What was cleaned says of each feature from which file it came.
+  // Errors after cleaning name the feature's source file.
   const auto says = [&](std::string_view words) { return outcome.refusal.find(words) != std::string::npos; };
   if (!outcome.read && !says(folder) && !says(", feature ")) {
     throw std::logic_error("a refusal that names no file: " + outcome.refusal);

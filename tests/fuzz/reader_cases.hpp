@@ -8,12 +8,12 @@
 
 namespace coastmesh {
 
-// A reader of the program's, and the files that it is given: one after another in what is drawn, set apart by lines
-// that are `kNextFile`; but for the first, what is empty is not there.
+// A reader of the program, and its files. Fuzzed bytes contain the files one after another, separated by `kNextFile`;
+// an empty file is left out, unless it is the first.
 struct ReaderCase {
   std::string_view name;
-  std::vector<std::string_view> files;    // the first is the one that is named to the reader
-  void (*read)(const std::string& path);  // and all that the program does with it before it looks at options
+  std::vector<std::string_view> files;    // the first one is passed to the reader
+  void (*read)(const std::string& path);  // reads, and processes the result as the program does before options apply
 };
 
 inline constexpr std::string_view kNextFile = "\n%%%%\n";
@@ -21,14 +21,14 @@ inline constexpr std::string_view kNextFile = "\n%%%%\n";
 const std::vector<ReaderCase>& readerCases();
 const ReaderCase& readerCase(std::string_view name);  // throws std::invalid_argument
 
-// Whether `bytes` are read, and else why not. What is no error in an input (InputError, OptionError), and what such an
-// error lacks (the file that it is about), comes as std::logic_error, or as the reader threw it.
+// Either the bytes were read, or `refusal` is the text of the InputError or OptionError.
 struct ReadOutcome {
   bool read = false;
   std::string refusal;
 };
 
-// `folder` is an empty one, and is so afterwards.
+// `folder` must be empty; it is empty afterwards, unless the reader throws an unexpected exception, which passes
+// through. Throws std::logic_error if a refusal names no file.
 ReadOutcome runReader(const ReaderCase& reader, std::span<const std::uint8_t> bytes, const std::string& folder);
 
 }  // namespace coastmesh

@@ -20,7 +20,7 @@ std::vector<std::uint8_t> bytesOf(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// What once broke a reader: a file a case, in a folder a reader.
+// Files that once broke a reader: a case per file, a folder per reader.
 std::vector<std::string> corpusFiles() {
   std::vector<std::string> files;
   for (const ReaderCase& reader : readerCases()) {

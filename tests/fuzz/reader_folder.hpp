@@ -8,7 +8,7 @@
 
 namespace coastmesh {
 
-// A folder of a test's own, empty, removed at its end.
+// An empty folder for one test, removed at its end.
 class ReaderFolder {
  public:
   ReaderFolder() : path_(::testing::TempDir() + "/readers_" + std::to_string(::getpid())) {

@@ -1,4 +1,4 @@
-// libFuzzer target: bytes become the files of a reader, which `--reader=NAME` says; see reader_cases.hpp.
+// libFuzzer target: bytes become the files of the reader named by `--reader=NAME`; see reader_cases.hpp.
 #include <gdal_priv.h>
 #include <unistd.h>
 
@@ -20,8 +20,8 @@ namespace {
 
 const coastmesh::ReaderCase* g_reader = nullptr;
 
-// GDAL asks each of its two hundred drivers what a file is; what others than ours do with files that are none of theirs
-// is not looked for here.
+// GDAL probes a file with each of its two hundred drivers. Drivers of formats that the program does not use are not
+// tested here.
 void keepDrivers() {
   constexpr std::string_view kOurs[] = {"GPKG",           "GeoJSON", "GeoJSONSeq", "ESRIJSON", "TopoJSON",
                                         "ESRI Shapefile", "AAIGrid", "GTiff",      "MEM",      "Memory"};
@@ -36,7 +36,7 @@ void keepDrivers() {
   }
 }
 
-// A folder of this process in memory, removed at its end.
+// A folder in memory for this process, removed at its end.
 class Folder {
  public:
   Folder() : path_("/dev/shm/coastmesh_fuzz_" + std::to_string(getpid())) {

@@ -1,4 +1,5 @@
-// Headers that promise a thousand million nodes in a file of a few kilobytes: refused before memory for them is taken.
+// Files of a few kilobytes with headers that claim a thousand million nodes are refused before memory for these is
+// allocated.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,12 +17,12 @@
 
 namespace {
 
-std::atomic<std::size_t> g_largest = 0;  // bytes of the largest piece of memory that was asked for
+std::atomic<std::size_t> g_largest = 0;  // bytes of the largest allocation requested
 
 }  // namespace
 
 #ifdef COASTMESH_SANITIZED
-// The sanitizer has its own operators, and says what is asked of them. GCC comes without the header for that.
+// The sanitizer has its own operators and reports allocations to hooks. GCC does not come with the header for these.
 extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*allocated)(const volatile void*, std::size_t),
                                                          void (*freed)(const volatile void*));
 namespace {
@@ -34,7 +35,7 @@ void ignore(const volatile void*) {}
 
 }  // namespace
 #else
-// Not inlined: the compiler would see new, and free.
+// Not inlined: the compiler would warn of memory from new that is released by free.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   if (size > g_largest) g_largest = size;
   if (void* const memory = std::malloc(std::max<std::size_t>(size, 1))) return memory;
@@ -73,7 +74,7 @@ std::string integers(std::initializer_list<std::uint32_t> values) {
 
 constexpr std::uint32_t kMany = 1'000'000'000;
 
-// A SELAFIN file up to its counts, and a record of triangles that is `claimed` bytes long by its mark.
+// A SELAFIN file up to its counts, followed by a record of triangles whose marker claims `claimed` bytes.
 std::string selafin(std::uint32_t elements, std::uint32_t nodes, std::uint32_t claimed) {
   std::string title(80, ' ');
   title.replace(72, 8, "SERAFIND");
@@ -86,7 +87,7 @@ std::string netcdfName(const std::string& name) {
   return bigEndian(static_cast<std::uint32_t>(name.size())) + name + std::string((4 - name.size() % 4) % 4, '\0');
 }
 
-// A classic NetCDF file with one dimension and doubles along it, which begin where the header ends.
+// A classic NetCDF file with one dimension, and doubles along it that begin where the header ends.
 std::string netcdf(const std::string& dimension, const std::string& variable) {
   std::string bytes = "CDF\x01" + bigEndian(0);
   bytes += bigEndian(10) + bigEndian(1) + netcdfName(dimension) + bigEndian(kMany);
@@ -96,7 +97,7 @@ std::string netcdf(const std::string& dimension, const std::string& variable) {
   return bytes + bigEndian(static_cast<std::uint32_t>(bytes.size()) + 4);
 }
 
-// A triangle as the program writes it, and in place of the bytes behind `before` a thousand million.
+// A triangle as the program writes it, with `many` in place of the bytes after `before`.
 std::string ownFile(const std::string& ending, const std::string& before, const std::string& many) {
   Grid grid;
   grid.crs = wgs84();
@@ -121,7 +122,7 @@ std::string native(T value) {
   return {reinterpret_cast<const char*>(&value), sizeof value};
 }
 
-// A GeoPackage whose polygon has so many rings, or so many points in its ring.
+// A GeoPackage whose polygon claims a thousand million rings, or as many points in its ring.
 std::string ownGeoPackage(bool rings) {
   const std::string polygon = '\x01' + native<std::uint32_t>(3);
   return ownFile(".gpkg", rings ? polygon : polygon + native<std::uint32_t>(1), native(kMany));
@@ -130,7 +131,7 @@ std::string ownGeoPackage(bool rings) {
 // A shard up to its first group.
 std::string shard(std::uint32_t shards, std::uint64_t groups, std::uint64_t here, std::uint64_t options) {
   const std::string version = COASTMESH_VERSION;
-  return "coastmesh shard\n" + native<std::uint64_t>(version.size()) + version +  // and again, in the header
+  return "coastmesh shard\n" + native<std::uint64_t>(version.size()) + version +  // and again in the header
          native<std::uint64_t>(version.size()) + version + native(options) + native<std::uint32_t>(0) + native(shards) +
          native<std::int32_t>(0) + native<std::uint64_t>(0) + native(groups) + native(here);
 }
@@ -191,7 +192,7 @@ class ReaderPromises : public ::testing::TestWithParam<Promise> {};
 
 TEST_P(ReaderPromises, AreNotBelieved) {
   constexpr std::size_t kEnough = 8 << 20;
-  // A GeoPackage has a page a table at the least. Formats that are JSON or TOML promise nothing.
+  // A GeoPackage has at least one page for each table. JSON and TOML formats contain no counts.
   ASSERT_LT(GetParam().bytes.size(), GetParam().reader.find("gpkg") != GetParam().reader.npos ? 200'000u : 8000u);
   const ReaderFolder folder;
   const std::vector<std::uint8_t> bytes(GetParam().bytes.begin(), GetParam().bytes.end());
@@ -199,7 +200,7 @@ TEST_P(ReaderPromises, AreNotBelieved) {
   const ReadOutcome outcome = runReader(readerCase(GetParam().reader), bytes, folder.path());
   EXPECT_FALSE(outcome.read);
   EXPECT_NE(outcome.refusal, "");
-  EXPECT_GT(g_largest.load(), 0u);  // or nobody listens
+  EXPECT_GT(g_largest.load(), 0u);  // otherwise allocations are not observed
   EXPECT_LT(g_largest.load(), kEnough) << outcome.refusal;
   std::printf("%s\n", outcome.refusal.c_str());
 }

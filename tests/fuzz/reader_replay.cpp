@@ -1,5 +1,5 @@
-// coastmesh_reader_replay READER FILE...: says of each file whether it is read, and else why not. Exit code 1 where one
-// is neither read nor refused as it should be.
+// coastmesh_reader_replay READER FILE...: prints for each file whether it is read, or why it is refused. Exit code 1 if
+// a file is neither read nor refused correctly.
 #include <unistd.h>
 
 #include <cstdio>

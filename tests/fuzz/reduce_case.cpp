@@ -20,7 +20,7 @@ class Reducer {
 
   RefineCase run() {
     simplifyOptions();
-    // Each round that changes something leaves a smaller case; rounds are few.
+    // Each round that changes something makes the case smaller; few rounds are needed.
     constexpr int kRounds = 8;
     for (int round = 0; round < kRounds && trials_left_ > 0; ++round) {
       changed_ = false;
@@ -81,7 +81,7 @@ class Reducer {
     });
   }
 
-  // Pieces from half of the list down to single entries, from the end.
+  // Drops pieces of the list, from its end, from half of it down to single entries.
   template <typename Drop>
   void dropPieces(std::size_t count, const Drop& drop) {
     for (std::size_t piece = std::max<std::size_t>(1, count / 2); count > 0; piece /= 2) {
@@ -106,7 +106,7 @@ class Reducer {
     for (Segment& s : pslg.segments) s.a = renumbered[s.a], s.b = renumbered[s.b];
   }
 
-  // A whole ring (or what hangs together by segments) at a time.
+  // Drops whole rings, or other connected components of segments, one at a time.
   void dropRings() {
     std::vector<VertexId> ring(best_.pslg.points.size());
     std::iota(ring.begin(), ring.end(), VertexId{0});
@@ -129,7 +129,7 @@ class Reducer {
     }
   }
 
-  // Takes out a vertex where two segments meet, and makes one of them.
+  // Removes a vertex where two segments meet, and merges these into one.
   void bypass(VertexId v) {
     RefineCase candidate = best_;
     std::vector<Segment*> ends;
@@ -164,7 +164,7 @@ class Reducer {
       };
       if (attempt(round)) break;
     }
-    // One by one what does not round all at once.
+    // Rounds points one by one if not all can be rounded together.
     for (std::size_t v = 0; v < best_.pslg.points.size(); ++v) {
       for (const int digits : {1, 2, 3, 4, 6}) {
         const Point p = best_.pslg.points[v];

@@ -6,8 +6,8 @@
 
 namespace coastmesh {
 
-// Makes a failing case smaller as long as it still fails: plainer options, fewer rings, segments, vertices and hole
-// points, coordinates with fewer digits. Asks at most `most_trials` times.
+// Reduces a failing case while it still fails: simpler options, fewer rings, segments, vertices and hole points,
+// coordinates with fewer digits. Calls `still_fails` at most `most_trials` times.
 RefineCase reduceCase(RefineCase failing, const std::function<bool(const RefineCase&)>& still_fails, int most_trials);
 
 }  // namespace coastmesh

@@ -51,7 +51,7 @@ std::string_view toString(PslgDefect::Kind kind) {
   return "";
 }
 
-// Rounding of a coordinate moves a border by that much along its length; areas may differ so.
+// Rounding of coordinates moves a border along its whole length; areas may differ by that much.
 double areaRoom(const TriMesh& mesh) {
   double magnitude = 0.0, low_x = mesh.points[0].x, high_x = low_x, low_y = mesh.points[0].y, high_y = low_y;
   for (const Point& p : mesh.points) {
@@ -84,15 +84,15 @@ void judge(const std::string& stage, const TriMesh& mesh, const TriMesh& coarse,
   if (after.size() != before.size()) throw Broken{stage + ": a region appeared", {}};
 }
 
-// What is listed is what falls short and nothing excuses.
+// Exactly the bound violations without an excuse must be listed.
 void judgeListed(const std::string& stage, const TriMesh& mesh, const RefineCase& c,
                  const std::vector<BoundViolation>& unresolved) {
   const std::string wrong = wrongBoundViolations(mesh, c.pslg, c.options, unresolved);
   if (!wrong.empty()) throw Broken{stage + ": wrong bound violations", wrong};
 }
 
-// Vertices that the input needs at an angle that every method reaches; nothing where that is beyond the limit. Any
-// mesh whose vertices keep a fixed share of the input's spacing from one another has at most a fixed multiple of them.
+// The number of vertices that the input needs at an angle that every method reaches; nullopt if that exceeds the limit.
+// Any mesh whose vertices keep a fixed share of the input's spacing apart has at most a fixed multiple of them.
 std::optional<std::uint64_t> neededAtLeast(const RefineCase& c, std::uint64_t limit) {
   RefineOptions modest;
   modest.min_angle_deg = 20.0;
@@ -142,7 +142,7 @@ Meshed meshAndJudge(const RefineCase& c, const TriMesh& coarse, const CaseLimits
   if (meshed.mesh.points.size() > before)
     throw Broken{"coarsen: more vertices than before",
                  std::to_string(before) + " before, " + std::to_string(meshed.mesh.points.size()) + " after"};
-  // A flip beside a bad triangle may make two of it, but good ones stay good.
+  // A flip beside a bad triangle may turn it into two, but good triangles stay good.
   if (meshed.coarsened.unresolved.size() > 2 * bad)
     throw Broken{"coarsen: more bound violations than before", std::to_string(bad) + " bad triangles before, " +
                                                                    std::to_string(meshed.coarsened.unresolved.size()) +

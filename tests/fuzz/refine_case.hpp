@@ -9,7 +9,7 @@
 
 namespace coastmesh {
 
-// An input of the core with what is asked of it.
+// An input of the core with its options.
 struct RefineCase {
   Pslg pslg;
   RefineOptions options;
@@ -17,27 +17,27 @@ struct RefineCase {
 };
 
 enum class Verdict {
-  Refused,   // constrainedDelaunay says that it is no PSLG
-  Held,      // everything holds that should
-  TooLarge,  // cut off: the input needs more vertices than the limit, whatever the method
+  Refused,   // constrainedDelaunay rejects it as a PSLG
+  Held,      // no rule is broken
+  TooLarge,  // cut off at the limit, but the input may need so many vertices
   Failed,
 };
 
 struct CaseResult {
   Verdict verdict = Verdict::Held;
-  std::string failure;  // which rule broke, the same words for the same rule; the kind of defect where refused
+  std::string failure;  // the broken rule, in the same words every time; for Refused the kind of defect
   std::string detail;   // where and how
   std::uint64_t vertices = 0;
 };
 
 struct CaseLimits {
-  std::uint64_t most_vertices = 100000;  // a run is cut off there and judged by `TooLarge`'s standard
-  bool repeat = false;                   // run it twice and compare, bit for bit
+  std::uint64_t most_vertices = 100000;  // runs are cut off here; the verdict is then TooLarge or Failed
+  bool repeat = false;                   // run twice and compare, bit for bit
 };
 
-// Meshes the input and judges every stage's result: valid by `checkMesh`; every bound violation listed, and nothing
-// else; areas of regions kept; counts that agree; no more vertices than a bound that follows from the input; coarsening
-// leaves no more vertices than it found, and no bad triangle where there was none.
+// Meshes the input and checks the result of each stage: valid by `checkMesh`; exactly the bound violations are listed;
+// areas of regions are kept; counts agree; no more vertices than a bound that follows from the input; coarsening adds
+// no vertices, and no bad triangles if there were none.
 CaseResult runCase(const RefineCase& refine_case, const CaseLimits& limits = {});
 
 std::string_view nameOf(Algorithm algorithm);

@@ -1,5 +1,5 @@
-// libFuzzer target: bytes become a small input of the core with options; see random_case.hpp. A failure is printed in
-// the corpus format, and aborts.
+// libFuzzer target: bytes become a small input of the core with options; see random_case.hpp. Prints a failure in the
+// corpus format and aborts.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -11,7 +11,7 @@
 
 namespace {
 
-// Says at the end how many inputs were of use.
+// Prints at the end how many inputs were accepted.
 class Tally {
  public:
   ~Tally() {

@@ -17,7 +17,7 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 
 Point polar(double radius, double at) { return radius * Point{std::cos(at), std::sin(at)}; }
 
-// A polygon that is the whole domain, labelled or not.
+// A polygon as the whole domain, with or without labels.
 Pslg polygon(Choices& choices, const std::vector<Point>& ring) {
   Pslg pslg;
   const bool labelled = choices.oneIn(2);
@@ -25,7 +25,7 @@ Pslg polygon(Choices& choices, const std::vector<Point>& ring) {
   return pslg;
 }
 
-// A power of ten, the exponent from `low` up to 0.
+// A power of ten with an exponent between `low` and 0.
 double tenTo(Choices& choices, double low) { return std::pow(10.0, choices.between(low, 0.0)); }
 
 std::vector<Point> comb(Choices& choices) {
@@ -104,7 +104,7 @@ Pslg nestedStars(Choices& choices) {
       closeRing(pslg, ring, kUnlabelled, kUnlabelled);
       if (!sea) pslg.holes.push_back(polar(0.5 * (inside + nearest) * 0.9, start + 0.1));
     }
-    // Chords cut across: what lies inside has to stay clear of the flattest of them.
+    // Chords cut inward: the next ring must stay clear of the one that cuts deepest.
     outside = nearest * std::cos(std::min(0.45 * kTurn, 1.6 * kTurn / count) / 2.0) * choices.between(0.2, 1.0);
     touched = choices.oneIn(3) ? nearest_vertex : kNone;
     touched_at = nearest_at;

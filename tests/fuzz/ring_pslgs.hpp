@@ -5,9 +5,9 @@
 
 namespace coastmesh {
 
-// Inputs made of rings and rays, of size 1 or so. Few cross themselves.
+// Inputs made of rings and rays, about 1 in size. Few intersect themselves.
 
-// Star-shaped rings round one another, some of which touch in a vertex; sea, island, lake by turns.
+// Star-shaped rings inside one another, some of which touch at a vertex: alternately sea, island and lake.
 Pslg nestedStars(Choices& choices);
 
 // Rays from one point at angles down to a millionth of a degree: lines in a box, or spikes joined to a ring.

@@ -8,7 +8,7 @@
 
 namespace coastmesh {
 
-// A plain struct that a process and its children see alike.
+// A plain struct in memory shared by a process and its children.
 template <typename T>
 requires std::is_trivially_copyable_v<T>
 class SharedBlock {

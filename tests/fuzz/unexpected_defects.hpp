@@ -10,12 +10,12 @@
 
 namespace coastmesh {
 
-// What `checkMesh` finds in a mesh that `refine` or `coarsen` returned, less the bound violations that `unresolved`
-// lists.
+// Defects that `checkMesh` finds in a mesh returned by `refine` or `coarsen`, without the bound violations in
+// `unresolved`.
 std::vector<MeshDefect> unexpectedDefects(const TriMesh& mesh, const Pslg& pslg, const RefineOptions& options,
                                           const std::vector<BoundViolation>& unresolved);
 
-// One line with kind, place (to the last bit) and value.
+// One line: kind, place with all digits, and value.
 std::string describe(const MeshDefect& defect);
 
 }  // namespace coastmesh

@@ -1,6 +1,5 @@
-// Meshes plane graphs with the core alone, one piece and one thread, and prints what came out, a line a mesh: graph and
-// angle, or how lengths are wanted, vertices, triangles, digest. scripts/compare-builds builds it with every compiler
-// there is.
+// Meshes plane graphs with the core alone, in one piece and on one thread, and prints a line per mesh: graph and angle
+// (or rule for sizes), vertices, triangles, digest. scripts/compare-builds builds it with every installed compiler.
 // usage: core_digests FILE.poly…
 #include <algorithm>
 #include <cinttypes>
@@ -25,7 +24,7 @@ namespace {
 
 using namespace coastmesh;
 
-// The next number of a file without comments. Throws std::runtime_error.
+// The next number of a file without comments. Throws std::runtime_error if there is none.
 template <typename Number>
 Number next(std::istream& in) {
   std::string word;
@@ -33,7 +32,7 @@ Number next(std::istream& in) {
   return static_cast<Number>(std::stod(word));
 }
 
-// A .poly as tests/golden/inputs.py writes it: numbered from 0, without attributes and markers.
+// Reads a .poly as tests/golden/inputs.py writes it: numbered from 0, without attributes and markers.
 Pslg readPlain(const std::string& path) {
   std::ifstream in(path);
   Pslg pslg;
@@ -67,7 +66,7 @@ void print(const std::string& path, const std::string& how, const TriMesh& mesh)
               mesh.points.size(), mesh.triangles.size(), digestOf(mesh));
 }
 
-// Lengths that grow with the distance from a place.
+// Lengths that grow with the distance from a point.
 class GrowingSize final : public SizeFunction {
  public:
   GrowingSize(const Point& from, double least, double rate, double most)
@@ -82,7 +81,7 @@ class GrowingSize final : public SizeFunction {
   double least_, rate_, most_;
 };
 
-// By lattices, refining, coarsening and the optimiser.
+// Meshes by lattices, refinement, coarsening and the optimiser.
 TriMesh sizedMesh(const Pslg& pslg, const SizeFunction& size) {
   RefineOptions options;
   options.size = &size;

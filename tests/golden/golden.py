@@ -25,7 +25,7 @@ import inputs
 HERE = pathlib.Path(__file__).resolve().parent
 TABLE = HERE / "golden.tsv"
 COLUMNS = ["section", "run", "exit", "digest", "vertices", "triangles", "steiner", "min_angle", "unresolved", "repairs", "files"]
-# Written by libraries that note their own version inside; compared by what they hold.
+# Libraries store their own version in these files, so they are compared by content.
 BY_FEATURES = {".gpkg", ".shp", ".fgb"}
 PARTS_OF_SHAPEFILES = {".shx", ".dbf", ".prj", ".cpg"}
 

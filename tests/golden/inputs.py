@@ -104,7 +104,7 @@ def sea_elevation(x, y):
 def make_planes(folder):
     """.poly files: no CRS at all."""
     write_poly(folder / "square.poly", box(0.0, 0.0, 1.0, 1.0), ring_segments(0, 4))
-    # Erten and Üngör's "Boxed Point Pair", and random points as theirs.
+    # Erten and Üngör's "Boxed Point Pair", and random points like theirs.
     write_poly(folder / "boxed_pair.poly", box(0.0, 0.0, 100.0, 100.0) + [(49.5, 50.0), (50.5, 50.0)],
                ring_segments(0, 4))
     chance = random.Random(7)
@@ -124,7 +124,7 @@ def make_planes(folder):
 
 def make_maps(folder):
     """In metres of UTM zones, to be meshed as they are: no projection rounds anything."""
-    # A lake with two islands that touch in a point; one cut at the border of two sheets.
+    # A lake with two islands that touch in a point, and a lake divided along the border of two sheets.
     shore = [(500000, 5000000), (503000, 4999400), (506000, 5000200), (506500, 5003000), (504000, 5005200),
              (501000, 5005000), (499500, 5002600)]
     islands = [[(502000, 5002000), (502400, 5002600), (503000, 5002500), (502800, 5001800)],
@@ -159,10 +159,10 @@ def make_maps(folder):
     write_grid(folder / "sea_bed.asc", utm19(-76.0, 16.0), 10000.0, 95, 62, sea_elevation, utm_prj(19))
     write_placed(folder / "finnish_lakes.geojson", features_of("samples/finnish_lakes.geojson"),
                  lambda x, y: (500000.0 + 52000.0 * (x - 29.6), 6900000.0 + 111400.0 * (y - 62.3)), "EPSG:32635")
-    # Rings that cross themselves.
+    # Rings that intersect themselves.
     write_placed(folder / "crossed.geojson", features_of("samples/belgium_luxembourg.geojson"),
                  lambda x, y: (600000.0 + 70000.0 * (x - 4.5), 5600000.0 + 111200.0 * (y - 50.5)), "EPSG:32631")
-    # A coast as lines in pieces, water to their right, and an island.
+    # A coast as several lines, with water to their right, and an island.
     write_features(folder / "coast.geojson",
                    [(line((350000, 60000), (260000, 90000), (210000, 50000), (160000, 100000)), {}),
                     (line((160000, 100000), (90000, 70000), (-50000, 90000)), {}),

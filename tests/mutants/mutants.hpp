@@ -1,5 +1,5 @@
-// What scripts/mutate puts into sources: every place where a mutant may differ asks for its number, so that all of them
-// are built at once. Which one is alive says the environment, COASTMESH_MUTANT=NUMBER; none where it is not set.
+// Inserted into sources by scripts/mutate: every place that a mutant may change asks whether its number is alive, so
+// that all mutants are built at once. The environment selects one, COASTMESH_MUTANT=NUMBER; none if it is not set.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,9 @@
 
 namespace mutants {
 
-// Which numbers were asked for goes to the file COASTMESH_MUTANTS_ASKED where none is chosen: one that no test asks for
-// survives, and one that stands for nothing, as "one more" does for what is no number, is never asked for.
+// Numbers asked for. Written at exit to the file COASTMESH_MUTANTS_ASKED if that is set, as in the run without a
+// mutant: a mutant that no test asks for survives; a meaningless one, such as "one more" for something not a number, is
+// never asked for.
 struct Asked {
   static constexpr int kMost = 1 << 16;
   unsigned char flags[kMost] = {};
@@ -37,8 +38,8 @@ inline bool alive(int number) {
   return number == chosen;
 }
 
-// Between operand and operand: `a < b` is written `a < Less(7) < b`, which binds as `a < b` does. What becomes one
-// other sign has one number: the next is another mutant's.
+// Placed between operands: `a < b` is written `a < Less(7) < b`, with the same precedence. An operator with one
+// replacement has one number; the next belongs to another mutant.
 #define MUTANTS_OPERATOR(NAME, SIGN, FIRST, SECOND, NUMBERS)                                           \
   struct NAME {                                                                                        \
     int number;                                                                                        \
@@ -71,7 +72,7 @@ MUTANTS_OPERATOR(Minus, -, +, +, 1)
 MUTANTS_OPERATOR(Divided, /, *, *, 1)
 #undef MUTANTS_OPERATOR
 
-// A point times a number has no quotient.
+// Replaces a * b by a / b, or by b / a if b is a vector.
 struct Times {
   int number;
   explicit Times(int given) : number(given) {}
@@ -116,7 +117,7 @@ bool negated(int number, const Condition& condition) {
 
 inline bool kept(int number) { return !alive(number); }
 
-// What is returned: true or false for a truth value, 0 or one more for a number, an empty one of anything else.
+// Changes a returned value: to true or false for bool, 0 or one more for a number, a default value for other types.
 template <typename Result>
 Result returned(int number, Result&& value) {
   using Plain = std::remove_cvref_t<Result>;

@@ -24,14 +24,14 @@ PROGRAM = os.path.abspath(sys.argv[1])
 class Case:
     """How an option is set, and the run in which it shows."""
 
-    value: str | None = None  # None: a switch
-    extra: list = field(default_factory=list)  # options besides, which the run without it has too
-    input: str | None = None  # in place of the command's own
-    name: str | None = None  # the name to give, where it is not the first: --no-coarsen
-    exists: list = field(default_factory=list)  # files that are there before the run
-    report: str | None = None  # the effect is this key of the report
-    because: str | None = None  # why it may be silent without `extra`: its effect hangs on the data
-    mesh: bool = False  # check: the mesh is made with the option in one run, without it in the other
+    value: str | None = None  # None for a switch
+    extra: list = field(default_factory=list)  # further options, also given in the run without this one
+    input: str | None = None  # in place of the command's default
+    name: str | None = None  # the name to use if it is not the first, such as --no-coarsen
+    exists: list = field(default_factory=list)  # files that exist before the run
+    report: str | None = None  # the key of the report that shows the effect
+    because: str | None = None  # why it may have no effect without `extra`: that depends on the data
+    mesh: bool = False  # for check: the mesh is made with the option in one run and without it in the other
 
 
 def square(west, south, side, properties=None):
@@ -71,12 +71,12 @@ def write_inputs(folder):
     put("two.geojson", collection(square(-87.5, 41.6, 0.01, {"name": "a"}), square(-87.4, 41.6, 0.01, {"name": "b"})))
     put("one.geojson", collection(square(-87.5, 41.6, 0.01, {"name": "a"})))
     put("joined.geojson", collection(square(-87.5, 41.6, 0.01), square(-87.49, 41.6, 0.01)))
-    # A shore that touches an island's in a point.
+    # A shore that touches that of an island in a point.
     put("pinch.geojson", collection(feature("Polygon", [
         [[-87.5, 41.6], [-87.48, 41.6], [-87.48, 41.62], [-87.5, 41.62], [-87.5, 41.6]],
         [[-87.5, 41.6], [-87.495, 41.61], [-87.49, 41.605], [-87.5, 41.6]]])))
     put("islands.geojson", collection(square(-87.495, 41.605, 0.004), square(-87.485, 41.612, 0.003)))
-    # Two lakes, and a channel of 40 m between them.
+    # Two lakes joined by a channel of 40 m.
     put("straits.geojson", collection(feature("Polygon", [
         [[-87.5, 41.6], [-87.485, 41.6], [-87.485, 41.6098], [-87.475, 41.6098], [-87.475, 41.6], [-87.465, 41.6],
          [-87.465, 41.62], [-87.475, 41.62], [-87.475, 41.6102], [-87.485, 41.6102], [-87.485, 41.62], [-87.5, 41.62],
@@ -86,7 +86,7 @@ def write_inputs(folder):
         [[-87.5, 41.6], [-87.491, 41.6], [-87.491, 41.607], [-87.49, 41.607], [-87.49, 41.6], [-87.48, 41.6],
          [-87.48, 41.61], [-87.473, 41.61], [-87.473, 41.611], [-87.48, 41.611], [-87.48, 41.62], [-87.5, 41.62],
          [-87.5, 41.6]]])))
-    # Water on both sides of a point.
+    # Water on both sides of a point where islands touch.
     put("hourglass.geojson", collection(feature("Polygon", [
         [[-87.5, 41.6], [-87.48, 41.6], [-87.48, 41.62], [-87.5, 41.62], [-87.5, 41.6]],
         [[-87.495, 41.605], [-87.49, 41.61], [-87.495, 41.615], [-87.495, 41.605]],
@@ -226,7 +226,7 @@ def cases():
         "--quiet": Case(),
     }
     for name, case in region.items():
-        if name == "--surface":  # counts without an input too
+        if name == "--surface":  # has an effect without an input too
             continue
         extra = [*case.extra, *(["--min-angle", "33"] if name == "--crs" else [])]
         check[name] = Case(case.value, extra=extra, input=case.input or "lake.geojson", mesh=True)
@@ -263,7 +263,7 @@ def cases():
 INPUT = {"mesh": "lake.geojson", "clean": "lake.geojson", "check": "lake.nc", "convert": "lake.nc", "plot": "lake.nc",
          "info": "lake.nc", "partition": "lake.nc", "gather": "lake.shard"}
 OUTPUT = {"mesh": "out.nc", "clean": "out.gpkg", "convert": "out.nc", "plot": "out.svg", "partition": "out.nc", "gather": "out.nc"}
-# Numbers that stand after the file.
+# Numbers given after the file.
 ARGUMENTS = {"partition": ["4"]}
 
 
@@ -320,7 +320,7 @@ def judge(runs, command, option, case):
     needed = list(case.extra)
     rows = []
     if case.mesh:
-        # Meshes made with and without the option: in one of them the check sees the difference.
+        # Meshes made with and without the option: the check sees the difference in one of them.
         seen = set()
         for made_with in ([], given):
             made_with = ["--pinches" if w == "--input-pinches" else w for w in made_with]

@@ -1,4 +1,4 @@
-// A lake and a raster of its depths become a grid for ADCIRC: smaller elements at the shore, depths at the nodes.
+// Makes a grid for ADCIRC from a lake and a raster of its depths: smaller elements at the shore, depths at the nodes.
 // usage: lake_to_adcirc LAKE DEM OUTPUT
 #include <cstdio>
 #include <exception>

@@ -1,4 +1,4 @@
-// Writes a PSLG with gis, reads it back and meshes it with parallel; exit code 1 where something got lost on the way.
+// Writes a PSLG with gis, reads it back and meshes it with parallel; exit code 1 if anything was lost on the way.
 #include <cstdio>
 
 #include "core/quality.hpp"

@@ -1,4 +1,4 @@
-// Meshes a square with the core alone; exit code 1 where the mesh is not what was asked for.
+// Meshes a square with the core alone; exit code 1 if the mesh does not meet the options.
 #include <cmath>
 #include <cstdio>
 

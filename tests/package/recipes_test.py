@@ -12,7 +12,8 @@ import yaml
 SOURCES = pathlib.Path(__file__).resolve().parent.parent.parent
 ROOMS = ["CMakeLists.txt", "core/CMakeLists.txt", "gis/CMakeLists.txt", "parallel/CMakeLists.txt", "apps/CMakeLists.txt",
          "apps/python/CMakeLists.txt"]
-# What CMake asks for, and what has it in Debian, conda-forge and Spack; none where it comes with something else.
+# The libraries that CMake requires, and their packages in Debian, conda-forge and Spack; None if another package
+# includes them.
 LIBRARIES = {
     "CGAL": ("libcgal-dev", "cgal-cpp", "cgal"),
     "GDAL": ("libgdal-dev", "libgdal", "gdal"),
@@ -50,7 +51,7 @@ class RecipesTest(unittest.TestCase):
             text = read(path)
             asked |= set(re.findall(r"find_package\((\w+)", text)) | set(re.findall(r"pkg_check_modules\((\w+)", text))
             asked |= set(re.findall(r"find_library\(\w+ (\w+)\)", text))
-        # A library of headers alone, which no CMake file names.
+        # A header-only library, which no CMake file names.
         self.assertIn("#include <toml++/", read("apps/usage/config_entries.cpp"))
         self.assertEqual(asked | {"toml++"}, set(LIBRARIES))
 
@@ -59,7 +60,7 @@ class RecipesTest(unittest.TestCase):
                              for paragraph in read("debian/control").strip().split("\n\n")]
         needs = {word.split()[0] for word in source["Build-Depends"].replace("\n", " ").split(",")}
         self.assertLessEqual(names(0), needs)
-        self.assertNotIn("Maintainer", source)  # scripts/make-deb has it from whoever builds
+        self.assertNotIn("Maintainer", source)  # scripts/make-deb takes it from the environment of the caller
         for package in packages:
             self.assertTrue((SOURCES / f"debian/{package['Package']}.install").exists(), package["Package"])
         self.assertFalse((SOURCES / "debian/changelog").exists())

@@ -13,7 +13,7 @@ import yaml
 
 PROGRAM = sys.argv[1]
 SOURCES = pathlib.Path(__file__).resolve().parent.parent.parent
-# What the Citation File Format 1.2.0 asks for and allows at the top, and of a paper.
+# Keys that the Citation File Format 1.2.0 requires and allows at the top level, and in references.
 CFF_NEEDED = {"cff-version", "message", "title", "authors"}
 CFF_KNOWN = CFF_NEEDED | {"abstract", "commit", "contact", "date-released", "doi", "identifiers", "keywords", "license",
                           "license-url", "preferred-citation", "references", "repository", "repository-artifact",
@@ -71,7 +71,7 @@ class ReleaseTest(unittest.TestCase):
     def test_no_contact_is_invented(self):
         """An address that nobody reads is worse than none."""
         listed = subprocess.run([SOURCES / "scripts/list-files"], capture_output=True, text=True, check=True).stdout
-        # Which speak of such names.
+        # Files that may contain such addresses.
         allowed = {"scripts/check-words", "tests/package/release_test.py", "tests/qgis/package_test.py"}
         found = []
         for name in set(listed.split("\n")) - allowed - {""}:

@@ -27,7 +27,7 @@ import inputs  # noqa: E402  (found by the line above)
 SCHEMA = json.loads((SOURCES / "docs/report.schema.json").read_text(encoding="utf-8"))
 SEA = ("mesh made/hispaniola.geojson --crs plane --domain outside --bbox=-182500,1823500,657500,2321200 "
        "--bathymetry made/sea_bed.asc --size-shore 8000 --size-max 40000 ")
-# Kind of report, exit code, command. Of those that share a file the order counts.
+# Kind of report, exit code, command. The order matters where commands share files.
 RUNS = {
     "lake": ("mesh_report", 0, "mesh data/lake_superior.geojson -o lake.nc"),
     "plane": ("mesh_report", 1, "mesh made/comb.poly -o comb.node --min-angle 44"),
@@ -138,7 +138,7 @@ class ReportSchemaTest(unittest.TestCase):
     def test_a_key_that_is_not_in_it_fails_wherever_it_stands(self):
         kind, report = self.reports["sea"]
         check = validator(kind)
-        # The first three items of a list stand for the rest.
+        # The first three items of a list represent the rest.
         report = first_of_lists(report)
         for number in range(len(list(objects(report)))):
             changed = copy.deepcopy(report)
@@ -157,8 +157,7 @@ class ReportSchemaTest(unittest.TestCase):
         for kind in ("mesh_report", "per_feature_report", "clean_report", "partition_report"):
             seen = {key for of_kind, report in self.reports.values() if of_kind == kind for key in keys_of(report)}
             unseen = set(named_keys(SCHEMA["$defs"][kind])) - seen
-            # What needs an input that no short run is: a triangle turned over on the ground.
-            # Several ranks are for tests/cluster.
+            # Triangles turned over on the ground occur in no short run; several ranks are tested in tests/cluster.
         exempt = (("mesh", "turned", "places"), ("cluster", "by_rank", "[]"))
         self.assertEqual({key for key in unseen if key[:3] not in exempt}, set())
 

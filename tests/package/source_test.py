@@ -38,7 +38,7 @@ class SourcePackageTest(unittest.TestCase):
             self.assertFalse((self.folder / "none").exists())
 
     def test_the_same_twice_and_without_errors(self):
-        # An address of no machine, for a package that leaves none.
+        # A non-existent address, because the package is not distributed.
         who = {"DEBFULLNAME": "Test", "DEBEMAIL": "test@localhost.localdomain"}
         for name in ("one", "two"):
             done = self.make(name, who)
@@ -48,7 +48,7 @@ class SourcePackageTest(unittest.TestCase):
         for name in made:
             self.assertEqual((self.folder / "one" / name).read_bytes(), (self.folder / "two" / name).read_bytes(), name)
         (description,) = (self.folder / "one").glob("*.dsc")
-        # The address is what this test made up.
+        # This test made up the address.
         said = subprocess.run(["lintian", "--allow-root", "--fail-on", "error", "--suppress-tags",
                                "bogus-mail-host,bogus-mail-host-in-debian-changelog", description],
                               capture_output=True, text=True, check=False)

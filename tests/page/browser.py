@@ -11,7 +11,7 @@ import urllib.request
 
 import websocket
 
-DEADLINE_S = 60.0  # for anything that is waited for
+DEADLINE_S = 60.0  # for every wait
 
 
 def program():
@@ -24,7 +24,7 @@ class Browser:
         self.profile = tempfile.mkdtemp(prefix="coastmesh-page-")
         drawing = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"] if webgl else ["--disable-3d-apis", "--disable-gpu"]
         self.said = open(os.path.join(self.profile, "said.txt"), "w+", encoding="utf-8")
-        # A port of the browser's own choice, which it tells on its standard error.
+        # The browser chooses its port and prints it on standard error.
         self.process = subprocess.Popen(
             [program(), "--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--hide-scrollbars", "--no-first-run",
              "--disable-extensions", "--disable-background-networking", "--remote-allow-origins=*", "--remote-debugging-port=0",

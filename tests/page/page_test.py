@@ -121,7 +121,7 @@ class Page(unittest.TestCase):
         self.browser.resize(WIDTH, HEIGHT)
         self.browser.prefer("light")
 
-    # What the browser shows.
+    # What the browser displays.
 
     def open(self, html):
         self.browser.open(html)
@@ -139,7 +139,7 @@ class Page(unittest.TestCase):
         """Once all is drawn as it is to be, the pixels of the window."""
         self.browser.wait(lambda: self.browser.evaluate("page.frame === null && !page.moved && page.drawing.fits(page.drawing.front, page.view)"),
                           "the picture to rest")
-        # A screenshot shows the frame after.
+        # A screenshot shows the frame after that.
         self.browser.evaluate("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
         return pixels_of(self.browser.screenshot())
 
@@ -203,12 +203,12 @@ class Page(unittest.TestCase):
         self.browser.screenshot(os.path.join(PICTURES, "page_light.png"))
         self.plain()
         after = self.settled()
-        # Across the middle of an edge inside, of the row of nodes amid the mesh.
+        # Across the middle of an inner edge, in the middle row of nodes.
         a, b = 12 * 41 + 20, 12 * 41 + 21
         (ax, ay), (bx, by) = self.on_screen(self.places[[a, b], :2])
         x, y = int((ax + bx) / 2), int((ay + by) / 2)
         self.assertLess(before[y - 2:y + 3, x].sum(axis=1).min() + 100, after[y - 2:y + 3, x].sum(axis=1).min())
-        # The open west is pink, the land's shore dark.
+        # The open boundary in the west is pink, the shore dark.
         left, top = self.on_screen([-5.0, 44.2])
         rows = before[int(top), int(left) - 3:int(left) + 4]
         self.assertTrue(any(r > 180 and g < 110 and b > 100 for r, g, b in rows), rows)
@@ -310,7 +310,7 @@ class Page(unittest.TestCase):
         self.browser.evaluate("page.find('triangle 901')")
         numbers = self.wait_picked("Triangle 901")
         radius, flattening = 6378137.0, 1 / 298.257223563
-        # The metric of the ellipsoid at the middle of an edge: right to the square of its length over the radius.
+        # The ellipsoid's metric at the middle of an edge: the error is of the order of (length / radius) squared.
         lengths = []
         for i in range(3):
             (lon, lat), (to_lon, to_lat) = self.points[900][i], self.points[900][(i + 1) % 3]
@@ -336,7 +336,7 @@ class Page(unittest.TestCase):
         tall = "[...document.querySelectorAll('#histogram .bin')].map(bin => Number(bin.getAttribute('height')))"
         heights = self.browser.evaluate(tall)
         self.browser.key("l")
-        self.assertGreater(sum(self.browser.evaluate(tall)), sum(heights) + 50)  # few of them as against many
+        self.assertGreater(sum(self.browser.evaluate(tall)), sum(heights) + 50)  # log scale raises small counts
         counts = self.browser.evaluate("[...document.querySelectorAll('#histogram .bin')].map(bin => Number(bin.dataset.count))")
         expected, _ = numpy.histogram(numpy.rint(self.angles.min(axis=1) * 1000) / 1000, bins=numpy.arange(61))
         self.assertEqual(counts, list(expected))
@@ -369,7 +369,7 @@ class Page(unittest.TestCase):
         some = slice(0, None, 97)
         pixels = self.settled()
         self.assertGreater(self.browser.evaluate("page.mesh.triangles.chunks.length"), 40)
-        # A pixel's own triangle is one near by: depths differ by less than two steps of the palette.
+        # The triangle shown at a pixel may be a neighbour: depths differ by less than two steps of the palette.
         self.expect_colors(pixels, ((heights - heights.min()) / (heights.max() - heights.min()))[some], self.on_screen(middles)[some],
                            facts_of(html)["palettes"]["depth"], "small ones", tolerance=8, least=1500)
 
@@ -440,7 +440,7 @@ class Page(unittest.TestCase):
         self.browser.key("0")
         self.settled()
         self.browser.screenshot(os.path.join(PICTURES, "page_lake.png"))
-        # From west to east it fills the window, and water is about a third of it.
+        # The lake fills the window from west to east, and covers about a third of it.
         width, height = (int(size) for size in self.window())
         water = abs(whole[:height, :width] - [244, 242, 238]).max(axis=2) > 12
         columns = numpy.nonzero(water[:, :900].any(axis=0))[0]
@@ -467,7 +467,7 @@ class Page(unittest.TestCase):
         self.browser.open(broken)
         self.browser.wait(lambda: self.browser.evaluate("document.documentElement?.dataset.failed !== undefined"), "an error")
         self.assertIn("cut short or changed", self.said())
-        self.browser.events.clear()  # it complains, rightly
+        self.browser.events.clear()  # as it should
 
     def test_without_webgl_it_says_what_to_do(self):
         with browser.Browser(WIDTH, HEIGHT, webgl=False) as other:

@@ -39,7 +39,7 @@ def write_dem(path, west, south, east, north, mib):
     from osgeo import gdal, osr
 
     gdal.UseExceptions()
-    gdal.SetCacheMax(64 * 2**20)  # what this program holds would count for the one it starts
+    gdal.SetCacheMax(64 * 2**20)  # the memory of this process would count for the program that it starts
     side = int(math.sqrt(mib * 2**20 / 4))
     dem = gdal.GetDriverByName("GTiff").Create(str(path), side, side, 1, gdal.GDT_Float32, ["TILED=YES", "BIGTIFF=YES"])
     dx, dy = (east - west) / side, (north - south) / side

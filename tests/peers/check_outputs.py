@@ -153,7 +153,7 @@ def check_qgis(path, mesh, crs):
     provider = layer.dataProvider()
     counts = (provider.vertexCount(), provider.faceCount())
     expect(f"QGIS {path.name}: counts", counts, (len(mesh.nodes), len(mesh.triangles)))
-    # MDAL knows no CRS for 2dm, whatever lies beside it.
+    # MDAL finds no CRS for .2dm, even with a .prj.
     expect(f"QGIS {path.name}: CRS", layer.crs().authid(), crs if path.suffix == ".nc" else "")
     extent = layer.extent()
     x, y = [p[0] for p in mesh.nodes], [p[1] for p in mesh.nodes]
@@ -186,7 +186,7 @@ def check_gdal(path, mesh, crs):
             continue
         expect(f"GDAL {path.name} {name}: count", layer.GetFeatureCount(), count)
         reference = layer.GetSpatialRef()
-        # GeoJSON without a CRS is WGS 84 to GDAL, and of three dimensions where there is a third coordinate.
+        # GDAL assumes WGS 84 for GeoJSON without a CRS, with three dimensions if there is a third coordinate.
         if crs:
             code = f"{reference.GetAuthorityName(None)}:{reference.GetAuthorityCode(None)}"
             if path.suffix == ".geojson":
@@ -337,7 +337,7 @@ def start_qgis():
     try:
         from qgis.core import QgsApplication
     except ImportError:
-        return None  # the first check that needs it says so
+        return None  # the first check that needs it reports this
     QgsApplication.setPrefixPath("/usr", True)
     application = QgsApplication([], False)
     application.initQgis()

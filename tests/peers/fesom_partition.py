@@ -133,7 +133,7 @@ class FesomPartition(unittest.TestCase):
         part_of = {node: rank for rank, p in enumerate(processes) for node in p.nodes[:p.own_nodes]}
         self.assertEqual(sorted(part_of), list(range(1, len(places) + 1)))
 
-        # rpart.out: nodes numbered one process after another.
+        # rpart.out: nodes are numbered process by process.
         file = Records(os.path.join(folder, "rpart.out"))
         self.assertEqual(file.read(), parts)
         self.assertEqual(file.read(parts), [p.own_nodes for p in processes])
@@ -166,7 +166,7 @@ class FesomPartition(unittest.TestCase):
             self.assertEqual(set(p.edges[p.own_edges:]), outer)
             self.assertEqual(len(p.edges), len(set(p.edges)))
 
-        # The exchange itself: what comes is what the place is for.
+        # The exchange itself: every halo entry receives the number of its own node or element.
         for kind in range(3):
             for rank, p in enumerate(processes):
                 here = p.nodes if kind == 0 else p.elements
@@ -183,7 +183,7 @@ class FesomPartition(unittest.TestCase):
                         self.assertEqual({part_of[node] for node in sent}, {peer})
                 wanted = range(own + 1, own + (p.halo_nodes, p.beside, p.beside + p.beyond)[kind] + 1)
                 self.assertEqual(arrived, {i: here[i - 1] for i in wanted})
-                # And none sends what nobody waits for.
+                # No process sends without a receiver.
                 for peer in p.exchanges[kind][1]:
                     self.assertIn(rank, processes[peer].exchanges[kind][0])
         return processes
@@ -212,7 +212,7 @@ class FesomPartition(unittest.TestCase):
                 self.assertEqual(run.returncode, 2, run.stderr)
                 self.assertIn(why, run.stderr)
                 self.assertEqual(os.listdir(os.path.join(folder, name)), [])
-            # Of a mesh that was read, the same as of one that was made.
+            # A mesh read from a file is divided like one just made.
             os.mkdir(os.path.join(folder, "dist_3"))
             subprocess.run([PROGRAM, "partition", mesh, "3", "-o", os.path.join(folder, "dist_3", "rpart.out"), "--quiet"], check=True)
             _, made = self.deal(3)

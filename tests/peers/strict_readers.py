@@ -283,7 +283,7 @@ def flow_centre(corners):
 def check_dflowfm(nodes, triangles):
     """Longitudes and latitudes. Flow links: no shorter than 0.1 of half the sum of the roots of the areas beside them
     (removesmalllinkstrsh), and crossing their edge at a cosine of 0.5 or less. Returns how many there are."""
-    slack = 1e-3  # another plane than the program's
+    slack = 1e-3  # tolerance, since the program uses another plane
     points = [on_sphere(place) for place in nodes]
     beside, links = {}, 0
     for t in triangles:

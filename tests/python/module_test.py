@@ -67,7 +67,7 @@ class ArraysTest(unittest.TestCase):
         self.assertAlmostEqual(areas(expected).sum(), 15)
         for given in ((points, segments, hole), {"vertices": points, "segments": segments, "holes": hole}):
             np.testing.assert_array_equal(coastmesh.mesh(given).triangles, expected.triangles)
-        # Memory of any order and type that holds the same numbers.
+        # Arrays of another memory layout and type with the same numbers.
         same = coastmesh.mesh(np.asfortranarray(points), segments.astype(np.uint8), hole)
         np.testing.assert_array_equal(same.points, expected.points)
         listed = coastmesh.mesh(points.tolist(), segments.tolist(), hole)
@@ -365,7 +365,7 @@ class FilesTest(unittest.TestCase):
         mesh.plot(self.path("lake.svg"))
         with self.assertRaisesRegex(coastmesh.OutputError, "overwrite=True"):
             mesh.plot(self.path("lake.svg"))
-        # What stands in the way of a name aside is nobody's to remove.
+        # An existing file with the name of a temporary one is not removed.
         with open(self.path(".part-lake.png"), "w", encoding="utf-8") as file:
             file.write("precious")
         mesh.plot(self.path("lake.png"))
@@ -415,7 +415,7 @@ class FilesTest(unittest.TestCase):
 
 
 class RunTest(unittest.TestCase):
-    LONG = {"size_max": 0.004}  # some seconds of work
+    LONG = {"size_max": 0.004}  # takes some seconds
 
     def test_progress_is_told_in_this_thread_and_what_it_raises_ends_the_run(self):
         told = []

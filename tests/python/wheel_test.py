@@ -56,7 +56,7 @@ class WheelTest(unittest.TestCase):
         wheel, again = self.wheel(), self.wheel("--no-build-isolation")
         self.assertEqual(wheel.name, again.name)
         self.assertEqual(wheel.read_bytes(), again.read_bytes())
-        # numpy is the system's; all else is hidden from what is installed.
+        # numpy comes from the system. `run` removes PYTHONPATH, so that the installed module is used.
         run(sys.executable, "-m", "venv", "--system-site-packages", "fresh", cwd=self.folder)
         python = self.folder / "fresh/bin/python"
         run(python, "-m", "pip", "install", "--no-index", "--no-deps", "--disable-pip-version-check", wheel, cwd=self.folder)

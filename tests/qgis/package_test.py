@@ -15,14 +15,14 @@ import zipfile
 
 SOURCES, ZIP = (os.path.abspath(path) for path in sys.argv[1:3])
 SCRIPT = os.path.join(SOURCES, "scripts", "package-qgis-plugin")
-# Of nobody: names that are kept free for examples.
+# Names that are reserved for examples.
 WHO = {"email": "someone@example.org", "repository": "https://example.org/coastmesh", "tracker": "https://example.org/coastmesh/issues"}
 
 
 def metadata_of(path):
     with zipfile.ZipFile(path) as archive:
         text = archive.read("coastmesh_qgis/metadata.txt").decode()
-    said = configparser.ConfigParser()  # with interpolation, as some readers have it
+    said = configparser.ConfigParser()  # with interpolation, as in some readers
     said.read_string(text)
     return dict(said["general"].items())
 
@@ -91,7 +91,7 @@ class PackageTest(unittest.TestCase):
             self.assertEqual(set(new.namelist()), names)
             for name in names - {"coastmesh_qgis/metadata.txt"}:
                 self.assertEqual(new.read(name), old.read(name), name)
-        # The same again is the same archive; one that is there stays.
+        # The same command makes the same archive; an existing one is kept.
         with open(self.out, "rb") as file:
             first = file.read()
         self.assertEqual(self.package(**WHO).returncode, 1)

@@ -125,7 +125,7 @@ class ProviderTest(unittest.TestCase):
             at = {parameter.name(): i for i, parameter in enumerate(shown)}
             before = -1
             for option in command["options"]:
-                # Names stay, whatever the labels become.
+                # Names of parameters do not depend on labels.
                 name = {"--input": "MADE_FROM"}.get(option["name"], option["name"][2:].replace("-", "_").upper())
                 if name not in at or name == "OUTPUT":
                     continue
@@ -202,7 +202,7 @@ class ProviderTest(unittest.TestCase):
         mesh = QgsMeshLayer(results["OUTPUT"], "", "mdal")
         self.assertEqual(mesh.crs().authid(), "EPSG:32631")
         self.assertAlmostEqual(mesh.extent().width(), 1000)
-        # A file that says another CRS than the user does.
+        # The file's CRS differs from the one set by the user.
         results = self.run_algorithm("clean", INPUT=memory_layer(LAKE), OUTPUT=self.path("lake.gpkg"))
         wrong = QgsVectorLayer(results["PSLG"], "", "ogr")
         wrong.setCrs(QgsCoordinateReferenceSystem("EPSG:4258"))
@@ -220,7 +220,7 @@ class ProviderTest(unittest.TestCase):
         stopped = []
 
         def cancel_once_it_writes_aside():
-            # The program has begun when the folder in which it writes aside is there.
+            # The program is running once its temporary folder exists.
             for _ in range(600):
                 if any(name.startswith(".") for name in os.listdir(self.folder)):
                     stopped.append(time.monotonic())
@@ -272,7 +272,7 @@ class ProviderTest(unittest.TestCase):
         extent = QgsVectorLayer(results["TRIANGLES"], "", "ogr").extent()
         self.assertAlmostEqual(extent.xMaximum(), 1.0, places=6)
         self.assertAlmostEqual(extent.yMaximum(), 1.0, places=6)
-        # The same by a place in the water.
+        # The same with a point in the water.
         results = self.mesh(island, WATER_AT="11131.9,11131.9 [EPSG:3857]", BBOX=box, OUTPUT_LAYERS=self.path("a.gpkg"))
         self.assertAlmostEqual(QgsVectorLayer(results["TRIANGLES"], "", "ogr").extent().xMaximum(), 1.0, places=6)
 
@@ -320,7 +320,7 @@ class ProviderTest(unittest.TestCase):
 
 
 os.environ["COASTMESH_PROGRAM"] = PROGRAM
-settings = tempfile.mkdtemp()  # the user's own settings are none of the tests' business
+settings = tempfile.mkdtemp()  # so that the user's settings do not matter
 QgsApplication.setPrefixPath("/usr", True)
 application = QgsApplication([], False, settings)
 application.initQgis()
@@ -340,4 +340,4 @@ finally:
     application.exitQgis()
     shutil.rmtree(settings, ignore_errors=True)
 sys.stdout.flush()
-os._exit(not outcome.wasSuccessful())  # QGIS may stumble on its own way out
+os._exit(not outcome.wasSuccessful())  # QGIS may crash when it exits

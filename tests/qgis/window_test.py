@@ -105,7 +105,7 @@ def main():
     os.makedirs(pictures, exist_ok=True)
     home = tempfile.mkdtemp()
     read, write = os.pipe()
-    # It chooses a free display by itself, and reports it.
+    # Xvfb chooses a free display and prints its number.
     screen = subprocess.Popen(
         ["Xvfb", "-displayfd", str(write), "-screen", "0", "1400x900x24", "-nolisten", "tcp"],
         pass_fds=[write], stderr=subprocess.DEVNULL,

@@ -1,4 +1,4 @@
-// Examples of the headers in core/: each is run as a test, and shown in the API reference.
+// Examples of the headers in core/: each is run as a test and shown in the API reference.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ Pslg unitSquare() {
   return square;
 }
 
-// core/box_halves.hpp: Boxes of the plane, and a search through many of them.
+// core/box_halves.hpp: Boxes in the plane, and a search among many of them.
 TEST(CoreExamples, BoxHalves) {
   //! [core/box_halves.hpp]
   std::vector<Bounds> boxes(3);
@@ -43,7 +43,7 @@ TEST(CoreExamples, BoxHalves) {
   boxes[1].add(Point{2, 2});
   boxes[2].add(Point{5, 5});
   const BoxHalves halves(boxes);
-  std::vector<std::uint32_t> near;  // a search lets in more than it wants: a leaf has several boxes
+  std::vector<std::uint32_t> near;  // a leaf has several boxes, so the search visits more than needed
   const Point place{0.7, 0.7};
   halves.visit([&](const Bounds& bounds) { return bounds.holds(place); },
                [&](std::uint32_t item) {
@@ -54,7 +54,7 @@ TEST(CoreExamples, BoxHalves) {
   EXPECT_EQ(near, (std::vector<std::uint32_t>{0, 1}));
 }
 
-// core/delaunay.hpp: The constrained Delaunay triangulation of a plane graph, and what is wrong with one that is none.
+// core/delaunay.hpp: The constrained Delaunay triangulation of a plane graph, and errors for an invalid graph.
 TEST(CoreExamples, Delaunay) {
   const Pslg square = unitSquare();
   //! [core/delaunay.hpp]
@@ -66,7 +66,7 @@ TEST(CoreExamples, Delaunay) {
   try {
     constrainedDelaunay(crossed);
   } catch (const BadPslg& error) {
-    wrong = error.defect.message;  // error.defect.place and .segment say where
+    wrong = error.defect.message;  // error.defect.place and .segment locate it
   }
   //! [core/delaunay.hpp]
   EXPECT_EQ(mesh.triangles.size(), 2u);
@@ -84,7 +84,7 @@ TEST(CoreExamples, Ids) {
   EXPECT_LT(land, 0);
 }
 
-// core/input_corners.hpp: Corners of the input that are too small for the bounds, and which triangles they excuse.
+// core/input_corners.hpp: Corners of the input that are too small for the bounds, and the triangles that they excuse.
 TEST(CoreExamples, InputCorners) {
   //! [core/input_corners.hpp]
   Pslg wedge;  // an angle of 5.7 degrees at its first point
@@ -100,10 +100,10 @@ TEST(CoreExamples, InputCorners) {
   EXPECT_EQ(excuse, Excuse::Corner);
 }
 
-// core/item_loop.hpp: Loops that the caller's threads may share.
+// core/item_loop.hpp: Loops that can run on the caller's threads.
 TEST(CoreExamples, ItemLoop) {
   //! [core/item_loop.hpp]
-  const ItemLoop loop = inOrder;  // one thread; `forEachItem` of parallel/workers.hpp shares them out
+  const ItemLoop loop = inOrder;  // one thread; `forEachItem` of parallel/workers.hpp uses several
   std::vector<double> roots(20000);
   forEachByStretches(loop, roots.size(), [&](std::size_t i) { roots[i] = std::sqrt(static_cast<double>(i)); });
   const std::vector<double> sums = overStretches(loop, roots.size(), [&](std::size_t first, std::size_t last) {
@@ -116,7 +116,7 @@ TEST(CoreExamples, ItemLoop) {
   EXPECT_EQ(roots[10000], 100.0);
 }
 
-// core/linked_triangles.hpp: Triangles that know their neighbours, and names for their edges.
+// core/linked_triangles.hpp: Triangles linked to their neighbours, and references to their edges.
 TEST(CoreExamples, LinkedTriangles) {
   const TriMesh mesh = constrainedDelaunay(unitSquare());
   //! [core/linked_triangles.hpp]
@@ -131,7 +131,7 @@ TEST(CoreExamples, LinkedTriangles) {
   EXPECT_EQ(boundary, 4u);
 }
 
-// core/metric.hpp: Lengths, angles, and what is asked of a triangle.
+// core/metric.hpp: Lengths, angles, and bounds on triangles.
 TEST(CoreExamples, Metric) {
   //! [core/metric.hpp]
   const Point a{0, 0}, b{4, 0}, c{0, 3};
@@ -145,7 +145,7 @@ TEST(CoreExamples, Metric) {
   EXPECT_TRUE(good);
 }
 
-// core/point.hpp: A place in a plane.
+// core/point.hpp: A point in a plane.
 TEST(CoreExamples, Point) {
   //! [core/point.hpp]
   std::vector<Point> points = {{1, 0}, {0, 2}, {0, 1}};
@@ -154,7 +154,7 @@ TEST(CoreExamples, Point) {
   EXPECT_EQ(points, (std::vector<Point>{{0, 1}, {0, 2}, {1, 0}}));
 }
 
-// core/pslg.hpp: A planar straight-line graph: what the core meshes.
+// core/pslg.hpp: A planar straight-line graph, the input of the core.
 TEST(CoreExamples, Pslg) {
   //! [core/pslg.hpp]
   Pslg ring;  // a square with a square hole
@@ -177,7 +177,7 @@ TEST(CoreExamples, Quality) {
   EXPECT_NEAR(angles[0], 90.0, 1e-12);
 }
 
-// core/run_control.hpp: How a long run says how far it is, and is told to stop.
+// core/run_control.hpp: Progress and cancellation of a long run.
 TEST(CoreExamples, RunControl) {
   //! [core/run_control.hpp]
   double done = 0.0;
@@ -195,10 +195,10 @@ TEST(CoreExamples, RunControl) {
   EXPECT_LT(done, 0.7);
 }
 
-// core/size_function.hpp: How long edges should be, place by place.
+// core/size_function.hpp: The requested edge length at each place.
 TEST(CoreExamples, SizeFunction) {
   //! [core/size_function.hpp]
-  class Growing final : public SizeFunction {  // from 0.1 at the origin by a fifth of the distance, to 1
+  class Growing final : public SizeFunction {  // 0.1 at the origin, growing by a fifth of the distance, up to 1
    public:
     double at(const Point& x) const override { return std::min(1.0, 0.1 + 0.2 * std::hypot(x.x, x.y)); }
     double least() const override { return 0.1; }
@@ -210,7 +210,7 @@ TEST(CoreExamples, SizeFunction) {
   EXPECT_EQ(ConstantSize(2.0).at({1, 0}), 2.0);
 }
 
-// core/space_point.hpp: A place or a vector in space.
+// core/space_point.hpp: A point or a vector in space.
 TEST(CoreExamples, SpacePoint) {
   //! [core/space_point.hpp]
   const SpacePoint east{1, 0, 0}, north{0, 1, 0};
@@ -221,12 +221,12 @@ TEST(CoreExamples, SpacePoint) {
   EXPECT_NEAR(apart * apart, 2.0, 1e-12);
 }
 
-// core/surface.hpp: What the plane stands for: itself, or a sphere that is mapped to it.
+// core/surface.hpp: The surface that the plane represents: the plane itself, or a sphere mapped to it.
 TEST(CoreExamples, Surface) {
   //! [core/surface.hpp]
   const Surface earth = Surface::sphere(6371.0);  // kilometres
-  // The plane of a stereographic projection: a chord from its origin is shorter than the way in the plane.
-  const Point pole{0, 0}, far{2 * 6371.0, 0};  // on the equator, seen from the pole
+  // In a stereographic projection a chord from its origin is shorter than the distance in the plane.
+  const Point pole{0, 0}, far{2 * 6371.0, 0};  // `far` is on the equator, 90 degrees from the pole
   const double chord = earth.chord(pole, far);
   //! [core/surface.hpp]
   EXPECT_NEAR(chord, std::sqrt(2.0) * 6371.0, 1e-6);

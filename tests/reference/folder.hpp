@@ -10,7 +10,7 @@
 
 namespace coastmesh::reference {
 
-// A folder that goes with the object, and the folder that the program was in before.
+// A temporary current folder; the destructor removes it and restores the previous one.
 class WorkFolder {
  public:
   WorkFolder() : before_(std::filesystem::current_path()) {

@@ -1,4 +1,4 @@
-// Examples of the headers in gis that read, project and clean coasts: each is run as a test, and shown in the API
+// Examples of the headers in gis that read, project and clean coasts: each is run as a test and shown in the API
 // reference.
 #include <gtest/gtest.h>
 
@@ -60,7 +60,7 @@ class GisCoastExamples : public ::testing::Test {
     coastline.features[0].polygons = {{{{0, 0}, {side, 0}, {side, side}, {0, side}}, {}}};
     return coastline;
   }
-  // Water 20 wide and 1 high, as the follower of shores sees it.
+  // Water 20 long and 1 wide, as a graph whose coast is to be fitted to sizes.
   static ShoreGraph channel() {
     ShoreGraph graph;
     graph.pslg.points = {{0, 0}, {20, 0}, {20, 1}, {0, 1}};
@@ -74,7 +74,7 @@ class GisCoastExamples : public ::testing::Test {
   reference::WorkFolder folder_;
 };
 
-// gis/clean/bend_edges.hpp: Long edges made to follow the lines on the Earth that they stand for.
+// gis/clean/bend_edges.hpp: Bends long edges along the lines on the Earth that they represent.
 TEST_F(GisCoastExamples, BendEdges) {
   //! [gis/clean/bend_edges.hpp]
   Coastline coastline = squareFeature(10.0);  // degrees: its northern edge runs along a parallel
@@ -127,7 +127,7 @@ TEST_F(GisCoastExamples, CleanReport) {
   EXPECT_NE(std::ranges::find(changes, "self-crossing"), changes.end()) << changes.front();
 }
 
-// gis/clean/domain.hpp: A group of features as a plane graph, and what it needs to find its way back to the map.
+// gis/clean/domain.hpp: A group of features as a plane graph, with the data that lead back to the map.
 TEST_F(GisCoastExamples, Domain) {
   const Coastline coastline = lake();
   CleanReport report;
@@ -141,7 +141,7 @@ TEST_F(GisCoastExamples, Domain) {
   EXPECT_FALSE(domain.closed());
 }
 
-// gis/clean/followed_waters.hpp: What following sizes has made of the water, for notes.
+// gis/clean/followed_waters.hpp: Changes of the water made by following sizes, for notes.
 TEST_F(GisCoastExamples, FollowedWaters) {
   //! [gis/clean/followed_waters.hpp]
   FollowedWaters all, group;
@@ -154,7 +154,7 @@ TEST_F(GisCoastExamples, FollowedWaters) {
   EXPECT_EQ(all.cut_off.count, 1u);
 }
 
-// gis/coast/coastline.hpp: Polygons and lines as they were read, and what each is for.
+// gis/coast/coastline.hpp: Polygons and lines as read, and the purpose of each.
 TEST_F(GisCoastExamples, Coastline) {
   //! [gis/coast/coastline.hpp]
   Coastline coastline;
@@ -200,7 +200,7 @@ TEST_F(GisCoastExamples, SnapDistance) {
   EXPECT_EQ(groupFeatures(coastline).size(), 2u);
 }
 
-// gis/crs/crs.hpp: Coordinate reference systems, from what users write.
+// gis/crs/crs.hpp: Coordinate reference systems, parsed from the user's text.
 TEST_F(GisCoastExamples, CrsText) {
   //! [gis/crs/crs.hpp]
   const Crs utm = parseCrs("EPSG:32635");
@@ -222,7 +222,7 @@ TEST_F(GisCoastExamples, CrsDefinition) {
   EXPECT_TRUE(degrees.geographic);
 }
 
-// gis/crs/resolution.hpp: How near to one another vertices may come before rounding tells.
+// gis/crs/resolution.hpp: How close vertices may be before rounding matters.
 TEST_F(GisCoastExamples, Resolution) {
   //! [gis/crs/resolution.hpp]
   const std::vector<Point> plane = {{500000, 6900000}, {500100, 6900000}, {500000, 6900100}};
@@ -231,7 +231,7 @@ TEST_F(GisCoastExamples, Resolution) {
   EXPECT_NEAR(resolution.grain, 6900100 * std::ldexp(1.0, -44), 1e-9);
 }
 
-// gis/error.hpp: What goes wrong, by whose fault: the options', the input's, the output's.
+// gis/error.hpp: Errors by cause: the options, the input, or the output.
 TEST_F(GisCoastExamples, Error) {
   //! [gis/error.hpp]
   std::string why;
@@ -239,7 +239,7 @@ TEST_F(GisCoastExamples, Error) {
     ReadReport report;
     readCoastline({"no_such_file.geojson"}, report);
   } catch (const InputError& error) {
-    why = error.what();  // one sentence, with the file's name
+    why = error.what();  // one sentence, with the name of the file
   }
   //! [gis/error.hpp]
   EXPECT_NE(why.find("no_such_file.geojson"), std::string::npos);
@@ -255,7 +255,7 @@ TEST_F(GisCoastExamples, OutputFiles) {
   EXPECT_NE(std::ranges::find(beside, "lake.dbf"), beside.end());
 }
 
-// gis/file/staged_files.hpp: Files that appear whole, or not at all.
+// gis/file/staged_files.hpp: Files that appear complete or not at all.
 TEST_F(GisCoastExamples, StagedFiles) {
   //! [gis/file/staged_files.hpp]
   StagedFiles output("notes.txt", /*overwrite=*/false);
@@ -269,7 +269,7 @@ TEST_F(GisCoastExamples, StagedFiles) {
   EXPECT_THROW(StagedFiles("notes.txt", false), OutputError);
 }
 
-// gis/follow/follow_options.hpp: What of a coast is too narrow to be followed.
+// gis/follow/follow_options.hpp: The least widths at which water and land are followed.
 TEST_F(GisCoastExamples, FollowOptions) {
   //! [gis/follow/follow_options.hpp]
   FollowOptions options;
@@ -279,20 +279,20 @@ TEST_F(GisCoastExamples, FollowOptions) {
   EXPECT_LT(options.strait_min, options.channel_min);
 }
 
-// gis/follow/shore_guides.hpp: Passages that stay open, and barriers.
+// gis/follow/shore_guides.hpp: Passages to keep open, and barriers.
 TEST_F(GisCoastExamples, ShoreGuides) {
   //! [gis/follow/shore_guides.hpp]
   ShoreGuides guides;
   guides.passages.push_back({{{0, 0}, {10, 0}}, "the strait", 2.0});
   const LineZone zone(guides.passages);
-  const bool beside = zone.holds({4, 0.5}, {5, 0.5}, {4.5, 1.0}, 1.0);  // reach: 1 for each of two elements
+  const bool beside = zone.holds({4, 0.5}, {5, 0.5}, {4.5, 1.0}, 1.0);  // within 1 of the line for each of two elements
   const bool far_off = zone.holds({4, 9}, {5, 9}, {4.5, 10}, 1.0);
   //! [gis/follow/shore_guides.hpp]
   EXPECT_TRUE(beside);
   EXPECT_FALSE(far_off);
 }
 
-// gis/follow/shore_sizes.hpp: The sizes wanted where shores follow them.
+// gis/follow/shore_sizes.hpp: The requested sizes where shores follow them.
 TEST_F(GisCoastExamples, ShoreSizes) {
   const Projection projection = Projection::plane();
   //! [gis/follow/shore_sizes.hpp]
@@ -310,7 +310,7 @@ TEST_F(GisCoastExamples, ShoreSizes) {
   EXPECT_GT(edits, 0u);
 }
 
-// gis/follow/shore_triangles.hpp: Both sides of the shores, as triangles that know how wide they are.
+// gis/follow/shore_triangles.hpp: Both sides of the shores as triangles, with their widths.
 TEST_F(GisCoastExamples, ShoreTriangles) {
   //! [gis/follow/shore_triangles.hpp]
   const ConstantSize wanted(2.0);
@@ -325,7 +325,7 @@ TEST_F(GisCoastExamples, ShoreTriangles) {
   EXPECT_GT(narrow, 10u);
 }
 
-// gis/geometry/box.hpp: A box of the map.
+// gis/geometry/box.hpp: A box on the map.
 TEST_F(GisCoastExamples, Box) {
   //! [gis/geometry/box.hpp]
   Box box = Box::of({3, 1}, {1, 2});
@@ -337,7 +337,7 @@ TEST_F(GisCoastExamples, Box) {
   EXPECT_TRUE(Box{}.empty());
 }
 
-// gis/geometry/box_tree.hpp: Which of many boxes meet a given one.
+// gis/geometry/box_tree.hpp: Finds the boxes that meet a given one.
 TEST_F(GisCoastExamples, BoxTree) {
   //! [gis/geometry/box_tree.hpp]
   std::vector<Box> boxes;
@@ -361,21 +361,21 @@ TEST_F(GisCoastExamples, PlaneTable) {
   EXPECT_NEAR(near.x, std::sin(0.3), 2e-6);
 }
 
-// gis/projection/projection.hpp: A conformal plane fitted to what is meshed.
+// gis/projection/projection.hpp: A conformal plane fitted to the features to be meshed.
 TEST_F(GisCoastExamples, Projection) {
   //! [gis/projection/projection.hpp]
   const Coastline coastline = lake();
   const Projection projection = Projection::fitted(coastline, {0});
   const Point metres = projection.forward({25.1, 62.05});
   const Point degrees = projection.inverse(metres);
-  const double scale = projection.scaleAt(metres);  // plane over ground
+  const double scale = projection.scaleAt(metres);  // plane length over ground length
   //! [gis/projection/projection.hpp]
   EXPECT_NEAR(degrees.x, 25.1, 1e-10);
   EXPECT_NEAR(scale, 1.0, 1e-5);
   EXPECT_NE(projection.description(), "");
 }
 
-// gis/projection/scale_table.hpp: A projection's scale, looked up.
+// gis/projection/scale_table.hpp: The scale of a projection, tabulated.
 TEST_F(GisCoastExamples, ScaleTable) {
   //! [gis/projection/scale_table.hpp]
   const Projection utm = Projection::to(wgs84(), parseCrs("EPSG:32635"));
@@ -385,7 +385,7 @@ TEST_F(GisCoastExamples, ScaleTable) {
   EXPECT_NEAR(on_the_meridian, 0.9996, 2e-5);
 }
 
-// gis/projection/surface_kind.hpp: What lengths and angles are measured on.
+// gis/projection/surface_kind.hpp: The surface on which lengths and angles are measured.
 TEST_F(GisCoastExamples, SurfaceKind) {
   //! [gis/projection/surface_kind.hpp]
   Coastline coastline = squareFeature(40.0);  // degrees
@@ -408,7 +408,7 @@ TEST_F(GisCoastExamples, ReadCoastline) {
   EXPECT_TRUE(sameCrs(coastline.crs, wgs84()));
 }
 
-// gis/read/read_report.hpp: What was read, and what was passed over.
+// gis/read/read_report.hpp: What was read, and what was skipped.
 TEST_F(GisCoastExamples, ReadReport) {
   //! [gis/read/read_report.hpp]
   ReadReport report;
@@ -416,10 +416,10 @@ TEST_F(GisCoastExamples, ReadReport) {
   const std::uint64_t rings = report.rings, points = report.points;
   //! [gis/read/read_report.hpp]
   EXPECT_EQ(rings, 2u);
-  EXPECT_EQ(points, 11u);  // as the file counts them: the first of a ring is repeated at its end
+  EXPECT_EQ(points, 11u);  // as in the file, where a ring's first point is repeated at its end
 }
 
-// gis/read/source.hpp: A source, what it is for, and which of its features count.
+// gis/read/source.hpp: A source, its purpose, and a filter for its features.
 TEST_F(GisCoastExamples, Source) {
   //! [gis/read/source.hpp]
   ReadFilter filter;
@@ -443,7 +443,7 @@ TEST_F(GisCoastExamples, EvenSizes) {
   EXPECT_EQ(sizes, (std::vector<double>{100.0, 500.0}));
 }
 
-// gis/shore/shore_graph.hpp: A domain's graph while its coast is made to follow sizes.
+// gis/shore/shore_graph.hpp: A domain's graph while its coast is being fitted to sizes.
 TEST_F(GisCoastExamples, ShoreGraph) {
   //! [gis/shore/shore_graph.hpp]
   ShoreGraph graph;

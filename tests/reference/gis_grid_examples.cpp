@@ -1,4 +1,4 @@
-// Examples of the headers in gis that write, mend and deal out grids: each is run as a test, and shown in the API
+// Examples of the headers in gis that write, repair and partition grids: each is run as a test and shown in the API
 // reference.
 #include <gtest/gtest.h>
 
@@ -40,7 +40,7 @@ namespace {
 
 class GisGridExamples : public ::testing::Test {
  protected:
-  // Four by four squares of a kilometre, two triangles each, 20 m deep, in UTM zone 35.
+  // Four by four squares of 1 km, two triangles each, 20 m deep, in UTM zone 35.
   static Grid squares() {
     Grid grid;
     grid.crs = parseCrs("EPSG:32635");
@@ -63,10 +63,10 @@ class GisGridExamples : public ::testing::Test {
   reference::WorkFolder folder_;
 };
 
-// gis/format/grid_format.hpp: What a file format is, and what it can hold.
+// gis/format/grid_format.hpp: A file format, and what it can hold.
 TEST_F(GisGridExamples, GridFormat) {
   //! [gis/format/grid_format.hpp]
-  std::vector<std::string_view> with_sizes;  // formats that keep the lengths that were wanted
+  std::vector<std::string_view> with_sizes;  // formats that keep the requested edge lengths
   for (const GridFormat& format : gridFormats()) {
     if (format.writable && format.holds.has(GridPart::Sizes)) with_sizes.push_back(format.name);
   }
@@ -75,7 +75,7 @@ TEST_F(GisGridExamples, GridFormat) {
   EXPECT_EQ(std::ranges::find(with_sizes, "adcirc"), with_sizes.end());
 }
 
-// gis/format/grid_io.hpp: Grids written to files, whole or not at all, and read back.
+// gis/format/grid_io.hpp: Grids written to files, completely or not at all, and read back.
 TEST_F(GisGridExamples, GridIo) {
   const Grid grid = squares();
   //! [gis/format/grid_io.hpp]
@@ -101,7 +101,7 @@ TEST_F(GisGridExamples, PolyIo) {
   EXPECT_EQ(read.segments.size(), 4u);
 }
 
-// gis/grid/boundary_chains.hpp: Boundaries found in a mesh, and the numbers that formats give them.
+// gis/grid/boundary_chains.hpp: Boundaries found in a mesh, and their numbers in file formats.
 TEST_F(GisGridExamples, BoundaryChains) {
   const Grid grid = squares();
   std::vector<EdgeConflict> conflicts;
@@ -116,7 +116,7 @@ TEST_F(GisGridExamples, BoundaryChains) {
   EXPECT_EQ(roleOfMarker(marker, 0), BoundaryRole::Land);
 }
 
-// gis/grid/boundary_kinds.hpp: The boundary cut anew by what each of its edges is.
+// gis/grid/boundary_kinds.hpp: The boundary divided by the kind of its edges.
 TEST_F(GisGridExamples, BoundaryKinds) {
   //! [gis/grid/boundary_kinds.hpp]
   Grid grid = squares();
@@ -131,7 +131,7 @@ TEST_F(GisGridExamples, BoundaryKinds) {
   EXPECT_EQ(open->nodes.size(), 5u);
 }
 
-// gis/grid/grid.hpp: A mesh as models and GIS know it.
+// gis/grid/grid.hpp: A mesh in the terms of models and GIS.
 TEST_F(GisGridExamples, Grid) {
   //! [gis/grid/grid.hpp]
   Grid grid;
@@ -139,7 +139,7 @@ TEST_F(GisGridExamples, Grid) {
   grid.nodes = {{500000, 6800000}, {501000, 6800000}, {501000, 6801000}, {500000, 6801000}};
   grid.triangles = {{0, 1, 2}, {0, 2, 3}};
   grid.z = {-5, -8, -8, -5};
-  std::vector<EdgeConflict> conflicts;  // empty where every edge has two triangles at the most
+  std::vector<EdgeConflict> conflicts;  // empty if every edge has at most two triangles
   const TriMesh mesh = toTriMesh(grid, Projection::plane(), conflicts);
   //! [gis/grid/grid.hpp]
   EXPECT_TRUE(conflicts.empty());
@@ -147,7 +147,7 @@ TEST_F(GisGridExamples, Grid) {
   EXPECT_NO_THROW(requireZ(grid, "fort.14"));
 }
 
-// gis/grid/grid_parts.hpp: What a grid may hold besides nodes and triangles.
+// gis/grid/grid_parts.hpp: What a grid may contain besides nodes and triangles.
 TEST_F(GisGridExamples, GridParts) {
   //! [gis/grid/grid_parts.hpp]
   const GridParts kept{GridPart::Title, GridPart::Ibtypes};
@@ -157,7 +157,7 @@ TEST_F(GisGridExamples, GridParts) {
   EXPECT_TRUE(kept.has(GridPart::Title));
 }
 
-// gis/model/apart_waters.hpp: Water that no open boundary reaches.
+// gis/model/apart_waters.hpp: Water without a connection to an open boundary.
 TEST_F(GisGridExamples, ApartWaters) {
   //! [gis/model/apart_waters.hpp]
   Grid grid;
@@ -172,7 +172,7 @@ TEST_F(GisGridExamples, ApartWaters) {
   EXPECT_TRUE(apartWaters(grid).empty());
 }
 
-// gis/model/assign_boundaries.hpp: Which parts of the boundary are open, rivers or shore.
+// gis/model/assign_boundaries.hpp: Divides the boundary into open parts, rivers and shore.
 TEST_F(GisGridExamples, AssignBoundaries) {
   //! [gis/model/assign_boundaries.hpp]
   Grid grid = squares();
@@ -185,7 +185,7 @@ TEST_F(GisGridExamples, AssignBoundaries) {
   EXPECT_TRUE(std::ranges::any_of(grid.boundaries, [](const Boundary& b) { return b.role == BoundaryRole::Open; }));
 }
 
-// gis/model/boundary_edges.hpp: The same decision for any boundary, before there is a mesh.
+// gis/model/boundary_edges.hpp: Kinds of the boundary edges of a mesh, or of a domain before meshing.
 TEST_F(GisGridExamples, BoundaryEdges) {
   //! [gis/model/boundary_edges.hpp]
   const Crs crs = parseCrs("EPSG:32635");
@@ -202,7 +202,7 @@ TEST_F(GisGridExamples, BoundaryEdges) {
   EXPECT_EQ(mergeShort({crs, corners, z}, 2000.0, boundary), 1u);
 }
 
-// gis/model/boundary_rules.hpp: Types of the boundary from polygons and lines, read once for any number of grids.
+// gis/model/boundary_rules.hpp: Boundary types from polygons and lines, read once for any number of grids.
 TEST_F(GisGridExamples, BoundaryRules) {
   reference::WorkFolder::write("types.geojson", R"({"type": "Feature", "properties": {"type": "tidal"}, "geometry":
       {"type": "LineString", "coordinates": [[0, 0], [10, 0]]}})");
@@ -221,7 +221,7 @@ TEST_F(GisGridExamples, BoundaryRules) {
 TEST_F(GisGridExamples, CheckTarget) {
   //! [gis/model/check_target.hpp]
   Grid grid = squares();
-  std::swap(grid.triangles[3][0], grid.triangles[3][1]);  // now it goes clockwise
+  std::swap(grid.triangles[3][0], grid.triangles[3][1]);  // now clockwise
   std::vector<std::string_view> found;
   for (const TargetDefect& defect : checkTarget(grid, Target::Adcirc)) found.push_back(toString(defect.kind));
   //! [gis/model/check_target.hpp]
@@ -247,7 +247,7 @@ TEST_F(GisGridExamples, Depth) {
   EXPECT_GT(grid.z[24], grid.z[0]);
 }
 
-// gis/model/target.hpp: Models that a grid may be for.
+// gis/model/target.hpp: The models that a grid may be made for.
 TEST_F(GisGridExamples, Target) {
   //! [gis/model/target.hpp]
   const std::vector<Target> targets = targetsNamed({"schism", "adcirc", "schism"});
@@ -256,7 +256,7 @@ TEST_F(GisGridExamples, Target) {
   EXPECT_THROW(targetsNamed({"no model"}), OptionError);
 }
 
-// gis/model/time_step.hpp: The time step that a grid leaves to an explicit model.
+// gis/model/time_step.hpp: The time step that a grid allows an explicit model.
 TEST_F(GisGridExamples, TimeStep) {
   const Grid grid = squares();
   //! [gis/model/time_step.hpp]
@@ -267,19 +267,19 @@ TEST_F(GisGridExamples, TimeStep) {
   EXPECT_EQ(too_short.size(), grid.triangles.size());
 }
 
-// gis/raster/raster_axes.hpp: Where the pixels of a raster lie whose axes are not even.
+// gis/raster/raster_axes.hpp: Positions of pixels in a raster with uneven axes.
 TEST_F(GisGridExamples, RasterAxes) {
   //! [gis/raster/raster_axes.hpp]
   const RasterAxis rows{"lat", "degrees_north", "latitude", {10.0, 10.9, 11.7, 12.4}};
-  const double step = (12.4 - 10.0) / 3.0;  // as GDAL has it
+  const double step = (12.4 - 10.0) / 3.0;  // as reported by GDAL
   const auto axis = UnevenAxis::from(rows, step, "bed.nc");
   const double pixel = axis->pixelOf((10.9 - 10.0) / step + 0.5);  // of a place at 10.9 degrees
   //! [gis/raster/raster_axes.hpp]
-  EXPECT_NEAR(pixel, 1.5, 1e-9);  // the middle of the second
+  EXPECT_NEAR(pixel, 1.5, 1e-9);  // the centre of the second pixel
   EXPECT_TRUE(rows.isLatitude());
 }
 
-// gis/raster/raster_band.hpp: A raster's first band, a window at a time.
+// gis/raster/raster_band.hpp: The first band of a raster, read in windows.
 TEST_F(GisGridExamples, RasterBand) {
   reference::WorkFolder::write("bed.asc",
                                "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 10\nNODATA_value -9999\n"
@@ -294,17 +294,17 @@ TEST_F(GisGridExamples, RasterBand) {
   EXPECT_EQ(pixel, (Point{1.5, 1.5}));
 }
 
-// gis/repair/repair_options.hpp: What repairs are to keep.
+// gis/repair/repair_options.hpp: The properties that repairs should keep.
 TEST_F(GisGridExamples, RepairOptions) {
   //! [gis/repair/repair_options.hpp]
   RepairOptions options;
-  options.min_angle_deg = 33.0;  // what the mesh keeps, and repairs should
+  options.min_angle_deg = 33.0;  // met by the mesh, and to be kept by repairs
   options.time_step_s = 20.0;
   //! [gis/repair/repair_options.hpp]
   EXPECT_FALSE(options.shore_moves);
 }
 
-// gis/repair/repair_report.hpp: What was mended, and what could not be.
+// gis/repair/repair_report.hpp: What was repaired, and what could not be.
 TEST_F(GisGridExamples, RepairReport) {
   Grid grid = squares();
   std::swap(grid.triangles[3][0], grid.triangles[3][1]);
@@ -318,7 +318,7 @@ TEST_F(GisGridExamples, RepairReport) {
   EXPECT_TRUE(report.left.empty());
 }
 
-// gis/repair/repair_target.hpp: A grid changed as little as models need.
+// gis/repair/repair_target.hpp: Changes a grid as little as models require.
 TEST_F(GisGridExamples, RepairTarget) {
   //! [gis/repair/repair_target.hpp]
   Grid grid = squares();
@@ -331,7 +331,7 @@ TEST_F(GisGridExamples, RepairTarget) {
   EXPECT_TRUE(checkTarget(grid, Target::Schism).empty());
 }
 
-// gis/solver/mesh_graph.hpp: What a solver works on, and what has to talk to what.
+// gis/solver/mesh_graph.hpp: A solver's units of work, and the communication between them.
 TEST_F(GisGridExamples, MeshGraph) {
   const Grid grid = squares();
   //! [gis/solver/mesh_graph.hpp]
@@ -343,7 +343,7 @@ TEST_F(GisGridExamples, MeshGraph) {
   EXPECT_EQ(nodes.size(), 25u);
 }
 
-// gis/solver/partition_graph.hpp: A graph dealt out in parts of the same work.
+// gis/solver/partition_graph.hpp: A graph divided into parts of equal work.
 TEST_F(GisGridExamples, PartitionGraph) {
   //! [gis/solver/partition_graph.hpp]
   const MeshGraph graph = elementGraph(squares());
@@ -355,7 +355,7 @@ TEST_F(GisGridExamples, PartitionGraph) {
   EXPECT_LE(figures.balance, kMostImbalance);
 }
 
-// gis/solver/partition_grid.hpp: A grid dealt out to the processes of a solver.
+// gis/solver/partition_grid.hpp: A grid divided among the processes of a solver.
 TEST_F(GisGridExamples, PartitionGrid) {
   //! [gis/solver/partition_grid.hpp]
   Grid grid = squares();

@@ -1,4 +1,4 @@
-// Examples of the headers in gis/size and apps/job: each is run as a test, and shown in the API reference.
+// Examples of the headers in gis/size and apps/job: each is run as a test and shown in the API reference.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -58,8 +58,8 @@ TEST_F(JobExamples, SizeDepth) {
   const DepthRules tide;  // the M2 tide
   const double wavelength_m = wavelengthOf(tide.period_s, 4000.0);
   DepthRules rules;
-  rules.wave_elements = 300.0;             // elements a wavelength
-  rules.bands = {{0.0, 10.0, 200.0}};      // and 200 m where it is less than 10 m deep
+  rules.wave_elements = 300.0;             // elements per wavelength
+  rules.bands = {{0.0, 10.0, 200.0}};      // and 200 m where the depth is below 10 m
   const TileRule rule = depthRule(rules);  // for a RasterField
   //! [gis/size/size_depth.hpp]
   EXPECT_NEAR(wavelength_m, tide.period_s * std::sqrt(9.81 * 4000.0), 0.01 * wavelength_m);
@@ -77,7 +77,7 @@ TEST_F(JobExamples, SizeDistance) {
   EXPECT_NEAR(sizeAt(field, {500, 300}), 80.0, 1e-9);
 }
 
-// gis/size/size_features.hpp: Sizes that a vector layer's features ask for.
+// gis/size/size_features.hpp: Sizes requested by the features of a vector layer.
 TEST_F(JobExamples, SizeFeatures) {
   reference::WorkFolder::write("wanted.geojson", R"({"type": "Feature", "properties": {"size": 25}, "geometry":
       {"type": "Point", "coordinates": [100, 100]}})");
@@ -90,7 +90,7 @@ TEST_F(JobExamples, SizeFeatures) {
   EXPECT_EQ(features.parts[0].rate, 0.2);
 }
 
-// gis/size/size_field.hpp: One reason for a size.
+// gis/size/size_field.hpp: One source of sizes.
 TEST_F(JobExamples, SizeField) {
   //! [gis/size/size_field.hpp]
   class Western final : public SizeField {  // 100 m west of 0, nothing east of it
@@ -130,7 +130,7 @@ TEST_F(JobExamples, SizeRule) {
   EXPECT_NEAR(sizeAt(field, {200, 200}), 60.0, 0.1);
 }
 
-// gis/size/gap_fill.hpp: What stands for depths where no raster has one.
+// gis/size/gap_fill.hpp: The depth assumed where no raster has one.
 TEST_F(JobExamples, GapFill) {
   //! [gis/size/gap_fill.hpp]
   SizeOptions options;
@@ -139,7 +139,7 @@ TEST_F(JobExamples, GapFill) {
   EXPECT_NE(options.gaps, SizeOptions{}.gaps);
 }
 
-// gis/size/size_source.hpp: All that users ask of sizes, as one function of the plane.
+// gis/size/size_source.hpp: All requested sizes as one function on the plane.
 TEST_F(JobExamples, SizeSource) {
   //! [gis/size/size_source.hpp]
   const JobInput input({.files = {"lake.geojson"}});
@@ -174,7 +174,7 @@ TEST_F(JobExamples, MeshJob) {
   EXPECT_TRUE(std::filesystem::exists("lake.nc"));
 }
 
-// apps/job/mesh_job_options.hpp: What to mesh, and how; and how a job talks to whoever started it.
+// apps/job/mesh_job_options.hpp: What to mesh and how, and communication with the caller.
 TEST_F(JobExamples, MeshJobOptions) {
   //! [apps/job/mesh_job_options.hpp]
   MeshJob job;
@@ -192,11 +192,11 @@ TEST_F(JobExamples, MeshJobOptions) {
   EXPECT_LE(result.quality.longest_edge, 501.0);
 }
 
-// apps/job/mesh_job_result.hpp: The grid, and what was done to make it.
+// apps/job/mesh_job_result.hpp: The grid, and how it was made.
 TEST_F(JobExamples, MeshJobResult) {
   //! [apps/job/mesh_job_result.hpp]
   const MeshJobResult result = meshedLake();
-  const bool as_asked = result.complete();  // nothing refused, every bound held
+  const bool as_asked = result.complete();  // nothing refused, all bounds met
   const double least_angle = result.quality.min_angle_deg;
   const std::uint64_t digest = result.digest;  // the same for any number of threads
   //! [apps/job/mesh_job_result.hpp]
@@ -205,7 +205,7 @@ TEST_F(JobExamples, MeshJobResult) {
   EXPECT_EQ(digest, meshedLake().digest);
 }
 
-// apps/job/job_input.hpp: What to read, and how it becomes domains of the plane.
+// apps/job/job_input.hpp: What to read, and the domains in the plane made from it.
 TEST_F(JobExamples, JobInput) {
   //! [apps/job/job_input.hpp]
   InputOptions options;
@@ -237,7 +237,7 @@ TEST_F(JobExamples, FinishGrid) {
   EXPECT_TRUE(report.repairs.left.empty());
 }
 
-// apps/job/group_exchange.hpp: Groups of features meshed apart, as shards of a large job are.
+// apps/job/group_exchange.hpp: Groups of features that are meshed separately, as in shards of a large job.
 TEST_F(JobExamples, GroupExchange) {
   //! [apps/job/group_exchange.hpp]
   std::mutex mutex;
@@ -253,7 +253,7 @@ TEST_F(JobExamples, GroupExchange) {
   EXPECT_EQ(kept, 1u);
 }
 
-// apps/job/step_outcome.hpp: What a finished grid is for a model's time step.
+// apps/job/step_outcome.hpp: Time step and shortest edges of a finished grid, compared with those requested.
 TEST_F(JobExamples, StepOutcome) {
   Grid grid = meshedLake().grid;
   grid.z.assign(grid.nodes.size(), -30.0);

@@ -1,4 +1,4 @@
-// Examples of the headers in core/refine, core/size, core/sphere and parallel: each is run as a test, and shown in the
+// Examples of the headers in core/refine, core/size, core/sphere and parallel: each is run as a test and shown in the
 // API reference.
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ Pslg bay() {
   return bay;
 }
 
-// core/refine/refine.hpp: From a triangulation to a mesh whose angles hold the bounds.
+// core/refine/refine.hpp: From a triangulation to a mesh whose angles meet the bounds.
 TEST(RefineExamples, Refine) {
   const Pslg pslg = bay();
   //! [core/refine/refine.hpp]
@@ -42,7 +42,7 @@ TEST(RefineExamples, Refine) {
   TriMesh mesh = constrainedDelaunay(pslg);
   RefineStats stats = refine(mesh, pslg, options);
   const std::size_t refined = mesh.points.size();
-  stats.unresolved = coarsen(mesh, pslg, options).unresolved;  // takes out what the bounds do not need
+  stats.unresolved = coarsen(mesh, pslg, options).unresolved;  // removes vertices that the bounds do not need
   //! [core/refine/refine.hpp]
   EXPECT_LE(mesh.points.size(), refined);
   EXPECT_GT(mesh.points.size(), pslg.points.size());
@@ -50,7 +50,7 @@ TEST(RefineExamples, Refine) {
   EXPECT_TRUE(stats.unresolved.empty());
 }
 
-// core/refine/refine_options.hpp: What is asked of a refined mesh, and what a run did.
+// core/refine/refine_options.hpp: Requirements on a refined mesh, and statistics of a run.
 TEST(RefineExamples, RefineOptions) {
   //! [core/refine/refine_options.hpp]
   const ConstantSize size(0.5);
@@ -73,7 +73,7 @@ TEST(RefineExamples, RefineOptions) {
   EXPECT_EQ(boundOf(options).size, &size);
 }
 
-// core/refine/check.hpp: Everything that is wrong with a mesh, found by other means than those that made it.
+// core/refine/check.hpp: All defects of a mesh, found independently of the code that made it.
 TEST(RefineExamples, Check) {
   const Pslg pslg = bay();
   TriMesh mesh = constrainedDelaunay(pslg);
@@ -86,7 +86,7 @@ TEST(RefineExamples, Check) {
   EXPECT_TRUE(defects.empty());
 }
 
-// core/refine/mesh_defect.hpp: What may be wrong with a mesh.
+// core/refine/mesh_defect.hpp: Possible defects of a mesh.
 TEST(RefineExamples, MeshDefect) {
   const Pslg pslg = bay();
   //! [core/refine/mesh_defect.hpp]
@@ -99,21 +99,21 @@ TEST(RefineExamples, MeshDefect) {
   EXPECT_NE(std::ranges::find(found, "triangle not counter-clockwise"), found.end());
 }
 
-// core/refine/vertex_notes.hpp: What refinement knows of vertices besides their places.
+// core/refine/vertex_notes.hpp: Data of refinement on vertices besides their positions.
 TEST(RefineExamples, VertexNotes) {
   const Pslg pslg = bay();
   //! [core/refine/vertex_notes.hpp]
   RefineOptions options;
   TriMesh mesh = constrainedDelaunay(pslg);
   VertexNotes notes = noteInput(mesh, boundOf(options));
-  const double room = notes.spacing[4];  // no more than to the nearest edge that does not end there
+  const double room = notes.spacing[4];  // at most the distance to the nearest edge that does not end there
   refine(mesh, pslg, options, std::move(notes));
   //! [core/refine/vertex_notes.hpp]
   EXPECT_GT(room, 0.0);
   EXPECT_LE(room, 1.0 + 1e-12);
 }
 
-// core/size/size_box.hpp: A square of the plane that sizes are asked for.
+// core/size/size_box.hpp: A square in the plane, for queries of sizes.
 TEST(RefineExamples, SizeBox) {
   //! [core/size/size_box.hpp]
   const SizeBox box{{10.0, 20.0}, 0.5};  // from 9.5 to 10.5, and from 19.5 to 20.5
@@ -121,7 +121,7 @@ TEST(RefineExamples, SizeBox) {
   EXPECT_EQ(box.centre.x - box.half, 9.5);
 }
 
-// core/size/size_tree.hpp: Any source of sizes as a size function that changes gently.
+// core/size/size_tree.hpp: Makes a size function with bounded gradation from any source of sizes.
 TEST(RefineExamples, SizeTree) {
   //! [core/size/size_tree.hpp]
   class FineInTheMiddle final : public SizeSource {  // 0.1 within a distance of 1, 2 elsewhere
@@ -150,7 +150,7 @@ TEST(RefineExamples, SizeTree) {
   EXPECT_GT(sizes.at({9, 9}), 1.0);
 }
 
-// core/sphere/close_sphere.hpp: The ring that a mesh of a whole sphere leaves open, and what closes it.
+// core/sphere/close_sphere.hpp: The ring that a mesh of a whole sphere leaves open, and the cap that closes it.
 TEST(RefineExamples, CloseSphere) {
   //! [core/sphere/close_sphere.hpp]
   const Surface globe = Surface::sphere(1.0);
@@ -166,7 +166,7 @@ TEST(RefineExamples, CloseSphere) {
   EXPECT_EQ(eulerNumber(mesh), 2);
 }
 
-// parallel/mesh_regions.hpp: A region triangulated, refined and coarsened by all threads at hand.
+// parallel/mesh_regions.hpp: A region triangulated, refined and coarsened on all available threads.
 TEST(RefineExamples, MeshRegions) {
   const Pslg pslg = bay();
   //! [parallel/mesh_regions.hpp]
@@ -179,7 +179,7 @@ TEST(RefineExamples, MeshRegions) {
   EXPECT_EQ(region.pieces, 1u);
 }
 
-// parallel/work_log.hpp: What a run did, and how long it would take with other numbers of threads.
+// parallel/work_log.hpp: The work of a run, and how long it would take with other numbers of threads.
 TEST(RefineExamples, WorkLog) {
   //! [parallel/work_log.hpp]
   WorkLog log;
@@ -192,7 +192,7 @@ TEST(RefineExamples, WorkLog) {
   EXPECT_EQ(log.work(), 14.0);
 }
 
-// parallel/workers.hpp: Threads, and loops that they share.
+// parallel/workers.hpp: Threads, and loops shared among them.
 TEST(RefineExamples, Workers) {
   //! [parallel/workers.hpp]
   ParallelOptions options;

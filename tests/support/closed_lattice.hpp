@@ -10,14 +10,14 @@
 
 namespace coastmesh {
 
-// The cap of a lattice round its pole.
+// The cap around the pole of a lattice.
 inline SphereCap latticeCap(std::span<const SpacePoint> places, const Surface& surface) {
   std::vector<Point> ring;
   for (const SpacePoint& p : places.subspan(kLatticePole, kLatticeRing)) ring.push_back(planeOf(p, surface));
   return sphereCap(surface, std::move(ring));
 }
 
-// The triangles of a lattice, closed; the ring of the pole comes first, the pole last.
+// The triangles of a closed lattice; the ring around the pole comes first, the pole last.
 inline TriMesh closedLattice(const SphereLattice& lattice, const Surface& surface) {
   const std::vector<SpacePoint> places = placesOf(lattice);
   const SphereCap cap = latticeCap(places, surface);

@@ -11,13 +11,13 @@
 
 namespace coastmesh::testing {
 
-// Overwrites one of the pages with rows of a GeoPackage that hold the text `mark`. OGR ends the layer there, and says
-// so only in a message. The file must be closed, and such pages several.
+// Overwrites one of the pages of a GeoPackage with rows that contain the text `mark`. OGR then ends the layer there and
+// only emits a message. REQUIRES: the file is closed and has more than four such pages.
 inline void damageRowsWith(std::string_view mark, const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::string bytes{std::istreambuf_iterator<char>(file), {}};
   constexpr std::size_t kPage = 4096;   // GDAL's
-  constexpr char kLeafOfATable = 0x0d;  // of SQLite's format
+  constexpr char kLeafOfATable = 0x0d;  // in SQLite's format
   std::vector<std::size_t> pages;
   for (std::size_t at = 0; at + kPage <= bytes.size(); at += kPage) {
     const std::string_view page = std::string_view(bytes).substr(at, kPage);

@@ -6,8 +6,8 @@
 
 namespace coastmesh {
 
-// Area that each feature keeps in the plane, by the even-odd rule and "first come, first served": slab by slab between
-// all vertices and all crossings, from the coordinates as given. Slow (quadratic and more); for tests.
+// The area in the plane that each feature keeps by the even-odd rule, with earlier features taking precedence: sums
+// slabs between all vertices and all crossings, from the coordinates as given. Quadratic or slower; for tests.
 std::vector<double> evenOddAreas(const std::vector<Feature>& features);
 
 }  // namespace coastmesh

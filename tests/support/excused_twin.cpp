@@ -21,7 +21,7 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 
 double direction(const Point& from, const Point& to) { return std::atan2(to.y - from.y, to.x - from.x); }
 
-// From one direction counter-clockwise to another, 0 to a full turn.
+// The counter-clockwise angle from one direction to another, 0 to a full turn.
 double turn(double from, double to) {
   const double by = std::fmod(to - from, kTurn);
   return by < 0.0 ? by + kTurn : by;
@@ -29,7 +29,7 @@ double turn(double from, double to) {
 
 double length(const Point& a, const Point& b) { return std::hypot(b.x - a.x, b.y - a.y); }
 
-// In long doubles: the point may lie a millionth of the segment's length from it.
+// In long doubles, since the point may be a millionth of the segment's length away.
 double lengthToSegment(const Point& p, const Point& a, const Point& b) {
   const long double ax = a.x, ay = a.y, x = b.x - ax, y = b.y - ay, ab = std::hypot(x, y);
   const long double along = ((p.x - ax) * x + (p.y - ay) * y) / ab;
@@ -38,7 +38,8 @@ double lengthToSegment(const Point& p, const Point& a, const Point& b) {
   return static_cast<double>(std::abs(x * (p.y - ay) - y * (p.x - ax)) / ab);
 }
 
-// Whether some number of equal pieces lies within the bounds, which refinement takes a millionth of a degree stricter.
+// True if some number of equal parts of the gap meets the bounds, which refinement takes a millionth of a degree
+// stricter.
 bool canBeCut(double gap, double min_angle_deg, double max_angle_deg) {
   const double least = min_angle_deg > 0.0 ? (min_angle_deg + 1e-6) * kDegree : 0.0;
   const double most =
@@ -67,15 +68,15 @@ Point centreOf(const TriMesh& mesh, TriId t) {
 
 bool ExcusedTwin::fills(TriId t, VertexId apex, double from, double gap) const {
   const auto& v = mesh_.triangles[t].v;
-  Point way;  // to the triangle's middle
+  Point way;  // to the triangle's centroid
   for (const VertexId w : v) way = way + (mesh_.points[w] - mesh_.points[apex]);
   return std::ranges::find(v, apex) != v.end() && turn(from, direction({}, way)) < gap;
 }
 
 ExcusedTwin::ExcusedTwin(const TriMesh& mesh, const Pslg& pslg, double min_angle_deg, double max_angle_deg)
     : mesh_(mesh) {
-  // What of the input is in the mesh; of each constraint the ways along it with triangles to their left. Points alone
-  // have a boundary that is no segment.
+  // The input that is in the mesh. `ways`: the directed constraints that have triangles to their left. An input of
+  // points alone has a boundary without segments.
   std::set<std::pair<VertexId, VertexId>> walls, ways;
   std::set<VertexId> used;
   for (TriId t = 0; t < mesh.triangles.size(); ++t) {
@@ -102,7 +103,7 @@ ExcusedTwin::ExcusedTwin(const TriMesh& mesh, const Pslg& pslg, double min_angle
   }
   for (auto& [apex, out] : directions) {
     std::ranges::sort(out);
-    // Directions that doubles do not tell apart.
+    // Directions that are equal in double precision.
     constexpr double kSame = 1e-12;
     for (std::size_t k = 0; k + 1 < out.size(); ++k)
       if (out[k + 1].first - out[k].first < kSame &&
@@ -138,8 +139,8 @@ Excuse ExcusedTwin::excuseOf(TriId t) const {
 
 std::string wrongBoundViolations(const TriMesh& mesh, const Pslg& pslg, const RefineOptions& options,
                                  const std::vector<BoundViolation>& listed) {
-  constexpr double kHair = 1e-5;  // degrees, or of the longest edge asked for in hundredths
-  // Thinner triangles lie on both sides of what bounds them, for rounding.
+  constexpr double kHair = 1e-5;  // degrees, or hundredths of the longest edge allowed
+  // Because of rounding, thinner triangles may lie on both sides of their bounds.
   constexpr double kThin = 1e-6;
   std::multiset<std::pair<double, double>> places;
   for (const BoundViolation& s : listed) places.emplace(s.place.x, s.place.y);

@@ -11,8 +11,8 @@
 
 namespace coastmesh {
 
-// What InputCorners says of a mesh of ours, once more from its definition, by other means and in no hurry: every
-// constraint is looked at for every apex, every apex for every triangle.
+// The results of InputCorners for a mesh with a known input, computed independently from the definition, and slowly:
+// considers every constraint for every apex, and every apex for every triangle.
 class ExcusedTwin {
  public:
   ExcusedTwin(const TriMesh& mesh, const Pslg& pslg, double min_angle_deg, double max_angle_deg);
@@ -23,7 +23,7 @@ class ExcusedTwin {
  private:
   struct Corner {
     VertexId apex;
-    double from, gap;  // directions in radians: from that of one constraint up to the next
+    double from, gap;  // angles in radians: direction of one constraint, and the turn to the next
     double size;       // the local feature size
   };
   bool fills(TriId t, VertexId apex, double from, double gap) const;
@@ -32,9 +32,8 @@ class ExcusedTwin {
   std::vector<Corner> corners_;
 };
 
-// What is wrong with the bound violations listed for a mesh: a triangle that clearly falls short of `options`, that
-// nothing excuses, and that is not listed; or one listed that clearly holds them, or is excused. Empty where all is
-// right.
+// Describes errors in the list of bound violations: a triangle that clearly violates `options`, is not excused and not
+// listed; or one that is listed but clearly meets them or is excused. Empty if the list is right.
 std::string wrongBoundViolations(const TriMesh& mesh, const Pslg& pslg, const RefineOptions& options,
                                  const std::vector<BoundViolation>& listed);
 

@@ -8,30 +8,30 @@
 
 namespace coastmesh {
 
-// Small coasts for tests of what follows them, by their shapes, and what is measured of the result.
+// Small coasts for tests of coasts that follow sizes, and measures of the results.
 
 Coastline oneFeature();
 
-// A regular polygon, its odd vertices farther out by the share `wiggle`.
+// Adds a regular polygon with odd vertices moved outward by the share `wiggle`.
 void addRing(Domain& domain, const Point& centre, double radius, int points, bool is_island, double wiggle = 0.0);
 
-// A ring of shore round water, counter-clockwise, or round an island, clockwise.
+// Adds a ring of shore: counter-clockwise around water, clockwise around an island.
 void addShore(Domain& domain, const std::vector<Point>& ring);
 
-// Two square lakes of side 20 with a channel between them, 10 long and so wide.
+// Two square lakes with sides of 20, joined by a channel 10 long and `width` wide.
 Domain twoLakes(double width);
 
 std::size_t countOf(const CleanReport& report, EditKind kind);
 
 double areaOf(const Domain& domain);
 
-// Adds the sentences on waters to the report's notes and warnings, as after the only group of features.
+// Adds the notes and warnings on waters to the report, as after the only group of features.
 void addWaterNotes(CleanReport& report, const FollowOptions& options);
 
-// How many waters there are that nothing joins.
+// The number of connected waters.
 std::size_t parts(const Domain& domain);
 
-// The least distance of a segment from a vertex that is not its own.
+// The smallest distance between a segment and a vertex that is not one of its ends.
 double leastApart(const Domain& domain);
 
 }  // namespace coastmesh

@@ -5,7 +5,7 @@
 
 namespace coastmesh::testing {
 
-// A loop that takes its items from the last to the first: what depends on the order of work shows.
+// A loop over its items from last to first, which exposes dependence on the order of work.
 inline void backwards(std::size_t count, const std::function<void(std::size_t)>& work) {
   while (count > 0) work(--count);
 }

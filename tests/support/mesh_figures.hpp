@@ -11,10 +11,10 @@ namespace coastmesh {
 
 std::map<RegionId, double> areasByRegion(const TriMesh& mesh);
 
-// Triangles by the places of their corners, free of numbering.
+// Triangles as sets of corner coordinates, independent of numbering.
 std::set<std::set<std::pair<double, double>>> trianglesByPlace(const TriMesh& mesh);
 
-// What `mesh.release()` gives, all of region 0; the mesh itself stays.
+// The result of `mesh.release()` on a copy of the mesh, with all triangles in region 0.
 TriMesh releasedCopy(EditMesh mesh);
 
 }  // namespace coastmesh

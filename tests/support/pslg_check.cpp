@@ -21,7 +21,7 @@ int exactTurn(const Point& a, const Point& b, const Point& c) {
 
 bool between(double v, double p, double q) { return std::min(p, q) <= v && v <= std::max(p, q); }
 
-// v on the closed segment ab.
+// True if v is on the closed segment ab.
 bool onSegment(const Point& a, const Point& b, const Point& v) {
   return between(v.x, a.x, b.x) && between(v.y, a.y, b.y) && exactTurn(a, b, v) == 0;
 }
@@ -70,7 +70,7 @@ std::string meetingDefect(const Pslg& pslg) {
   return {};
 }
 
-// An end of a segment, seen from a vertex: labels counter-clockwise and clockwise of it.
+// An end of a segment seen from a vertex: the labels counter-clockwise and clockwise of the segment.
 struct Spoke {
   Point to;
   RegionId after, before;

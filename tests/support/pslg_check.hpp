@@ -6,11 +6,11 @@
 
 namespace coastmesh {
 
-// The requirements of core/pslg.hpp and the agreement of labels around each vertex, tested naively and in rational
-// arithmetic, with nothing in common with the code under test. Empty, or what is wrong.
+// Checks the requirements of core/pslg.hpp and the agreement of labels around each vertex, naively and in rational
+// arithmetic, independently of the code under test. Returns the first defect; empty if there is none.
 std::string defectOfLabelled(const Pslg& pslg);
 
-// Area of the places labelled `region`, by the labels of the segments alone.
+// The area labelled `region`, from the labels of the segments alone.
 double labelledArea(const Pslg& pslg, RegionId region);
 
 }  // namespace coastmesh

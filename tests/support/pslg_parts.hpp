@@ -8,7 +8,7 @@ namespace coastmesh {
 
 VertexId addPoint(Pslg& pslg, const Point& p);
 
-// Tagged by its number, from 1 on.
+// The tag is the number of the segment, counted from 1.
 void addSegment(Pslg& pslg, VertexId a, VertexId b, RegionId left, RegionId right);
 
 void closeRing(Pslg& pslg, const std::vector<VertexId>& ring, RegionId left, RegionId right);

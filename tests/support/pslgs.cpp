@@ -24,8 +24,9 @@ void addRandomPoints(Pslg& pslg, std::mt19937_64& random, int n) {
   }
 }
 
-// A hexagon broken up. Every edge stays in the rhombus of half angle 30° over it: the four edges that replace it have
-// theirs inside that one and apart from one another as long as the tip lies within 0.2 of the base. So no two meet.
+// A hexagon with subdivided edges. Every edge stays in the rhombus of half angle 30° around it: the rhombi of the four
+// edges that replace it lie inside and apart from one another if the tip is within 0.2 of the base. So no two edges
+// meet.
 std::vector<Point> fractalRing(std::mt19937_64& random, const Point& centre, double radius, int levels) {
   constexpr double kHighestTip = 0.2;
   std::vector<Point> ring;
@@ -114,7 +115,7 @@ Pslg fractalCoast(unsigned seed, int levels, int islands) {
   std::mt19937_64 random(seed);
   Pslg pslg;
   addRing(pslg, fractalRing(random, {}, 1.0, levels), 0, kOutside);
-  // The coast keeps clear of a disk of this radius, and a ring stays within this multiple of its own.
+  // The coast stays outside a disk of this radius, and a ring stays within this multiple of its own radius.
   constexpr double kClear = 0.57, kReach = 1.16;
   std::vector<std::pair<Point, double>> placed;
   for (int tries = 0; tries < 100 * islands && std::ssize(placed) < islands; ++tries) {

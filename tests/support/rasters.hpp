@@ -17,7 +17,7 @@ struct RasterShape {
 
 inline constexpr double kNoValue = -9999.0;
 
-// A GeoTIFF of doubles that holds `value(x, y)` of each pixel's centre, kNoValue being its nodata.
+// Writes a GeoTIFF of doubles that holds `value(x, y)` at each pixel's centre, with kNoValue as its nodata value.
 void writeRaster(const std::string& path, const std::string& crs, const RasterShape& shape,
                  const std::function<double(double x, double y)>& value);
 

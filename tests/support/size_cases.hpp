@@ -9,7 +9,7 @@
 
 namespace coastmesh {
 
-// A polygon of a few long sides, so that the input does not force edges shorter than wanted.
+// A polygon with a few long sides, so that the input does not force edges shorter than requested.
 inline Pslg wideLake() {
   Pslg pslg;
   pslg.points = {{0.0, 0.0}, {2.03, 0.1}, {2.4, 1.3}, {1.1, 2.01}, {-0.2, 1.2}};

@@ -9,7 +9,7 @@
 
 namespace coastmesh {
 
-// A size function from any other, for tests.
+// A size function made from any function, for tests.
 class SizeOf final : public SizeFunction {
  public:
   SizeOf(double least, double most, std::function<double(const Point&)> f)
@@ -24,10 +24,10 @@ class SizeOf final : public SizeFunction {
   std::function<double(const Point&)> f_;
 };
 
-// How near a mesh comes to the lengths wanted.
+// How closely a mesh meets the requested lengths.
 struct SizeFigures {
-  double median = 0.0;          // of an edge's length over the length wanted at its middle
-  double share_within = 0.0;    // of the edges: 0.7 to 1.4 of what is wanted
+  double median = 0.0;          // of edge length over requested length at the edge's middle
+  double share_within = 0.0;    // of edges with 0.7 to 1.4 times the requested length
   double vertices_share = 0.0;  // of the integral of 2 / (sqrt(3) h²), the fewest that equilateral triangles need
 };
 SizeFigures sizeFigures(const TriMesh& mesh, const SizeFunction& size);

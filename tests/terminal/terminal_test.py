@@ -165,7 +165,7 @@ _coastmesh; printf '%s\\n' "${{COMPREPLY[@]}}" """
     def test_zsh(self):
         if not shutil.which("zsh"):
             self.skipTest("there is no zsh")
-        # Completion asked for at a prompt of its own.
+        # Requests completion at the prompt of an interactive shell.
         script = f"""zmodload zsh/zpty
 zpty shell 'zsh -f -i'
 zpty -w shell "PS1='READY> '; fpath=({USAGE}/zsh $fpath); autoload -Uz compinit; compinit -u -D; print LOADED"

@@ -18,12 +18,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What is noted stays noted, so each test runs in a process of its own.
+// A noted failure is never reset, so each test runs in a process of its own.
 class MemoryLackedDeathTest : public testing::Test {
  protected:
   void SetUp() override {
     GTEST_FLAG_SET(death_test_style, "threadsafe");
-    // The same in the process that is started for a death test.
+    // The name is the same in the process that a death test starts.
     const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
     folder_ = fs::path(testing::TempDir()) / ("memory_lacked_" + name);
     fs::create_directories(folder_);
@@ -40,7 +40,7 @@ class MemoryLackedDeathTest : public testing::Test {
   fs::path folder_;
 };
 
-// 0 where outputs came into place, 3 where they were refused for memory.
+// Returns 0 if the output was moved into place, 3 if it was refused for lack of memory, 1 otherwise.
 int commitAfter(const std::string& path, bool lacked) {
   Interrupt interrupt;
   RunOutputs outputs(true, {}, interrupt);
@@ -51,7 +51,7 @@ int commitAfter(const std::string& path, bool lacked) {
   } catch (const std::bad_alloc&) {
     return memoryLackedForOutputs() ? 3 : 1;
   }
-  noteMemoryLacked();  // too late to harm anything
+  noteMemoryLacked();  // too late to harm the output
   return memoryLacked() && !memoryLackedForOutputs() ? 0 : 1;
 }
 
@@ -65,7 +65,7 @@ TEST_F(MemoryLackedDeathTest, AnAllocationThatFailsAfterwardsChangesNothing) {
   EXPECT_EQ(content(), "after");
 }
 
-// `check` without an output, `info`: what they print is the result.
+// `check` without an output and `info`: the printed text is the result.
 TEST_F(MemoryLackedDeathTest, ARunWithoutOutputsLacksItToItsEnd) {
   const auto run = [] {
     Interrupt interrupt;

@@ -13,7 +13,7 @@ namespace coastmesh {
 
 namespace {
 
-// More than what is read of it at first.
+// The header is longer than the part of the file that is read first.
 TEST(ShardFile, AHeaderMayNameThousandsOfInputs) {
   const testing::TemporaryFolder folder;
   const std::string path = folder / "a.shard";

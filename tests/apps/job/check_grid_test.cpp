@@ -12,7 +12,7 @@ namespace coastmesh {
 
 namespace {
 
-// A strip of n by 1 squares of two triangles each, in degrees, from (west, south).
+// Adds n by 1 squares of two triangles each, in degrees, with lower left corner (west, south).
 void addStrip(Grid& grid, double west, double south, double side, std::uint32_t squares) {
   const auto base = static_cast<std::uint32_t>(grid.nodes.size());
   for (std::uint32_t i = 0; i <= squares; ++i) {
@@ -70,7 +70,7 @@ TEST(GridPieces, PiecesPointBackToTheGrid) {
         EXPECT_EQ(piece.nodes[piece.mesh.triangles[t].v[i]], grid.triangles[piece.triangles[t]][i]);
       }
     }
-    // Near the equator a square degree is a square: its half has the angles 45, 45 and 90.
+    // Near the equator degrees are equally long: half a square has the angles 45, 45 and 90.
     EXPECT_NEAR(measureQuality(piece.mesh, 0.0).min_angle_deg, 45.0, 0.5);
   }
 }

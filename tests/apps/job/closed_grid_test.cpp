@@ -1,4 +1,4 @@
-// Grids of the whole globe, read back: one triangle is turned from any plane.
+// Grids of the whole globe: in any plane one triangle would be turned over.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -16,7 +16,7 @@ std::vector<std::size_t> loadsOf(const std::vector<std::size_t>& points, const s
   return loads;
 }
 
-// As many lakes of each size as there are of the world's: many small ones, few large.
+// Sizes are distributed like those of the world's lakes: many small ones, few large ones.
 TEST(DealGroups, SharesAreOfLikeWork) {
   std::mt19937_64 random(7);
   std::vector<std::size_t> points;
@@ -31,7 +31,7 @@ TEST(DealGroups, SharesAreOfLikeWork) {
   }
 }
 
-// Of one large group and small ones the large one is alone, as far as the others fit beside it.
+// A single large group gets a shard of its own if the small ones fit into the others.
 TEST(DealGroups, ALargeGroupGoesAlone) {
   std::vector<std::size_t> points(300, 100);
   points[123] = 1'000'000;

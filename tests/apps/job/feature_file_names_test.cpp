@@ -25,7 +25,7 @@ TEST(SafeFileName, HoldsNothingThatMeansSomethingInAPath) {
 TEST(SafeFileName, IsCutBetweenLettersAndNotWithinOne) {
   EXPECT_EQ(safeFileName(std::string(300, 'x')), std::string(100, 'x'));
   std::string name = "a";
-  for (int i = 0; i < 80; ++i) name += "é";  // two bytes each, at odd places
+  for (int i = 0; i < 80; ++i) name += "é";  // two bytes each, starting at odd offsets
   EXPECT_EQ(safeFileName(name), name.substr(0, 99));
   EXPECT_EQ(safeFileName(std::string(99, 'x') + " y"), std::string(99, 'x'));
 }

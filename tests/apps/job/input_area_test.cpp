@@ -1,4 +1,4 @@
-// The area of the input is that of what is meshed, however often and whichever way round its rings say so.
+// The input's area is that of the water to be meshed, no matter how often its rings are given and in which orientation.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,14 +23,14 @@ MeshJobResult meshed(std::vector<Feature> features, const Crs& crs) {
   return runMeshJob(job);
 }
 
-// In a plane, and in degrees.
+// The parameter is true for degrees, false for a plane.
 class InputArea : public ::testing::TestWithParam<bool> {
  protected:
   static Crs crs() { return GetParam() ? wgs84() : Crs{}; }
   static double areaOf(std::vector<Feature> features) {
     return meshed(std::move(features), crs()).input_area_m2.value();
   }
-  // Of the square from (0, 40) to (4, 44).
+  // Area of the square from (0, 40) to (4, 44).
   static double whole() { return areaOf({polygonFeature(1, square(0, 40, 4))}); }
   static void expectNear(double area, double expected) { EXPECT_NEAR(area / expected, 1.0, 1e-12); }
 };
@@ -41,7 +41,7 @@ TEST_P(InputArea, IsThatOfTheMesh) {
 }
 
 TEST_P(InputArea, OfARingGivenTwiceInOneFeature) {
-  // By the even-odd rule the second takes away the first, were it no copy of it.
+  // By the even-odd rule the second ring would cancel the first if it were not an exact copy.
   Feature feature = polygonFeature(1, square(0, 40, 4));
   feature.polygons.push_back(feature.polygons.front());
   const MeshJobResult result = meshed({feature}, crs());
@@ -57,7 +57,7 @@ TEST_P(InputArea, OfFeaturesThatOverlapOrAreThereTwice) {
 
 TEST_P(InputArea, OfHolesThatAreNone) {
   const double expected = whole();
-  // Beyond the outer ring, and of no area.
+  // A hole beyond the outer ring, and one without area.
   const double beyond = areaOf({polygonFeature(1, square(9, 40, 1))});
   const MeshJobResult result = meshed({polygonFeature(1, square(0, 40, 4), {square(9, 40, 1)})}, crs());
   const double area = result.input_area_m2.value();

@@ -26,7 +26,7 @@ TEST(MemoryShare, ThoseMeshedTogetherTakeNoMoreThanThereIs) {
     const Together together{points.size(), all, at_a_time};
     double sum = 0.0;
     for (std::size_t g = 0; g < std::min(points.size(), at_a_time); ++g)
-      sum += memoryShare(1e9, points[g], together);  // the largest
+      sum += memoryShare(1e9, points[g], together);  // the largest groups
     EXPECT_LE(sum, 1e9 * (1.0 + 1e-12)) << at_a_time;
     EXPECT_GT(memoryShare(1e9, points.back(), together), 1e9 / 200.0) << at_a_time;
   }
@@ -53,9 +53,9 @@ TEST(MemoryShare, AGridHoldsAllOfItsArrays) {
   EXPECT_EQ(bytesHeldBy(grid), 10 * 24 + 7 * 20);
 }
 
-// Square lakes of 1 km in a plane, each meshed on its own, some 13,000 vertices at an edge of 10 m.
+// Square lakes with sides of 1 km in a plane, each meshed on its own: some 11,500 vertices with edges of 10 m.
 constexpr double kEdge = 10.0, kVertices = 1e6 / (kEdge * kEdge) * 1.15;
-constexpr double kPeakBytes = 320.0;  // of a vertex, as a job reckons
+constexpr double kPeakBytes = 320.0;  // per vertex, as estimated by a job
 
 MeshJob jobOfLakes(int count, double memory) {
   auto lakes = std::make_shared<Coastline>();
@@ -82,7 +82,7 @@ std::vector<std::int64_t> refusedOf(const MeshJobResult& result) {
   return fids;
 }
 
-// Two of them at once would take twice as much as there is: one after another they fit.
+// Two lakes at once exceed the memory; one after another they fit.
 TEST(JobMemory, WhatDoesNotFitTogetherIsMeshedOneByOne) {
   MeshJob job = jobOfLakes(3, 1.9 * kVertices * kPeakBytes);
   const MeshJob unlimited = jobOfLakes(3, std::numeric_limits<double>::infinity());
@@ -97,7 +97,7 @@ TEST(JobMemory, WhatDoesNotFitTogetherIsMeshedOneByOne) {
   }
 }
 
-// Each fits alone, but not beside the finished meshes of all others.
+// Each lake fits alone, but not beside the finished meshes of all others.
 TEST(JobMemory, FinishedMeshesCount) {
   MeshJob job = jobOfLakes(4, 1.3 * kVertices * kPeakBytes);
   for (const int threads : {1, 2, 8}) {
@@ -115,7 +115,7 @@ TEST(JobMemory, OneThatNeverFitsIsRefused) {
   EXPECT_EQ(result.regions, 0u);
 }
 
-// Whoever keeps results learns of it, and of nothing that is not final.
+// `keep` is called once per group with its final result, also if that lacks memory.
 TEST(JobMemory, KeepersLearnWhatLacksMemory) {
   MeshJob job = jobOfLakes(4, 1.3 * kVertices * kPeakBytes);
   std::mutex mutex;
@@ -128,7 +128,7 @@ TEST(JobMemory, KeepersLearnWhatLacksMemory) {
   EXPECT_EQ(lacking, (std::map<std::size_t, bool>{{0, false}, {1, false}, {2, true}, {3, true}}));
 }
 
-// Each has room while it is made: it is the finished ones that are too many.
+// Each lake has room while it is meshed, but all finished meshes together exceed the memory.
 TEST(JobMemory, MoreMeshesThanMemoryEndTheRun) {
   MeshJob job = jobOfLakes(16, 2.3 * kVertices * kPeakBytes);
   job.parallel.threads = 1;

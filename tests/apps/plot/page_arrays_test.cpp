@@ -15,7 +15,7 @@ namespace {
 
 std::vector<std::uint8_t> bytesOf(const std::string& text) { return {text.begin(), text.end()}; }
 
-// What a browser does, by other means: GDAL's base64 and zlib.
+// Decodes as a browser does, by other means: GDAL's base64 and zlib.
 std::vector<std::uint8_t> unpacked(const PackedArray& packed, std::size_t size) {
   std::string text = packed.text;
   text += '\0';

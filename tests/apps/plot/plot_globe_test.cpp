@@ -1,4 +1,4 @@
-// Pictures of globes, pixel by pixel: what lies where, and what lies on the other side.
+// Pictures of globes, checked pixel by pixel: positions, and that the far side is hidden.
 #include "apps/plot/plot_globe.hpp"
 
 #include <cairo.h>
@@ -23,7 +23,7 @@ constexpr std::uint64_t kSize = 400;
 
 enum class Pixel { Paper, Land, Water, Line };
 
-// A picture whose disk fills its square but for a little at the sides.
+// A picture whose disk fills the square except for a narrow margin.
 class Picture {
  public:
   Picture(const Grid& grid, const std::string& view) {
@@ -56,7 +56,7 @@ class Picture {
     return is(kPaper) ? Pixel::Paper : is(kLand) ? Pixel::Land : is(kWater) ? Pixel::Water : Pixel::Line;
   }
 
-  // Of 60 by 60 places of the disk, less its outline.
+  // The number of such pixels among 60 by 60 places of the disk, without its outline.
   int count(Pixel wanted) const {
     int found = 0;
     for (int i = -30; i <= 30; ++i)
@@ -69,7 +69,7 @@ class Picture {
   std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> picture_{nullptr, cairo_surface_destroy};
 };
 
-// What lies within some degrees of a place.
+// The part of a globe within some degrees of a place.
 Grid cap(const Point& middle, double degrees) {
   const SpaceVector axis = testing::vectorOf(middle);
   return octahedralGlobe(5, [&](const SpaceVector& sum) {
@@ -92,15 +92,15 @@ TEST(PlotGlobe, TheOtherSideIsNotSeen) {
   const Grid grid = cap({20, 10}, 40);
   EXPECT_EQ(Picture(grid, "orthographic=-160,-10").count(Pixel::Water), 0);
   EXPECT_EQ(Picture(grid, "orthographic=20,10").at(0.0, 0.0), Pixel::Water);
-  EXPECT_EQ(Picture(grid, "orthographic").at(0.02, 0.02), Pixel::Water);  // above its middle
-  // Half of it lies beyond the horizon.
+  EXPECT_EQ(Picture(grid, "orthographic").at(0.02, 0.02), Pixel::Water);  // above the cap's centre by default
+  // Half of the cap is beyond the horizon.
   const Picture aslant(grid, "orthographic=110,0");
   EXPECT_EQ(aslant.at(-0.97, 0.1), Pixel::Water);
   EXPECT_EQ(aslant.at(0.1, 0.1), Pixel::Land);
   EXPECT_EQ(aslant.at(0.9, 0.1), Pixel::Land);
 }
 
-// Seen from above 0, 0: east is right, north is up, distances from the middle are sines.
+// Seen from above 0, 0: east is right, north is up, distances from the centre are sines.
 TEST(PlotGlobe, PlacesLieWhereAGlobeShowsThem) {
   struct Place {
     double lon, lat, right, up;
@@ -121,22 +121,22 @@ TEST(PlotGlobe, PlacesLieWhereAGlobeShowsThem) {
   EXPECT_EQ(pole.at(0.0, -0.4), Pixel::Land);
 }
 
-// A triangle of an octant: its sides bulge as great circles do.
+// A triangle that covers an octant: its sides bulge like great circles.
 TEST(PlotGlobe, EdgesAreGreatCircles) {
   Grid octant;
   octant.crs = wgs84();
   octant.nodes = {{-45, 0}, {45, 0}, {0, 90}};
   octant.triangles = {{0, 1, 2}};
   const Picture picture(octant, "orthographic=0,0");
-  // The meridian 45 degrees east is half an ellipse, its chord a straight line at 0.7071 (1 - up).
+  // The meridian at 45 degrees east is half an ellipse; the chord would be a straight line at 0.7071 (1 - up).
   EXPECT_EQ(picture.at(0.55, 0.45), Pixel::Water);
   EXPECT_EQ(picture.at(-0.55, 0.45), Pixel::Water);
   EXPECT_EQ(picture.at(0.66, 0.45), Pixel::Land);
   EXPECT_EQ(picture.at(0.3, -0.05), Pixel::Land);
 }
 
-// Places of the map of all of the Earth, by the Natural Earth projection of a sphere with the radius 1, which reaches
-// 2.7354 to the right and 1.4224 up.
+// Positions on the map of the whole Earth, in the Natural Earth projection of a sphere of radius 1, which extends to
+// 2.7354 on the right and 1.4224 at the top.
 class WorldPicture : public Picture {
  public:
   using Picture::Picture;

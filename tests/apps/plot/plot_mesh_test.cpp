@@ -33,7 +33,7 @@ class PlotMesh : public testing::Test {
 
   std::string file(const std::string& name) const { return (folder_ / name).string(); }
 
-  // `n` by `n` squares of two triangles each, side by side; in a plane.
+  // `n` by `n` squares of two triangles each, in a plane.
   static Grid board(std::uint32_t n) {
     Grid grid;
     for (std::uint32_t y = 0; y <= n; ++y) {
@@ -61,7 +61,7 @@ class PlotMesh : public testing::Test {
         cairo_image_surface_create_from_png(file("a.png").c_str()), cairo_surface_destroy);
     const int stride = cairo_image_surface_get_stride(picture.get());
     std::set<std::uint32_t> found;
-    // The longer side of the map has so many pixels, its legend lies below.
+    // The longer side of the map has `size` pixels; the legend is below the map.
     const auto [west, east] = std::ranges::minmax(grid.nodes, {}, &Point::x);
     const auto [south, north] = std::ranges::minmax(grid.nodes, {}, &Point::y);
     const double scale = static_cast<double>(size) / std::max(east.x - west.x, north.y - south.y);
@@ -77,7 +77,7 @@ class PlotMesh : public testing::Test {
     return found;
   }
 
-  // Whether one of the colours is that, but for rounding.
+  // True if one of the colours is `wanted`, apart from rounding.
   static bool holds(const std::set<std::uint32_t>& colors, std::uint32_t wanted) {
     const auto near = [wanted](std::uint32_t color) {
       for (const unsigned shift : {0u, 8u, 16u}) {
@@ -93,7 +93,7 @@ class PlotMesh : public testing::Test {
 };
 
 TEST_F(PlotMesh, TrianglesCoverEveryPixelOnceWhateverTheirSize) {
-  // All triangles are alike: one colour and no gap, for large ones and for those smaller than a pixel.
+  // All triangles have the same shape: one colour and no gap, whether they are large or smaller than a pixel.
   for (std::uint32_t n : {1u, 7u, 40u, 300u}) {
     EXPECT_EQ(colors(board(n), PlotColor::Angle, 200).size(), 1u) << n;
   }
@@ -102,7 +102,7 @@ TEST_F(PlotMesh, TrianglesCoverEveryPixelOnceWhateverTheirSize) {
 TEST_F(PlotMesh, PartsOfOneFeatureThatDoNotTouchDifferInColor) {
   Grid grid = board(4);
   EXPECT_EQ(colors(grid, PlotColor::Region, 200).size(), 1u);
-  // Two features, the left half and the right: two colours and the border's.
+  // Two features, the left half and the right: two colours and that of the border.
   for (const auto& corners : grid.triangles) {
     const double middle = (grid.nodes[corners[0]].x + grid.nodes[corners[1]].x + grid.nodes[corners[2]].x) / 3;
     grid.feature_of.push_back(middle < 2.0 ? 0 : 1);
@@ -120,7 +120,7 @@ TEST_F(PlotMesh, DepthColorsByHeightAndNeedsOne) {
   EXPECT_THROW(colors(grid, PlotColor::Depth, 100), InputError);
 }
 
-// Blue is the end of the scale, for equilateral triangles alone; halves of squares have 0.87.
+// Blue is the end of the scale, reached only by equilateral triangles; halves of squares have 0.87.
 TEST_F(PlotMesh, QualityIsThatOfTheShapeAlone) {
   constexpr std::uint32_t kBest = 0x2e7da8;
   const std::set<std::uint32_t> halves = colors(board(7), PlotColor::Quality, 200);
@@ -133,8 +133,8 @@ TEST_F(PlotMesh, QualityIsThatOfTheShapeAlone) {
   EXPECT_TRUE(holds(colors(grid, PlotColor::Quality, 200), kBest));
 }
 
-// A board's inner nodes have six neighbours; turning the diagonal of one square takes one from two of them and gives it
-// to the other two.
+// The inner nodes of a board have six neighbours; flipping the diagonal of one square takes one from two of its corners
+// and adds one to the other two.
 TEST_F(PlotMesh, DegreesAreDotsWhereNeighboursAreNotSix) {
   constexpr std::uint32_t kGreen = 0x0c9933, kOrange = 0xed730d, kPurple = 0x8c0d8c;
   Grid grid = board(8);
@@ -150,7 +150,7 @@ TEST_F(PlotMesh, DegreesAreDotsWhereNeighboursAreNotSix) {
   upper = {b, c, d};
   EXPECT_EQ(dots(true), (std::array{true, true, false}));
   EXPECT_EQ(dots(false), (std::array{false, false, false}));
-  // A node amid a triangle has three.
+  // A node inside a triangle has three neighbours.
   grid.nodes.push_back({(grid.nodes[a].x + grid.nodes[b].x + grid.nodes[d].x) / 3,
                         (grid.nodes[a].y + grid.nodes[b].y + grid.nodes[d].y) / 3});
   const auto e = static_cast<std::uint32_t>(grid.nodes.size() - 1);
@@ -167,7 +167,7 @@ TEST_F(PlotMesh, OpenBoundariesShow) {
   EXPECT_GT(colors(grid, PlotColor::None, 200).size(), without.size());
 }
 
-// Rivers, weirs and lines in the mesh, each in its colour.
+// Rivers, weirs and lines in the mesh have different colours.
 TEST_F(PlotMesh, RiversWeirsAndLinesShow) {
   const Grid bare = board(4);
   Grid grid = bare;
@@ -180,7 +180,7 @@ TEST_F(PlotMesh, RiversWeirsAndLinesShow) {
   };
   EXPECT_EQ(shown(bare), (std::array{false, false, false}));
   EXPECT_EQ(shown(grid), (std::array{true, true, true}));
-  // Of a file of ADCIRC's a weir is a boundary.
+  // In an ADCIRC file a weir is a boundary.
   grid = bare;
   grid.boundaries = {{BoundaryRole::Land, false, {6, 7, 8}, 24, {11, 12, 13}, false, {1, 1, 1, 1, 1, 1}}};
   EXPECT_EQ(shown(grid), (std::array{false, true, false}));

@@ -40,7 +40,7 @@ class PlotPage : public testing::Test {
     return Json::parse(page.substr(from, page.find("</script>", from) - from));
   }
 
-  // Two triangles in a plane, and a node of neither.
+  // Two triangles in a plane, and a node that belongs to neither.
   static Grid square() {
     Grid grid;
     grid.nodes = {{0, 0}, {4, 0}, {4, 2}, {0, 2}, {std::numeric_limits<double>::quiet_NaN(), 1e300}};

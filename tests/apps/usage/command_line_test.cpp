@@ -123,7 +123,7 @@ TEST_F(CommandLineTest, UsageSaysWhatWasDeclared) {
   const Json usage = Json::parse(text);
   EXPECT_EQ(usage["command"], "knit");
   EXPECT_EQ(usage["arguments"].size(), 1u);
-  ASSERT_EQ(usage["options"].size(), 8u);  // --config besides
+  ASSERT_EQ(usage["options"].size(), 8u);  // and --config
   const auto option = [&usage](const std::string& name) {
     for (const Json& each : usage["options"])
       if (each["name"] == name) return each;
@@ -222,7 +222,7 @@ TEST_F(CommandLineTest, HelpHasLabelsUnderHeadingsInTheOrderOfSections) {
   EXPECT_EQ(help.find("Options:\n"), std::string::npos) << help;
 }
 
-// Two options, one of which counts only with the other; `words` are parsed.
+// A command with options that depend on others; `words` are its arguments.
 struct Sock {
   explicit Sock(std::vector<std::string> words) : line(app, declared()) {
     words.insert(words.begin(), {"knit", "wool", "-o", "sock"});

@@ -17,7 +17,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-// What a file of options gave, beside what was given before it.
+// The values taken from a file of options and from options given before it.
 struct Job {
   std::vector<std::string> inputs, outputs;
   double size_max = 0.0, water_level = 0.0;
@@ -63,7 +63,7 @@ class ConfigFile : public ::testing::Test {
     std::ofstream((folder_ / name).string()) << text;
     return (folder_ / name).string();
   }
-  // Options given before the file go as names and texts.
+  // Options given before the file are passed as names and texts.
   std::unique_ptr<Job> taken(const std::string& file,
                              const std::vector<std::pair<std::string, std::string>>& before = {}) {
     auto job = std::make_unique<Job>();
@@ -140,7 +140,7 @@ TEST_F(ConfigFile, ListsOfNumbersAreOneValueWhereTheOptionHasCommas) {
   EXPECT_THAT(texts->bands, ElementsAre(ElementsAre(0.0, 10.0, 50.0)));
 }
 
-// Outside of texts the library takes such letters for what cannot be.
+// Letters beyond ASCII outside of texts cause undefined behaviour in the library.
 TEST_F(ConfigFile, LettersBeyondAsciiStandInTextsAndComments) {
   const auto job = taken(
       write("a.toml", "# \u00e9\ninput = \"\u00e9.gpkg\" # \u00e9\noutput = ['\u02df.nc', \"\"\"\n\u00e9\"\"\"]\n"));
@@ -156,7 +156,7 @@ TEST_F(ConfigFile, LettersBeyondAsciiStandInTextsAndComments) {
   }
 }
 
-// Nor would the library see the end of the number before the letter.
+// After such a word the library would not find the end of the value either.
 TEST_F(ConfigFile, AQuoteWithinAWordBeginsNoText) {
   for (const char* const text : {"\nsize-max = 2_'\u00e9'\n", "\nsize-max = 2[[['\u00e9']]]\n",
                                  "\nsize-max = 2='\u00e9'\n", "\ntitle = it's \u00e9\n", "\noutput = \"a\"'b'\n"}) {
@@ -204,7 +204,7 @@ TEST_F(ConfigFile, SwitchesByTheirOtherName) {
   EXPECT_TRUE(taken(write("a.toml", "no_coarsen = false\n"))->coarsen);
 }
 
-// What is off anyway is not given, so that nothing is said of its having no effect.
+// A switch that is off by default counts as not given, so that it causes no warning.
 TEST_F(ConfigFile, ASwitchWithoutAnOppositeIsNotGivenWhereItIsOff) {
   EXPECT_THAT(taken(write("a.toml", "quiet = false\n"))->table.given("--quiet"), IsEmpty());
 }
