@@ -26,7 +26,7 @@ double totalArea(const TriMesh& mesh) {
   return area;
 }
 
-// Corners of the convex hull, by the definition: an edge has no point to its right.
+// Corners of the convex hull by its definition: no point lies to the right of an edge.
 std::vector<Point> hullOf(std::vector<Point> points) {
   std::ranges::sort(points, lexLess);
   std::vector<Point> hull;
@@ -76,7 +76,7 @@ TEST_P(DelaunayOf, SegmentsAreEdgesOnBothSides) {
 }
 
 TEST_P(DelaunayOf, DoesNotDependOnTheOrderOfPointsAndSegments) {
-  // Turned, so that no four points lie on a circle but for rounding.
+  // Rotated, so that no four points are cocircular except within rounding.
   Pslg pslg = turned(GetParam().pslg, 17.0);
   Pslg other = pslg;
   const auto n = static_cast<VertexId>(pslg.points.size());
@@ -171,7 +171,7 @@ TEST(Delaunay, UnlabelledRingInsideALabelledOneIsNoBorder) {
   EXPECT_EQ(areasByRegion(constrainedDelaunay(pslg)).size(), before.size());
 }
 
-// What is refused, and where.
+// The defect for which the PSLG is refused; nullopt if it is accepted.
 std::optional<PslgDefect> defectIn(const Pslg& pslg) {
   try {
     constrainedDelaunay(pslg);
@@ -309,7 +309,7 @@ TEST(PslgDefects, PointOnSegment) {
 }
 
 TEST(PslgDefects, SegmentsOverlap) {
-  // Along the same line, one beginning inside the other.
+  // Collinear; the second begins inside the first.
   Pslg pslg = squarePslg();
   pslg.points.insert(pslg.points.end(), {{0.2, 0.5}, {0.6, 0.5}, {0.4, 0.5}, {0.8, 0.5}});
   pslg.segments.push_back({4, 5});
@@ -348,7 +348,7 @@ TEST(PslgDefects, NoArea) {
   EXPECT_EQ(kindOf(outside), Kind::NoArea);
 }
 
-// The smallest of differences decide: exact predicates.
+// Exact predicates: a point one ulp off a segment is not on it.
 TEST(PslgDefects, OneUlpOffIsNoDefect) {
   Pslg pslg = squarePslg();
   pslg.points.push_back({0.25, std::nextafter(0.0, 1.0)});

@@ -19,7 +19,7 @@
 namespace coastmesh {
 namespace {
 
-// The mesh is a constrained Delaunay mesh of the PSLG, and the arrays of EditMesh agree with one another.
+// Expects a constrained Delaunay mesh of the PSLG, and consistent arrays in EditMesh.
 void expectSound(const EditMesh& mesh, const Pslg& pslg) {
   const TriMesh released = releasedCopy(mesh);
   ASSERT_EQ(describe(checkMesh(released, &pslg, {})), "");
@@ -73,7 +73,7 @@ void expectSound(const EditMesh& mesh, const Pslg& pslg) {
     ASSERT_TRUE(places.contains({released.points[v].x, released.points[v].y}));
 }
 
-// One random change after another.
+// Applies random changes.
 class Changer {
  public:
   Changer(const Pslg& pslg, unsigned seed) : pslg_(pslg), mesh_(constrainedDelaunay(pslg)), random_(seed) {}
@@ -104,7 +104,7 @@ class Changer {
   bool insert() {
     const TriId t = anyTriangle();
     const Point x = inside(t);
-    // From anywhere: what blocks the way is a segment, else the triangle holds x.
+    // x lies in t up to rounding. If rounding put it beyond a constraint, no triangle is found.
     const EditMesh::Place place = mesh_.locate(x, t);
     if (place.triangle == kNone || !mesh_.findCavity(x, place.triangle, patch_)) return false;
     const VertexId v = mesh_.insertInCavity(x, patch_, touched_);
@@ -180,7 +180,7 @@ class Changer {
     return true;
   }
 
-  // What an operation touched are triangles that exist, and among them all that are new.
+  // Every triangle that is new or changed is in `touched_`.
   void expectTouched(const std::vector<Triangle>& before) {
     for (TriId t = 0; t < mesh_.triangleSlots(); ++t) {
       if (!mesh_.isLive(t) || (t < before.size() && before[t].v == mesh_.triangle(t).v)) continue;
@@ -216,7 +216,7 @@ TEST_P(EditMeshOf, StaysSoundUnderRandomChanges) {
   std::map<unsigned, int> done;
   for (int step = 0; step < 240; ++step) {
     const auto before = changer.triangles();
-    // First more insertions than removals, then the other way round.
+    // More insertions than removals first, then the reverse.
     const unsigned dice = changer.random()() % 8;
     const unsigned what = dice < 4 ? (step < 120 ? dice / 2 : 2 + dice / 2) : dice - 2;
     bool changed = false;
@@ -252,7 +252,7 @@ TEST_P(EditMeshOf, StaysSoundUnderRandomChanges) {
 }
 
 TEST_P(EditMeshOf, ComesBackAsItWas) {
-  // Triangles are put in order once; then nothing changes any more.
+  // The first release sorts the triangles; another round trip changes nothing.
   const TriMesh mesh = constrainedDelaunay(GetParam().pslg);
   const TriMesh once = EditMesh(TriMesh(mesh)).release(), twice = EditMesh(TriMesh(once)).release();
   EXPECT_EQ(digestOf(twice), digestOf(once));
@@ -275,7 +275,7 @@ TEST_P(EditMeshOf, LocateFindsOrNamesTheSegmentInTheWay) {
   int found = 0, blocked = 0;
   for (int i = 0; i < 300; ++i) {
     const TriId from = changer.anyTriangle(), to = changer.anyTriangle();
-    // Well outside now and then.
+    // Every tenth point lies far outside.
     const Point x = i % 10 == 0 ? Point{50.0, -40.0} : changer.inside(to);
     const EditMesh::Place place = mesh.locate(x, from);
     ASSERT_NE(place.triangle == kNone, place.blocked == kNone);
@@ -353,7 +353,7 @@ TEST(EditMesh, CavityIsEveryTriangleWhoseCircleHoldsThePoint) {
 }
 
 TEST(EditMesh, CavityStopsAtSegments) {
-  // A wall through the square, its ends free, and a point close to it.
+  // An open segment inside the square, and a point close to it.
   Pslg pslg = squarePslg();
   pslg.points.insert(pslg.points.end(), {{0.5, 0.1}, {0.5, 0.9}});
   pslg.segments.push_back({4, 5});
@@ -393,7 +393,7 @@ TEST(EditMesh, SplitSegmentLeavesTheMeshWhereATriangleWouldTurn) {
 }
 
 TEST(EditMesh, RestoreDelaunayMendsAnyTriangulation) {
-  // A fan from the lower left corner over points on a parabola is as far from Delaunay as can be.
+  // A fan from a point above a parabola to points on it is far from Delaunay.
   std::vector<Point> points{{0.0, 2.0}};
   std::vector<Corners> fan;
   constexpr int kSteps = 40;

@@ -16,7 +16,7 @@ namespace coastmesh {
 namespace {
 
 TEST(HilbertIndex, NeighboursOnTheCurveAreNeighboursOnTheGrid) {
-  // A corner block of the grid holds a stretch of the curve without a gap: walk it.
+  // A corner block of the grid contains a contiguous stretch of the curve.
   constexpr std::uint32_t kSide = 64;
   struct Cell {
     std::uint32_t index, x, y;
@@ -74,7 +74,7 @@ TEST(HilbertIndices, KeepNeighboursNear) {
 }
 
 TEST(HilbertOrder, IsTheOrderOfTheIndicesAndKeepsThatOfEqualOnes) {
-  for (const int count : {1, 2, 20, 440, 450, 3000}) {  // with every seventh twice: on either side of 512, and at it
+  for (const int count : {1, 2, 20, 440, 450, 3000}) {  // every seventh twice, which gives sizes below and above 512
     std::mt19937_64 random(2);
     std::vector<Point> points;
     for (int i = 0; i < count; ++i) {

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kNoSize = std::numeric_limits<double>::infinity();
 
-// Some corner of some triangle at a vertex.
+// Any corner of a triangle at a vertex.
 std::pair<TriId, unsigned> cornerAt(const TriMesh& mesh, VertexId v) {
   for (TriId t = 0; t < mesh.triangles.size(); ++t)
     for (unsigned i = 0; i < 3; ++i)

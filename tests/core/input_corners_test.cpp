@@ -35,7 +35,8 @@ std::vector<std::array<double, 7>> figuresOf(const InputCorners& corners) {
   return figures;
 }
 
-// A box with a wedge of 20 degrees from its middle, 1 and 1.5 long, and a lone point 0.4 from the apex or none.
+// A box with a wedge of 20 degrees at its centre, the sides 1 and 1.5 long; optionally an isolated point 0.4 from the
+// apex.
 Pslg wedgeInABox(bool with_point) {
   const double at = toRadians(20.0);
   Pslg pslg;
@@ -91,7 +92,7 @@ TEST(InputCorners, ExcuseByRule) {
 }
 
 TEST(InputCorners, LargestAngleAloneMayMakeOne) {
-  // A corner of 85 degrees cannot be cut into angles of 43 to 81.
+  // A corner of 85 degrees cannot be divided into angles of 43 to 81.
   const double at = toRadians(85.0);
   Pslg pslg;
   pslg.points = {{0, 0}, {1, 0}, {1 + std::cos(at), std::sin(at)}, {std::cos(at), std::sin(at)}};
@@ -108,7 +109,7 @@ TEST(InputCorners, LargestAngleAloneMayMakeOne) {
 
 class InputCornersOf : public ::testing::TestWithParam<NamedPslg> {};
 
-// Bit for bit: neither the mesh nor what refinement rounded matters.
+// Bit for bit: corners depend neither on the mesh nor on rounding in refinement.
 TEST_P(InputCornersOf, AreTheSameBeforeAndAfterRefinement) {
   for (const double angle : {20.0, 33.0, 45.0}) {
     for (const double largest : {180.0, 95.0}) {
@@ -129,7 +130,7 @@ TEST_P(InputCornersOf, ExcuseWhatTheTwinExcuses) {
       const InputCorners corners(mesh, TriangleBound(angle, 180.0, kNoSize));
       const ExcusedTwin twin(mesh, GetParam().pslg, angle, 180.0);
       EXPECT_EQ(corners.all().size(), twin.corners());
-      // All triangles, good ones too: there are more of them.
+      // Includes good triangles, which give more cases.
       for (TriId t = 0; t < mesh.triangles.size(); ++t) {
         const auto [a, b, c] = cornersOf(mesh, t);
         EXPECT_EQ(corners.excuseOf(a, b, c), twin.excuseOf(t)) << "triangle " << t << ", " << angle << " degrees";
@@ -138,7 +139,7 @@ TEST_P(InputCornersOf, ExcuseWhatTheTwinExcuses) {
   }
 }
 
-// What was read from a file has no input vertices; where the input bends at each of them nothing is lost by that.
+// A mesh read from a file has no input vertices. Its corners are still found if the input bends at each of them.
 TEST_P(InputCornersOf, AreFoundInAMeshFromAFile) {
   const TriangleBound bound(33.0, 180.0, kNoSize);
   TriMesh mesh = constrainedDelaunay(GetParam().pslg);
@@ -149,12 +150,13 @@ TEST_P(InputCornersOf, AreFoundInAMeshFromAFile) {
   ASSERT_EQ(found.all().size(), known.all().size());
   for (std::size_t k = 0; k < known.all().size(); ++k) {
     EXPECT_EQ(found.all()[k].apex, known.all()[k].apex);
-    // Straight joints are not seen, nor lone points: never is the size taken for less.
+    // Vertices of straight chains and isolated points are not recognised, so the radius can only be larger.
     EXPECT_GE(found.all()[k].radius, known.all()[k].radius * (1.0 - 1e-9));
   }
 }
 
-// The run itself judges as the list of what it left: on the whole, with the notes that pieces and patches carry.
+// A run judges triangles as the list of unresolved ones does: on the whole mesh, with the notes that pieces and patches
+// carry.
 TEST_P(InputCornersOf, TheRunJudgesByThem) {
   const Pslg& pslg = GetParam().pslg;
   const RefineOptions options{.min_angle_deg = 42.0, .max_vertices = 3000};

@@ -15,7 +15,7 @@ namespace {
 constexpr double kNoLargest = 180.0;
 constexpr double kAnySize = std::numeric_limits<double>::infinity();
 
-// Triangles of all shapes and both windings, from the sides' directions.
+// Triangles of all shapes, sizes and windings.
 class RandomTriangles : public testing::Test {
  protected:
   double number(double low, double high) { return std::uniform_real_distribution(low, high)(random_); }
@@ -31,7 +31,7 @@ class RandomTriangles : public testing::Test {
     std::shuffle(corners.begin(), corners.end(), random_);
     return corners;
   }
-  // By the directions of the sides: nothing that the code under test uses.
+  // From the directions of the sides, unlike the code under test.
   static double angle(const Point& at, const Point& p, const Point& q) {
     const double turn = std::abs(std::atan2(q.y - at.y, q.x - at.x) - std::atan2(p.y - at.y, p.x - at.x));
     return std::min(turn, 2.0 * std::numbers::pi - turn);
@@ -157,7 +157,7 @@ TEST(TriangleBounds, TakeTheLesserOfBothLengths) {
   const LengthTwiceX wanted;
   EXPECT_EQ(TriangleBound(0.0, kNoLargest, 3.0).squared_size, 9.0);
   EXPECT_EQ(TriangleBound(0.0, kNoLargest, 3.0).size, nullptr);
-  const TriangleBound both(0.0, kNoLargest, 30.0, &wanted, 0.5);  // 20 at most
+  const TriangleBound both(0.0, kNoLargest, 30.0, &wanted, 0.5);  // at most 0.5 * 40
   EXPECT_EQ(both.squared_size, 400.0);
   EXPECT_EQ(both.size, &wanted);
   EXPECT_EQ(both.longest_share, 0.5);
@@ -187,7 +187,7 @@ TEST_F(RandomTriangles, AnglesAreBoundedFromBelowAndAbove) {
   }
 }
 
-// A right angle and one of 45 degrees to the last bit: what is on the bound holds it.
+// Exact values: a right angle, one of 45 degrees and an edge that lie exactly on the bound satisfy it.
 TEST(TriangleBounds, WhatIsOnTheBoundHoldsIt) {
   EXPECT_FALSE(isSmallestAngleBelow({0, 0}, {2, 0}, {0, 2}, 1.0));
   EXPECT_TRUE(isSmallestAngleBelow({0, 0}, {2, 0}, {0, 2}, std::nextafter(1.0, 0.0)));
@@ -201,7 +201,7 @@ TEST(TriangleBounds, WhatIsOnTheBoundHoldsIt) {
   EXPECT_TRUE(isBad({0, 0}, {3, 0}, {0, 4}, less));
 }
 
-// However the product of its sides is rounded.
+// Without bounds, a flat triangle is good, however the product of its sides is rounded.
 TEST_F(RandomTriangles, WhereNothingIsAskedAFlatOneIsGood) {
   const TriangleBound nothing(0.0, kNoLargest, kAnySize);
   for (int i = 0; i < 1000; ++i) {
@@ -222,7 +222,7 @@ TEST_F(RandomTriangles, EdgesAreBounded) {
   }
 }
 
-// Wanted at the centroid (2, 1), times a half: 2.
+// The size at the centroid (2, 1) is 4, times a share of 0.5: 2.
 TEST(TriangleBounds, LengthsAreWantedAtTheCentroid) {
   const LengthTwiceX wanted;
   const TriangleBound bound(0.0, kNoLargest, kAnySize, &wanted, 0.5);
@@ -242,7 +242,7 @@ TEST_F(RandomTriangles, AreasAreHalfOfBaseTimesHeight) {
     const double half = 0.5 * length[2] * length[1] * std::sin(angle(t[0], t[1], t[2]));
     EXPECT_NEAR(std::abs(areaOn({}, t[0], t[1], t[2])), half, 1e-9 * half);
     EXPECT_EQ(areaOn({}, t[0], t[1], t[2]) > 0.0, areaOn({}, t[0], t[2], t[1]) < 0.0);
-    // On a sphere so large that it is flat here, on either side of the triangle.
+    // On a sphere so large that it is flat here, in both windings.
     const Surface flat = Surface::sphere(1e9);
     EXPECT_NEAR(areaOn(flat, t[0], t[1], t[2]), half, 1e-5 * half);
     EXPECT_NEAR(areaOn(flat, t[0], t[2], t[1]), half, 1e-5 * half);
@@ -250,7 +250,7 @@ TEST_F(RandomTriangles, AreasAreHalfOfBaseTimesHeight) {
   EXPECT_GT(areaOn({}, {0, 0}, {1, 0}, {0, 1}), 0.0);
 }
 
-// Angles may be short of what is asked by the margin times the longest edge, on the good side alone.
+// Angles must clear the bound by the margin times the longest edge; the bound is never relaxed.
 TEST(IsBadOnASphere, TheMarginMakesBoundsStricter) {
   const double slack = 0.01;
   const Point a{0, 0}, b{10, 0}, c{5, 9};  // 10.3 long; 58.1, 60.9 and 60.9 degrees
@@ -268,7 +268,7 @@ TEST(DistanceToSegment, OnASphere) {
   const Surface sphere = Surface::sphere(1000.0);
   EXPECT_EQ(distanceToSegment({}, {3, 4}, {0, 0}, {0, 0}), 5.0);
   EXPECT_EQ(distanceToSegment({}, {2, 7}, {0, 4}, {9, 4}), 3.0);
-  // About the middle of the map lengths are those of the plane; further out they shrink.
+  // Near the projection centre lengths equal those in the plane; farther out they shrink.
   EXPECT_NEAR(distanceToSegment(sphere, {2, 7}, {0, 4}, {9, 4}), 3.0, 1e-3);
   const double shrink = 1.0 / (1.0 + 0.25);
   EXPECT_NEAR(distanceToSegment(sphere, {1000, 3}, {999, 0}, {1001, 0}), 3.0 * shrink, 1e-2);
@@ -283,7 +283,7 @@ TEST(DistanceToSegment, IsThatToTheNearestPoint) {
   EXPECT_EQ(squaredDistanceToSegment({3, 4}, {0, 0}, {0, 0}), 25.0);
 }
 
-// A foot of the perpendicular would be rounded to the grain of coordinates, which the distance is as large as.
+// The distance is as small as the grain of the coordinates, to which the foot of a perpendicular would be rounded.
 TEST(DistanceToSegment, KeepsItsDigitsFarFromTheOrigin) {
   const double grain = 0x1p-10, far = 0x1p42;  // coordinates near `far` are multiples of the grain
   const Point a{far, far}, p{far + grain, far}, b{far + 4096 * grain, far + 8192 * grain};

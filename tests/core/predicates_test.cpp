@@ -54,7 +54,7 @@ void expectInCircle(const Point& a, const Point& b, const Point& c, const Point&
   ASSERT_EQ(inCircle(b, c, a, d), sign);
   ASSERT_EQ(inCircle(c, a, b, d), sign);
   ASSERT_EQ(inCircle(b, a, c, d), -sign);
-  // The fourth point takes part as the others do: an odd permutation.
+  // Swapping the fourth point with another also changes the sign.
   ASSERT_EQ(inCircle(a, b, d, c), -sign);
   ASSERT_EQ(inCircle(d, b, c, a), -sign);
 }
@@ -73,7 +73,7 @@ class Predicates : public ::testing::TestWithParam<unsigned> {
 TEST_P(Predicates, RandomPointsOfAllSizes) {
   for (int exponent = -60; exponent <= 60; exponent += 4) {
     const double size = std::ldexp(1.0, exponent);
-    // Far from the origin differences cancel.
+    // Far from the origin, differences cancel.
     for (const double far : {0.0, 1.0, 1e7, 1e14}) {
       const Point offset{far * size, -0.3 * far * size};
       for (int i = 0; i < 5; ++i) {
@@ -100,7 +100,7 @@ TEST_P(Predicates, NearlyCollinear) {
 
 TEST_P(Predicates, ExactlyCollinearAndOneUlpOff) {
   for (int i = 0; i < 200; ++i) {
-    // Whole numbers: the third point lies on the line without rounding.
+    // Integers: the third point lies exactly on the line.
     const auto whole = [&] { return static_cast<double>(static_cast<int>(random_() % 2'000'001) - 1'000'000); };
     const Point a{whole(), whole()}, step{whole(), whole()};
     const double m = static_cast<double>(random_() % 1000 + 1);
@@ -128,7 +128,7 @@ TEST_P(Predicates, NearlyCocircular) {
 }
 
 TEST_P(Predicates, ExactlyCocircularAndOneUlpOff) {
-  // Whole points on the circle of radius 65, of which it has many.
+  // Integer points on the circle of radius 65, which has many.
   const std::array<Point, 9> circle{
       {{65, 0}, {63, 16}, {60, 25}, {56, 33}, {52, 39}, {39, 52}, {-33, 56}, {-60, -25}, {16, -63}}};
   for (int i = 0; i < 200; ++i) {
@@ -168,7 +168,7 @@ TEST(PredicatesSigns, EqualPoints) {
   expectInCircle(a, b, c, c);
 }
 
-// What overflows or underflows in doubles must not decide.
+// Overflow and underflow of products must not change the sign.
 TEST(PredicatesSigns, BeyondTheRangeOfProducts) {
   std::mt19937_64 random(7);
   for (const int exponent : {-1040, -900, -540, -535, -270, -268, -266, 260, 500, 900}) {

@@ -59,7 +59,7 @@ TEST(AnglesDeg, SumAndInvariance) {
     EXPECT_EQ(rotated[2], angles[0]);
     const auto large = anglesDeg(1e150 * a, 1e150 * b, 1e150 * c);
     for (int k = 0; k < 3; ++k) EXPECT_NEAR(large[k], angles[k], 1e-9);
-    // Law of sines, as another way to the same.
+    // An independent check by the law of sines.
     EXPECT_NEAR(std::sin(toRadians(angles[0])) * distance(a, b), std::sin(toRadians(angles[2])) * distance(b, c),
                 1e-12);
   }
@@ -69,7 +69,7 @@ TEST(SignedArea, Known) {
   EXPECT_EQ(signedArea({0, 0}, {2, 0}, {0, 1}), 1.0);
   EXPECT_EQ(signedArea({0, 0}, {0, 1}, {2, 0}), -1.0);
   EXPECT_EQ(signedArea({0, 0}, {1, 1}, {2, 2}), 0.0);
-  // Differences first: the place does not cost digits.
+  // Computed from differences, so large coordinates cost no digits.
   EXPECT_EQ(signedArea({1e9, 1e9}, {1e9 + 2, 1e9}, {1e9, 1e9 + 1}), 1.0);
 }
 
@@ -109,7 +109,7 @@ TEST(MeasureQuality, InSpaceTheTrianglesThereCount) {
   EXPECT_EQ(measureQuality(mesh, 60.1, 180.0, inOrder, places).bounds.below, 1u);
 }
 
-// Readers hand in what a file has: corners at one place of the Earth, and all three of them there.
+// Files may contain triangles with two or three corners at the same place on the Earth.
 TEST(SpaceAnglesDeg, OfEqualCornersAddUpTo180) {
   const SpacePoint a{0.3, -0.4, 0.5}, b{0.1, 0.2, -0.9};
   for (const auto& [p, q, r] : {std::array{a, a, a}, {b, a, a}, {a, b, a}, {a, a, b}}) {
@@ -121,7 +121,7 @@ TEST(SpaceAnglesDeg, OfEqualCornersAddUpTo180) {
   }
 }
 
-// Of a sphere of radius 1: its places by the formula of the projection.
+// Against chords of the sphere of radius 1, whose points follow from the projection formula.
 TEST(SurfaceAnglesDeg, AreThoseOfChords) {
   const Surface sphere = Surface::sphere(1.0);
   const auto onSphere = [](const Point& p) {
@@ -138,26 +138,26 @@ TEST(SurfaceAnglesDeg, AreThoseOfChords) {
   }
 }
 
-// Three places round the middle of the plane, and the same three at its far rim: as near to one another, but between
-// them lies all the rest of the sphere.
+// Three points around the origin, and their mirror images around the antipode: equally close together, but the triangle
+// contains the rest of the sphere.
 TEST(IsBad, WhatIsMoreThanHalfOfTheSphere) {
   TriangleBound bound(33.0, 180.0, std::numeric_limits<double>::infinity());
   bound.surface = Surface::sphere(1.0);
   const auto corner = [](double radius, int i) {
     return Point{radius * std::cos(toRadians(120.0 * i)), radius * std::sin(toRadians(120.0 * i))};
   };
-  // A place at the distance r from the origin is as far from the rim as 4 / r is from the origin.
+  // The antipode is as far from a point at distance 4 / r as the origin is from a point at distance r.
   for (const double radius : {0.01, 0.1, 1.0, 1.9}) {
     EXPECT_FALSE(isBad(corner(radius, 0), corner(radius, 1), corner(radius, 2), bound)) << radius;
     EXPECT_TRUE(isBad(corner(4.0 / radius, 0), corner(4.0 / radius, 1), corner(4.0 / radius, 2), bound)) << radius;
   }
-  // Small ones far from the origin are not meant.
+  // Small triangles far from the origin are not rejected.
   const Point far{400.0, 300.0};
   EXPECT_FALSE(isBad(far, far + Point{10.0, 0.0}, far + Point{5.0, 8.7}, bound));
 }
 
 TEST(MeasureQuality, HistogramClassesOfFiveDegrees) {
-  // 46.3, 43.7 and 90.0, by a hair on the safe side of the class's limit.
+  // 46.3, 43.7 and 90.0 degrees, the last slightly above its class limit.
   const double at = toRadians(92.6);
   const Point apex{0.5 + 0.4999 * std::cos(at), 0.4999 * std::sin(at)};
   const MeshQuality quality = measureQuality(meshOf({{0, 0}, {1, 0}, apex}, {{0, 1, 2}}), 0.0);

@@ -17,7 +17,8 @@ namespace {
 constexpr double kRadius = 6371.0;
 const Surface kSphere = Surface::sphere(kRadius);
 
-// Stereographic, written down independently: the place on the sphere that is seen from the south pole through x.
+// Stereographic projection, implemented independently: the point of the sphere that x shows, projected from the south
+// pole.
 SpacePoint inSpace(const Point& x) {
   const double q = (x.x * x.x + x.y * x.y) / (4.0 * kRadius * kRadius);
   return {x.x / (1.0 + q), x.y / (1.0 + q), kRadius * (1.0 - q) / (1.0 + q)};
@@ -34,7 +35,7 @@ std::array<double, 3> anglesInSpace(const Point& a, const Point& b, const Point&
 
 class OnTheSphere : public testing::Test {
  protected:
-  // From near the centre to far beyond a hemisphere.
+  // From near the centre to far beyond the hemisphere.
   Point somewhere() {
     const double far = kRadius * std::exp(std::uniform_real_distribution(-3.0, 4.0)(random_));
     const double angle = std::uniform_real_distribution(0.0, 2.0 * std::numbers::pi)(random_);
@@ -84,7 +85,7 @@ TEST_F(OnTheSphere, BadIsWhatTheFlatTriangleInSpaceIs) {
   for (int i = 0; i < 20000; ++i) {
     const Point a = somewhere();
     Point b = near(a, 1200.0), c = near(a, 1200.0);
-    // As triangles run, seen from outside.
+    // Counter-clockwise as seen from outside, like triangles of a mesh.
     if (const Frame at_a(kSphere, a); cross(at_a.relative(b), at_a.relative(c)) < 0.0) std::swap(b, c);
     const auto angles = anglesInSpace(a, b, c);
     const double least = std::ranges::min(angles), most = std::ranges::max(angles);

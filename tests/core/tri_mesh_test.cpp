@@ -91,7 +91,7 @@ TEST(LinkTriangles, EdgeOfThreeTrianglesIsAConflict) {
                                      std::vector<Corners3>{{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}, conflicts);
   ASSERT_THAT(conflicts, ::testing::Not(IsEmpty()));
   for (const EdgeConflict& c : conflicts) EXPECT_EQ(std::minmax(c.a, c.b), std::minmax(0u, 1u));
-  // Refused on all sides: no triangle points to one that does not point back.
+  // Rejected on all sides: no triangle points to one that does not point back.
   for (TriId t = 0; t < 3; ++t) EXPECT_EQ(mesh.triangles[t].adj, (std::array<EdgeRef, 3>{kNone, kNone, kNone}));
 }
 
@@ -140,7 +140,7 @@ TEST(BoundaryLoops, OuterCounterClockwiseHoleClockwise) {
 }
 
 TEST(BoundaryLoops, StartAtTheLeastVertexAndAreSortedByIt) {
-  // Two triangles apart, the right one first.
+  // Two separate triangles, the right one first.
   const TriMesh mesh = meshOf({{7, 0}, {6, 1}, {5, 0}, {2, 0}, {1, 1}, {0, 0}}, {{0, 1, 2}, {3, 4, 5}});
   EXPECT_THAT(boundaryLoops(mesh), ElementsAre(ElementsAre(5, 3, 4), ElementsAre(2, 0, 1)));
 }
@@ -161,7 +161,7 @@ TEST(BoundaryLoops, PassAPinchedVertexOnceForEveryFan) {
 }
 
 TEST(BoundaryLoops, BowTieInsideAHole) {
-  // Two holes that touch: the boundary passes their common vertex twice, and both ways round it is clockwise.
+  // Two holes that touch: the boundary passes their common vertex twice, and is clockwise both times.
   const TriMesh mesh = constrainedDelaunay(touchingHoles());
   const auto loops = boundaryLoops(mesh);
   double area = 0.0;
@@ -176,7 +176,7 @@ TEST(BoundaryLoops, BowTieInsideAHole) {
   EXPECT_EQ(on_boundary.count(0), 2u);  // where a hole touches the outer ring
 }
 
-// Every loop of every mesh closes over boundary edges, each of them once; outside and holes add up to the area.
+// In every mesh, loops are closed and contain each boundary edge once; their signed areas add up to the meshed area.
 TEST(BoundaryLoops, CoverTheBoundaryOnce) {
   for (const NamedPslg& named : assortedPslgs()) {
     SCOPED_TRACE(named.name);

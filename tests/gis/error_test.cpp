@@ -18,7 +18,7 @@ TEST(OneLine, CutsAtAWord) {
   EXPECT_EQ(oneLine("one two three", 13), "one two three");
   EXPECT_EQ(oneLine("one two three", 12), "one two…");
   EXPECT_EQ(oneLine("one two three", 7), "one two…");
-  EXPECT_EQ(oneLine("ääää", 3), "ä…");  // two bytes each: never half of one
+  EXPECT_EQ(oneLine("ääää", 3), "ä…");  // two bytes each: characters are not split
 }
 
 TEST(Errors, AreOneLine) {
@@ -26,7 +26,7 @@ TEST(Errors, AreOneLine) {
   EXPECT_STREQ(OutputError("a\n\n  b\n").what(), "a b");
 }
 
-// SQLite's driver quotes whole statements where the disk is full.
+// SQLite's driver quotes whole statements if the disk is full.
 TEST(OgrErrors, GiveOneShortLine) {
   const OgrErrors errors;
   std::string statement = "failed to execute:\n";

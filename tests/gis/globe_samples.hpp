@@ -27,8 +27,8 @@ inline SpaceVector cross(const SpaceVector& a, const SpaceVector& b) {
 
 inline double lengthOf(const SpaceVector& a) { return std::sqrt(dot(a, a)); }
 
-// The closed globe: an octahedron with a corner at each pole, its triangles cut in four `times`, of which those that
-// `wanted` says no to are left out. Nodes on the antimeridian have a longitude of 180.
+// The closed globe: an octahedron with a corner at each pole, its triangles divided in four `times` times; only
+// triangles that are `wanted` are kept. Nodes on the antimeridian have a longitude of 180.
 template <typename Wanted>
 Grid octahedralGlobe(int times, const Wanted& wanted) {
   std::vector<SpaceVector> places{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};

@@ -22,20 +22,20 @@
 
 namespace coastmesh {
 
-// In a test's name.
+// For names of tests.
 inline void PrintTo(const GridFormat& format, std::ostream* out) { *out << format.name; }
 
 }  // namespace coastmesh
 
 namespace coastmesh::testing {
 
-// A folder of its own for a test's files.
+// A temporary folder of a test.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "coastmesh-test-XXXXXX").string();
     above_ = ::mkdtemp(name.data());
-    // What one format asks of the folder that its files lie in, a grid being dealt out to three processes.
+    // One format requires this name of the folder, for a grid distributed to three processes.
     path_ = above_ / "dist_3";
     std::filesystem::create_directory(path_);
   }
@@ -60,8 +60,8 @@ class TemporaryFolder {
   std::filesystem::path above_, path_;
 };
 
-// Squares of a lattice, two triangles each, as far as `wanted(column, row)` says so. Points are columns + 1 a row,
-// moved by `place`.
+// A lattice of squares, two triangles each, where `wanted(column, row)` is true. A row has columns + 1 points, at the
+// positions that `place` returns.
 inline TriMesh lattice(
     int columns, int rows, const std::function<bool(int, int)>& wanted,
     const std::function<Point(int, int)>& place = [](int i, int j) {
@@ -83,8 +83,8 @@ inline TriMesh lattice(
   return linkTriangles(std::move(points), corners, conflicts);
 }
 
-// Two lakes, the first with an island and an open boundary, all coordinates with full mantissas. Lies around `origin`
-// with cells of `size` in the units of `crs`.
+// Two lakes, the first with an island and an open boundary, with full mantissas in all coordinates. Lies around
+// `origin`, with cells of `size` in the units of `crs`.
 inline Grid sampleGrid(const Crs& crs, Point origin, double size, int cells = 6) {
   std::mt19937_64 random(20240229);
   std::uniform_real_distribution<double> shift(-0.2, 0.2);
@@ -113,7 +113,7 @@ inline Grid sampleGrid(const Crs& crs, Point origin, double size, int cells = 6)
       grid.boundaries.push_back(std::move(boundary));
       continue;
     }
-    // The first shore begins with open water; the rest of it joins on at both ends.
+    // The first shore begins with an open boundary, which its rest joins at both ends.
     const std::vector<std::uint32_t>& loop = boundary.nodes;
     Boundary open{BoundaryRole::Open, false, {loop.begin(), loop.begin() + cells + 1}};
     Boundary land{BoundaryRole::Land, false, {loop.begin() + cells, loop.end()}};
@@ -124,7 +124,7 @@ inline Grid sampleGrid(const Crs& crs, Point origin, double size, int cells = 6)
   return grid;
 }
 
-// The grid dealt out to three processes, at random.
+// The grid, randomly distributed to three processes.
 inline Grid inParts(Grid grid) {
   std::mt19937_64 random(20240301);
   for (std::size_t t = 0; t < grid.triangles.size(); ++t)

@@ -26,7 +26,7 @@ struct Figures {
   double area_near_size = 0.0;  // of triangles whose edges are all 0.7 to 1.4 of the size
 };
 
-// Judged by chords alone.
+// Uses chords only.
 Figures measure(const TriMesh& mesh, double size) {
   Figures figures;
   for (const Triangle& t : mesh.triangles) {
@@ -53,7 +53,7 @@ void expectClosed(const TriMesh& mesh) {
   EXPECT_EQ(std::ranges::count(used, std::uint8_t{0}), 0);
   for (TriId t = 0; t < mesh.triangles.size(); ++t)
     for (unsigned i = 0; i < 3; ++i) EXPECT_NE(mesh.twin(edgeRef(t, i)), kNone);
-  EXPECT_EQ(2 * mesh.points.size(), mesh.triangles.size() + 4);  // of a sphere
+  EXPECT_EQ(2 * mesh.points.size(), mesh.triangles.size() + 4);  // Euler's formula for the sphere
   EXPECT_EQ(mesh.regions.size(), mesh.triangles.size());
 }
 
@@ -100,7 +100,7 @@ TEST(ClosedMesh, ALatticeIsTheResultWhereItKeepsTheBounds) {
   expectClosed(taken.mesh);
   EXPECT_EQ(digestOf(taken.mesh), digestOf(options.lattice));
   EXPECT_TRUE(std::ranges::all_of(taken.mesh.regions, [](RegionId r) { return r == 2; }));
-  // It has triangles with 72 degrees.
+  // The lattice has angles of 72 degrees, at its vertices of valence 5.
   options.refine.max_angle_deg = 71.0;
   options.refine.min_angle_deg = 30.0;
   const MeshedRegion refined = meshRegion(nothing, options);
@@ -111,7 +111,7 @@ TEST(ClosedMesh, ALatticeIsTheResultWhereItKeepsTheBounds) {
 
 TEST(ClosedMesh, CoastsAreEdgesBetweenRegions) {
   Pslg pslg;
-  // Two lands, one of them round the chart's middle.
+  // Two islands, one around the projection centre.
   const auto addRing = [&](const SpacePoint& middle, double reach, RegionId region, unsigned corners) {
     const SpacePoint east =
         (1.0 / std::hypot(middle.x, middle.y, 1e-12)) * SpacePoint{-middle.y + 1e-12, middle.x, 0.0};

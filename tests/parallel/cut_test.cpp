@@ -29,7 +29,7 @@ TriMesh refined(const Pslg& pslg) {
 
 double one(TriId) { return 1.0; }
 
-// Triangles by their corners' places, with what hangs on them.
+// Triangles identified by corner coordinates, with the segments, spacings and due flag attached to them.
 using Known =
     std::tuple<std::array<std::pair<double, double>, 3>, std::array<SegmentId, 3>, std::array<double, 3>, int>;
 
@@ -49,7 +49,7 @@ std::set<Known> known(const MeshState& s) {
   return all;
 }
 
-// A refined mesh of which a corner is due.
+// A refined mesh with due triangles near one corner.
 MeshState dueInACorner(const Pslg& pslg) {
   MeshState whole;
   whole.mesh = refined(pslg);
@@ -165,7 +165,7 @@ TEST_P(CutInto, StitchedInPlaceIsTheSameMesh) {
   }
 }
 
-// Pieces that grow take numbers behind the last, pieces that shrink leave holes that the last ones fill.
+// Items added by growing pieces are appended; holes left by shrinking pieces are filled with the last items.
 TEST_P(CutInto, PiecesOfSomeMayGrowAndShrink) {
   std::size_t grown = 0, shrunk = 0;
   for (const Pslg& pslg : {fractalCoast(2, 3, 3), touchingHoles(), openLines(), twoRegions()}) {
@@ -200,7 +200,7 @@ TEST_P(CutInto, PiecesOfSomeMayGrowAndShrink) {
     labelRegions(whole.mesh, pslg);
     expectValidMesh(whole.mesh, pslg);
   }
-  if (GetParam() > 1) return;  // in small pieces everything may lie at a cut
+  if (GetParam() > 1) return;  // in small pieces, every edge may lie at a cut
   EXPECT_GT(grown, 0u);
   EXPECT_GT(shrunk, 0u);
 }
@@ -231,7 +231,7 @@ TEST_P(CutInto, PiecesShareFrozenEdgesOnly) {
   EXPECT_EQ(frozen % 2, 0u);
 }
 
-// Coarsening needs no notes: what is not known is not made up on the way.
+// Coarsening needs no notes; stitching leaves absent notes absent.
 TEST_P(CutInto, NothingNotedStaysNothing) {
   const Pslg pslg = fractalCoast(2, 3, 3);
   MeshState whole;

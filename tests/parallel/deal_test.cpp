@@ -25,7 +25,7 @@
 namespace coastmesh {
 namespace {
 
-// Helpers that are threads, which know a region by its context and pieces by their bytes alone.
+// Helpers as threads. They get a region only as context bytes, and pieces only as request bytes.
 class ThreadHelpers {
  public:
   explicit ThreadHelpers(int rooms) : rooms_(rooms) {
@@ -62,7 +62,7 @@ class ThreadHelpers {
 
   Helpers helpers;
   Reply::Outcome outcome = Reply::Outcome::Done;
-  double kept_share = 1.0;  // of the bytes of each reply
+  double kept_share = 1.0;  // share of each reply's bytes that is sent
   std::function<void()> before_answer;
   std::atomic<int> answered = 0;
 
@@ -160,7 +160,7 @@ TEST(Deal, ACutReplyIsAnError) {
 TEST(Deal, IsCancelledWhileHelpersWork) {
   const Case c = cases().front();
   std::atomic<bool> stop = false;
-  ThreadHelpers others(2);  // they end before what they set
+  ThreadHelpers others(2);  // declared after `stop`: the destructor joins the threads that set it
   others.before_answer = [&] {
     stop = true;
     std::this_thread::sleep_for(std::chrono::milliseconds(200));

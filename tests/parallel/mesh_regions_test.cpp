@@ -61,7 +61,7 @@ TEST_P(ForEachRegion, NeverRunsMoreAtOnceThanThreads) {
 }
 
 TEST_P(ForEachRegion, RethrowsTheErrorOfTheLeastIndex) {
-  // All items that throw are under way before the first does, so all of them throw on several threads.
+  // With several threads, all throwing items have started before the first one throws, so every one of them throws.
   for (int repeat = 0; repeat < 20; ++repeat) {
     const auto throwing = static_cast<std::size_t>(GetParam());
     std::atomic<std::size_t> waiting = 0;
@@ -81,7 +81,7 @@ TEST_P(ForEachRegion, RethrowsTheErrorOfTheLeastIndex) {
 }
 
 TEST_P(ForEachRegion, StopsAfterAnError) {
-  // The others go on, slowly, from when the first item throws.
+  // The other items continue, slowly, once the first one throws.
   std::atomic<int> calls = 0;
   std::atomic<bool> throws = false;
   EXPECT_THROW(forEachRegion(5000, options(), {},
@@ -115,7 +115,7 @@ TEST_P(ForEachRegion, CancelledThrowsAndStops) {
                                if (++calls == 5) stop = true;
                              }),
                Cancelled);
-  // Those that had begun may end.
+  // Items that had already started may finish.
   EXPECT_LE(calls, 5 + GetParam());
   stop = true;
   calls = 0;
@@ -180,7 +180,7 @@ TEST(MeshRegion, IsTriangulateRefineAndCoarsen) {
   }
 }
 
-// A coast under a longest edge, large enough to be cut and to have cores of lattices.
+// A coast with an upper bound on edge length, large enough to be cut and to have lattice cores.
 class CappedRegion : public ::testing::TestWithParam<double> {
  protected:
   const Pslg pslg_ = fractalCoast(5, 3, 4);
@@ -204,7 +204,7 @@ TEST_P(CappedRegion, HoldsTheBoundsWithFewTriangles) {
     area += 0.5 * cross(b - a, c - a);
   }
   EXPECT_GT(equilateral, region.mesh.triangles.size() / 2);
-  // Refinement alone takes 1.5 to 1.6 times the equilateral triangles that would fill the domain.
+  // Refinement alone takes 1.5 to 1.6 times as many triangles as equilateral ones that fill the domain.
   EXPECT_LT(static_cast<double>(region.mesh.triangles.size()), 1.5 * area / (0.4330127 * 0.006 * 0.006));
 }
 
@@ -227,7 +227,7 @@ INSTANTIATE_TEST_SUITE_P(Angles, CappedRegion, ::testing::Values(28.0, 33.0, 40.
                          [](const auto& named) { return std::to_string(static_cast<int>(named.param)); });
 
 TEST(MeshRegion, WhatFallsShortIsListedOnce) {
-  // A bound out of reach: what coarsening leaves replaces what refinement left.
+  // An infeasible bound: violations after coarsening replace those after refinement.
   const Pslg pslg = fractalCoast(3, 1, 1);
   const MeshedRegion region = meshRegion(pslg, {.refine = {.min_angle_deg = 45.0}});
   ASSERT_FALSE(region.stats.unresolved.empty());

@@ -42,7 +42,7 @@ std::string answered(const MeshState& state, const PieceTask& task) {
   return answerPiece(requestFor(task, state), squareContext(), {});
 }
 
-// Why bytes are refused.
+// The message with which bytes are refused.
 std::string refusal(const std::function<void()>& work) {
   try {
     work();

@@ -16,7 +16,7 @@
 namespace coastmesh {
 namespace {
 
-// Keeps in memory, and ends the run after so many times.
+// Keeps the checkpoint in memory and ends the run after `most` checkpoints.
 struct Shelf {
   struct Ended {};
 
@@ -47,11 +47,11 @@ void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 std::vector<Case> cases() {
   static const ConstantSize one(0.009);
   std::vector<Case> all(4);
-  // Corners that excuse small angles, and nothing but angles asked for.
+  // Corners that excuse small angles; an angle bound only.
   all[0].name = "Coast", all[0].pslg = fractalCoast(1, 6, 8);
-  // Steps, lattices, and what is mended beside them.
+  // Size steps, lattices, and repairs beside the lattices.
   all[1].name = "CoastWithSize", all[1].pslg = fractalCoast(2, 3, 3), all[1].options.refine.size_max = 0.01;
-  // Segments split beforehand, and all three stages.
+  // Segments split beforehand; all three stages.
   all[2].name = "OneLength", all[2].pslg = fractalCoast(1, 6, 3), all[2].options.refine.size = &one;
   all[3].name = "Budget", all[3].pslg = twoRegions(), all[3].options.refine.size_max = 0.005;
   all[3].options.refine.max_vertices = 20000;
@@ -87,7 +87,8 @@ void expectSame(const MeshedRegion& region, const MeshedRegion& expected) {
 
 class Kept : public ::testing::TestWithParam<Case> {};
 
-// Ended after any of its rounds, and gone on with by another number of threads: all as if it had not been.
+// Ends the run after each of its rounds and resumes it with another number of threads: the result is that of an
+// unbroken run.
 TEST_P(Kept, GoesOnAfterEveryRound) {
   const Case& c = GetParam();
   const MeshedRegion whole = meshed(c, 2, nullptr);
@@ -107,7 +108,7 @@ TEST_P(Kept, GoesOnAfterEveryRound) {
   }
 }
 
-// A run that ends again and again, after each round that it does.
+// A run that ends after every round it completes.
 TEST_P(Kept, GoesOnAsOftenAsItEnds) {
   const Case& c = GetParam();
   const MeshedRegion whole = meshed(c, 2, nullptr);
@@ -140,7 +141,7 @@ TEST_P(Kept, IsOfThatInputAndThoseOptionsAlone) {
   other = c;
   other.pslg.points.front().x += 1e-9;
   EXPECT_THROW(meshed(other, 2, &checkpoint), BadCheckpoint);
-  // The memory that there is may be another tomorrow.
+  // Available memory may differ in the resumed run.
   other = c;
   other.options.refine.most_in_memory = 1u << 30;
   EXPECT_NO_THROW(meshed(other, 2, &checkpoint));

@@ -55,7 +55,7 @@ Meshed runInRounds(const Case& c, int threads) {
   return run;
 }
 
-// Rounds leave the labels to the end of the whole.
+// Regions are labelled after all rounds, not by them.
 void expectValid(TriMesh mesh, const Pslg& pslg, const CheckOptions& options = {}) {
   labelRegions(mesh, pslg);
   expectValidMesh(mesh, pslg, options);

@@ -17,7 +17,7 @@ TEST(WorkLog, SumsAndPaths) {
   EXPECT_DOUBLE_EQ(log.work(), 11.5);
   EXPECT_DOUBLE_EQ(log.criticalPath(), 5.5);
   EXPECT_DOUBLE_EQ(log.timeOn(1), 11.5);
-  EXPECT_DOUBLE_EQ(log.timeOn(2), 1.5 + 5.0);  // 4 and 1 beside 3 and 2
+  EXPECT_DOUBLE_EQ(log.timeOn(2), 1.5 + 5.0);  // 4 and 1 on one thread, 3 and 2 on the other
   EXPECT_DOUBLE_EQ(log.timeOn(64), 5.5);
 }
 
@@ -55,7 +55,7 @@ TEST(Recorder, WritesDownEveryItem) {
   });
 }
 
-// A loop within a loop: a region that is cut while others wait.
+// Nested loops: a region is cut while others wait.
 TEST(ForEachItem, NestsWithoutMixing) {
   for (const int threads : {1, 2, 5}) {
     withThreads({.threads = threads}, [] {

@@ -36,7 +36,7 @@ bool isInside(const TriMesh& mesh, const Point& p) {
 
 double distanceToInput(const Pslg& pslg, const TriMesh& mesh, const Point& p) {
   double nearest = std::numeric_limits<double>::infinity();
-  // The boundary of points alone is that of their hull.
+  // Without segments, the boundary is that of the convex hull.
   for (const Triangle& t : mesh.triangles)
     for (unsigned i = 0; i < 3; ++i)
       if (t.adj[i] == kNone)
@@ -49,7 +49,7 @@ double distanceToInput(const Pslg& pslg, const TriMesh& mesh, const Point& p) {
 
 class LatticeOn : public ::testing::TestWithParam<NamedPslg> {};
 
-// All places of the domain two spacings clear of the input, and no others, judged point by point.
+// Lattice places in the domain at least two spacings from the input, and no others. Each place is checked separately.
 TEST_P(LatticeOn, TakesWhatIsInsideAndClear) {
   const Pslg& pslg = GetParam().pslg;
   const TriMesh mesh = constrainedDelaunay(pslg);
@@ -71,7 +71,7 @@ TEST_P(LatticeOn, TakesWhatIsInsideAndClear) {
       const Point p = lattice.at(a, b);
       const double clear = distanceToInput(pslg, mesh, p);
       const bool is_taken = taken.contains({p.x, p.y});
-      // At the very distance rounding decides.
+      // Rounding decides at exactly that distance.
       if (std::abs(clear - 2.0 * spacing) >= 1e-9 * spacing) {
         EXPECT_EQ(is_taken, clear > 2.0 * spacing && isInside(mesh, p)) << p.x << " " << p.y;
       }
@@ -83,7 +83,7 @@ TEST_P(LatticeOn, TakesWhatIsInsideAndClear) {
 
 using Corners = std::array<std::pair<double, double>, 3>;
 
-// Those of a lattice: a triangulation may join other points that lie on one circle in several ways.
+// Lattice triangles only: other cocircular points can be triangulated in several ways.
 std::vector<Corners> equilateralOnes(const TriMesh& mesh) {
   std::vector<Corners> all;
   for (const Triangle& t : mesh.triangles) {
@@ -99,7 +99,7 @@ std::vector<Corners> equilateralOnes(const TriMesh& mesh) {
   return all;
 }
 
-// The triangulation of all points is that of the rest with the cores' own triangles.
+// The triangulation of all points equals that of the rest plus the cores' own triangles.
 TEST_P(LatticeOn, CoresAreTheirPartOfTheTriangulation) {
   const Pslg& pslg = GetParam().pslg;
   const TriMesh mesh = constrainedDelaunay(pslg);
@@ -129,11 +129,11 @@ TEST(LatticeCores, LieInAllButNarrowDomains) {
   const LatticeMesh cored =
       triangulateWith(squarePslg(), layLattices(mesh, {.size_max = 0.02, .most_places = 100000}), true);
   ASSERT_EQ(cored.cores.size(), 1u);
-  // Five rows are left on each side.
+  // The core ends about five spacings from each side.
   EXPECT_NEAR(static_cast<double>(cored.coreVertices()), 0.8 * 0.8 / (0.8660254 * 0.02 * 0.02), 150.0);
 }
 
-// Two lengths, each over half of a square, and a band between them where neither is wanted.
+// One length in each half of a square, and another in the band between, which neither half's lattice suits.
 class TwoLengths final : public SizeFunction {
  public:
   double at(const Point& p) const override { return p.x < 0.45 ? 0.01 : p.x > 0.55 ? 0.02 : 0.014; }
@@ -157,7 +157,7 @@ TEST(LayLattices, GivesEachLengthItsOwn) {
           for (const Point& q : pointsOf(other))
             nearest = std::min(nearest, distance(p, q) / std::max(some.lattice.spacing, other.lattice.spacing));
     }
-    // Half of a square holds so many of them, but for its sides.
+    // At least 90 % of the lattice that fits into the left half without its margins.
     if (some.lattice.spacing == 0.01) {
       EXPECT_GT(points.size(), 0.9 * 0.43 / (0.8660254 * 1e-4));
     }
@@ -173,7 +173,7 @@ TEST(LayLattices, LaysNoneWithoutLengthsOrRoom) {
   EXPECT_TRUE(layLattices(mesh, {.size_max = 0.5, .most_places = 1000}).empty());
 }
 
-// Its sides are so long that places could not be counted.
+// The sliver's sides are too long to count lattice places.
 TEST(LayLattices, PassesSliversOver) {
   for (const double length : {1e9, 1e30, 1e60}) {
     Pslg sliver = squarePslg();

@@ -29,9 +29,9 @@ TriMesh refined(const Pslg& pslg, const RefineOptions& options) {
 
 struct Shapes {
   double mean = 0.0;          // of 4√3 area / Σ edge²
-  double least_angle = 60.0;  // degrees, below which one triangle of a hundred is
-  double six = 0.0;           // share of the vertices inside that have six neighbours
-  double odd = 0.0;           // share of them that have neither five nor six nor seven
+  double least_angle = 60.0;  // degrees, first percentile of the triangles' smallest angles
+  double six = 0.0;           // share of the inner vertices with valence 6
+  double odd = 0.0;           // share of the inner vertices with valence below 5 or above 7
 };
 
 Shapes shapesOf(const TriMesh& mesh) {
@@ -128,8 +128,8 @@ TEST(Optimise, HoldsEveryBound) {
   }
 }
 
-// Inner triangles with an obtuse angle, and inner edges whose triangles have circumcentres nearer than a tenth of half
-// the sum of the square roots of their areas; the least of those shares.
+// Inner triangles with an obtuse angle; inner edges whose circumcentre distance is below a tenth of the mean square
+// root of the two areas; the smallest such ratio.
 struct Flaws {
   std::size_t obtuse = 0, small_links = 0;
   double least_link = std::numeric_limits<double>::infinity();
@@ -189,7 +189,7 @@ TEST(Optimise, GoalsAreReached) {
   EXPECT_EQ(flawsWith(QualityGoal::Centred).obtuse, 0u);
 }
 
-// Shapes, from poor to good.
+// Shape qualities, ascending.
 std::vector<double> sortedShapes(const TriMesh& mesh) {
   std::vector<double> shapes;
   for (const Triangle& t : mesh.triangles) {
@@ -215,7 +215,7 @@ TEST(Optimise, FewTrianglesAreLeftPoorBesideTheShore) {
   optimise(mesh, pslg, options, kOptimiseSweeps);
   expectValidMesh(mesh, pslg);
   EXPECT_LT(3 * poorOf(mesh), poorOf(before));
-  // With a limit to vertices none comes in: what that mends stays poor.
+  // With a vertex limit, no vertex is inserted, so triangles that need one stay poor.
   TriMesh limited_mesh = before;
   RefineOptions limited = options;
   limited.max_vertices = 1'000'000;
@@ -261,7 +261,7 @@ double longestEdge(const TriMesh& mesh) {
   return longest;
 }
 
-// A comb, its teeth ten times as high as wide: vertices of its straight sides are taken out for the triangles' shapes.
+// A comb with teeth ten times as high as wide: vertices of its straight sides are removed to improve triangle shapes.
 TEST(Optimise, NoEdgeGetsLongerThanAnyMayBe) {
   Pslg comb;
   for (int i = 0; i < 12; ++i)
@@ -295,7 +295,7 @@ TEST(Optimise, KeepsAFineCoastAndItsAngles) {
   expectValidMesh(mesh, pslg);
 }
 
-// A shore of steps as long as the size wanted, by angles that change from step to step.
+// A shore of steps as long as the target edge length, at changing angles.
 Pslg steppedShore() {
   Pslg pslg;
   Point at{0.0, 0.0};
@@ -363,8 +363,8 @@ TEST(Optimise, WithoutSizesEvensAnglesOut) {
   expectValidMesh(mesh, pslg, {.min_angle_deg = 30.0});
 }
 
-// Rows of equilateral triangles, two of which share a diagonal the other way round: its ends lie nearer to one another
-// than they should, so that it is the Delaunay one.
+// Rows of equilateral triangles, where one pair has the other diagonal of its rhombus: the diagonal's ends are so close
+// together that it is Delaunay.
 TEST(DiagonalExchange, TakesAwayFivesAndSevens) {
   constexpr int kSide = 8;
   Pslg pslg;
@@ -380,7 +380,7 @@ TEST(DiagonalExchange, TakesAwayFivesAndSevens) {
     for (int k = 0; k < steps; ++k)
       pslg.segments.push_back({static_cast<VertexId>(from + k * step), static_cast<VertexId>(from + (k + 1) * step)});
   }
-  // The rhombus of (3,3), (4,3), (3,4) and (4,4): from (4,3) to (3,4) goes its short diagonal.
+  // The rhombus of (3,3), (4,3), (3,4) and (4,4): its short diagonal joins (4,3) and (3,4).
   const VertexId left = at(3, 3), right = at(4, 4), low = at(4, 3), high = at(3, 4);
   const auto towards = [&](VertexId v, VertexId w, double share) {
     const Point a = pslg.points[v], b = pslg.points[w];
@@ -394,7 +394,7 @@ TEST(DiagonalExchange, TakesAwayFivesAndSevens) {
   pslg.points[high] = moved_high;
 
   TriMesh made = constrainedDelaunay(pslg);
-  made.input_vertices = 0;  // all inside the boundary may move
+  made.input_vertices = 0;  // all vertices inside the boundary may move
   EditMesh mesh(std::move(made));
   const auto trianglesRound = [&](VertexId v) {
     std::vector<EdgeRef> star;

@@ -17,7 +17,7 @@
 namespace coastmesh {
 namespace {
 
-// A refined mesh to break.
+// A refined mesh for tests to damage.
 struct Sample {
   Pslg pslg;
   TriMesh mesh;
@@ -41,7 +41,8 @@ std::set<DefectKind> kindsIn(const Sample& sample, const CheckOptions& options =
 
 using Kinds = std::set<DefectKind>;
 
-// What a program reads from a file: coordinates and corners, all else linked anew. Steiner points are rounded.
+// The mesh as read from a file, which has coordinates and corners only: all links are rebuilt. Steiner points are
+// rounded to multiples of `rounding`.
 TriMesh asRead(const TriMesh& mesh, double rounding) {
   std::vector<Point> points = mesh.points;
   if (rounding > 0.0)
@@ -121,7 +122,7 @@ TEST(CheckMesh, ACornerTwiceWithoutNeighbours) {
   }
 }
 
-// Each corner, each pair of them, each neighbour: and none but the triangle that has them, where it is.
+// Each corner and each neighbour is damaged in turn: the defect names the triangle, or its place is that triangle's.
 TEST(CheckMesh, BrokenTrianglesAreToldOneByOne) {
   const TriMesh mesh = meshOf({{0, 0}, {3, 0}, {3, 3}, {0, 3}}, {{0, 1, 2}, {0, 2, 3}});
   const auto broken = [](const TriMesh& changed) {
@@ -142,7 +143,7 @@ TEST(CheckMesh, BrokenTrianglesAreToldOneByOne) {
     without.triangles[0].adj[i] = twin == kNone ? edgeRef(1, 0) : edgeRef(0, 0) + 3;
     EXPECT_TRUE(broken(without).contains(0)) << i;
   }
-  // Two that do point back, with other corners than each other's.
+  // Two triangles that point to each other but do not share an edge.
   for (const VertexId corner : {0u, 2u}) {
     TriMesh other = mesh;
     other.points.push_back({-1, 1});
@@ -158,10 +159,11 @@ TEST(CheckMesh, BrokenTrianglesAreToldOneByOne) {
   EXPECT_NEAR(distance(defects[1].place, {1, 2}), 0.0, 1e-12);
 }
 
-// In a mesh that was read from a file cocircular points are rounded; in one of ours circles are exact.
+// Rounding moves cocircular points in meshes read from files, so these get a tolerance; in our own, circles are exact.
 TEST(CheckMesh, RoundingMakesNoEdgeThatIsNotDelaunay) {
   for (const double inwards : {1e-9, 1e-5}) {
-    // Of a square of 2 the corner (2, 2) lies within the circle through the others, the diagonal is theirs.
+    // In a square of side 2, the corner (2, 2) is moved into the circle through the others; the diagonal joins its
+    // neighbours.
     const double x = 2.0 - inwards;
     TriMesh mesh = meshOf({{0, 0}, {2, 0}, {x, x}, {0, 2}}, {{0, 1, 3}, {1, 2, 3}});
     EXPECT_EQ(checkMesh(mesh, nullptr, {}).size(), inwards > 1e-7 ? 1u : 0u) << inwards;
@@ -172,7 +174,7 @@ TEST(CheckMesh, RoundingMakesNoEdgeThatIsNotDelaunay) {
   }
 }
 
-// Each edge is judged once, whichever corner of either triangle lies across it.
+// Each edge is reported once, whichever corners of its two triangles are opposite.
 TEST(CheckMesh, EachEdgeThatIsNotDelaunayOnce) {
   for (unsigned i = 0; i < 3; ++i)
     for (unsigned j = 0; j < 3; ++j) {
@@ -222,7 +224,7 @@ TEST(CheckMesh, TurnedTriangle) {
   Sample sample = sampleOf(fractalCoast(2, 2, 2));
   const VertexId v = firstFree(sample.mesh);
   ASSERT_NE(v, kNone);
-  // Across the opposite edge of one of its triangles.
+  // Moves v across the opposite edge of one of its triangles.
   for (TriId t = 0; t < sample.mesh.triangles.size(); ++t) {
     const auto& c = sample.mesh.triangles[t].v;
     if (std::ranges::find(c, v) == c.end()) continue;
@@ -264,7 +266,7 @@ TEST(CheckMesh, InputVertexMovedByOneBit) {
 }
 
 TEST(CheckMesh, PointInsideTheDomainThatIsNoCorner) {
-  // Input points without segments are kept too.
+  // Input points without segments must also be vertices of the mesh.
   const Pslg pslg = randomPointsInBox(3, 5);
   Pslg fewer = pslg;
   fewer.points.pop_back();
@@ -298,7 +300,7 @@ TEST(CheckMesh, SegmentThatIsNoChain) {
 }
 
 TEST(CheckMesh, SegmentWithAGap) {
-  // One piece of several no longer marked, on neither side.
+  // Unmarks one of several pieces of a segment; it is on the boundary and has no other side.
   Sample sample = sampleOf(collinearRuns());
   for (TriId t = 0; t < sample.mesh.triangles.size(); ++t) {
     for (unsigned i = 0; i < 3; ++i) {
@@ -322,7 +324,7 @@ TEST(CheckMesh, VertexOffItsSegment) {
 }
 
 TEST(CheckMesh, EdgeThatIsNotDelaunay) {
-  // A square's corner drawn in, its long diagonal kept.
+  // A square with one corner moved inwards; `flipped` has the wrong, longer diagonal.
   const TriMesh mesh = meshOf({{0, 0}, {2, 0}, {1.1, 1.1}, {0, 2}}, {{0, 1, 2}, {0, 2, 3}});
   EXPECT_EQ(kindsIn(checkMesh(mesh, nullptr, {})), Kinds{});
   const TriMesh flipped = meshOf({{0, 0}, {2, 0}, {1.1, 1.1}, {0, 2}}, {{0, 1, 3}, {1, 2, 3}});
@@ -333,7 +335,7 @@ TEST(CheckMesh, EdgeThatIsNotDelaunay) {
   EXPECT_EQ(kindsIn(checkMesh(flipped, nullptr, {.delaunay = false})), Kinds{});
 }
 
-// An octahedron in a stereographic plane whose pole lies in one of its faces, which it shows from the other side.
+// An octahedron in a stereographic projection whose pole lies in one face, which is inverted in the plane.
 struct ClosedSample {
   TriMesh mesh;
   std::vector<SpacePoint> places;
@@ -342,7 +344,7 @@ struct ClosedSample {
 ClosedSample octahedron(bool turned = false) {
   const SpacePoint w = (1.0 / std::sqrt(1.3 * 1.3 + 1.1 * 1.1 + 1.0)) * SpacePoint{1.3, 1.1, 1.0};
   const SpacePoint u = (1.0 / std::hypot(w.x, w.y)) * SpacePoint{-w.y, w.x, 0.0};
-  const SpacePoint v = cross(u, w);  // the plane is seen from without, from the pole's opposite
+  const SpacePoint v = cross(u, w);  // oriented as seen from outside the sphere, opposite the pole
   ClosedSample sample;
   std::vector<Point> points;
   for (const SpacePoint& p : {SpacePoint{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}) {
@@ -381,7 +383,7 @@ TEST(CheckMesh, ClosedMeshes) {
   EXPECT_EQ(checkMesh(turned.mesh, nullptr, options).size(), 8u);
 }
 
-// The same with one of its faces divided at a place; the faces in the other order where asked.
+// The same with one face divided at a point; faces in reverse order if `reversed`.
 ClosedSample dividedOctahedron(const std::set<VertexId>& face, const SpacePoint& towards, bool reversed) {
   ClosedSample sample = octahedron();
   const SpacePoint w = (1.0 / std::sqrt(1.3 * 1.3 + 1.1 * 1.1 + 1.0)) * SpacePoint{1.3, 1.1, 1.0};
@@ -404,7 +406,7 @@ ClosedSample dividedOctahedron(const std::set<VertexId>& face, const SpacePoint&
   return sample;
 }
 
-// At a place beside an edge, near enough to be within the circle through the face beyond.
+// The point is near an edge, inside the circumcircle of the face beyond.
 TEST(CheckMesh, ClosedMeshThatIsNotDelaunay) {
   const ClosedSample divided = dividedOctahedron({1, 3, 5}, {-1.0, -1.0, -0.2}, false);
   CheckOptions options{.places = divided.places, .closed = true};
@@ -416,7 +418,7 @@ TEST(CheckMesh, ClosedMeshThatIsNotDelaunay) {
   EXPECT_EQ(describe(checkMesh(divided.mesh, nullptr, options)), "");
 }
 
-// Nothing is asked where the face beyond is the one that the plane shows from the other side.
+// The Delaunay property is not checked across an edge of the inverted face.
 TEST(CheckMesh, ClosedMeshBesideThePole) {
   for (const bool reversed : {false, true}) {
     const ClosedSample divided = dividedOctahedron({1, 2, 4}, {-0.2, 1.0, 1.0}, reversed);
@@ -425,7 +427,7 @@ TEST(CheckMesh, ClosedMeshBesideThePole) {
 }
 
 TEST(CheckMesh, DelaunayOnlyWhereAsked) {
-  // The diagonal of a square with a corner drawn in that is no edge of the Delaunay triangulation.
+  // A square with one corner moved inwards, triangulated with the diagonal that is not Delaunay.
   Pslg pslg;
   pslg.points = {{0, 0}, {2, 0}, {1.1, 1.1}, {0, 2}};
   for (VertexId v = 0; v < 4; ++v) pslg.segments.push_back({v, (v + 1) % 4, 0, 0, kOutside});
@@ -438,7 +440,7 @@ TEST(CheckMesh, DelaunayOnlyWhereAsked) {
 }
 
 TEST(CheckMesh, BoundsNextToNoneAreBounds) {
-  // Angles of 0.286 and 179.43 degrees at a vertex inside.
+  // Angles of 0.286 and 179.43 degrees at an inner vertex.
   const TriMesh flat =
       meshOf({{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 0.005}}, {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}});
   const auto kindsWith = [&](double least, double most) {
@@ -480,7 +482,7 @@ TEST(CheckMesh, AngleOnTheBoundIsNoDefect) {
 }
 
 TEST(CheckMesh, HoleThatIsMeshed) {
-  // The mesh of the square as a whole, compared with the square that has a hole.
+  // The mesh of the whole square, compared with the input that has a hole.
   Sample sample = sampleOf(squareWithHole());
   Pslg whole = sample.pslg;
   whole.holes.clear();
@@ -498,7 +500,7 @@ TEST(CheckMesh, TriangleThatIsMissing) {
 }
 
 TEST(CheckMesh, TriangleTwice) {
-  // One that overlaps others: only the area tells.
+  // It overlaps others, which only the area reveals.
   Sample sample{squarePslg(), constrainedDelaunay(squarePslg())};
   const VertexId n = static_cast<VertexId>(sample.mesh.points.size());
   for (const Point& p : {Point{0.2, 0.2}, Point{0.4, 0.2}, Point{0.2, 0.4}}) sample.mesh.points.push_back(p);
@@ -542,13 +544,13 @@ TEST(CheckMesh, DefectsComeByKindAndThenInOrder) {
   EXPECT_GE(seen.size(), 3u);
 }
 
-// Meshes read from files: known by coordinates alone.
+// Meshes read from files: input vertices are found by their coordinates.
 class CheckByPlaceOf : public ::testing::TestWithParam<NamedPslg> {};
 
 TEST_P(CheckByPlaceOf, RoundingIsNoDefect) {
   const Sample sample = sampleOf(GetParam().pslg);
   for (const double rounding : {0.0, 1e-13, 1e-12}) {
-    // Where input points are a billionth apart, so are the vertices, and rounding is to be finer yet.
+    // If input points are 1e-9 apart, vertices are too, so rounding must be finer.
     const double share = smallestSpacing(sample.pslg) < 1e-6 ? 1e-6 : 1.0;
     const TriMesh read = asRead(sample.mesh, share * rounding);
     EXPECT_EQ(describe(checkMesh(read, &sample.pslg, {.min_angle_deg = 29.99999})), "") << "rounded to " << rounding;
@@ -573,7 +575,7 @@ TEST_P(CheckByPlaceOf, ShuffledVerticesAndTrianglesAreTheSame) {
 TEST_P(CheckByPlaceOf, MissingVertexIsFound) {
   const Sample sample = sampleOf(GetParam().pslg);
   TriMesh read = asRead(sample.mesh, 0.0);
-  // An input vertex that belongs to the domain for sure: the first corner of the first triangle that has one.
+  // An input vertex that certainly belongs to the domain: the first in the corners of the first triangle that has one.
   for (const Triangle& t : read.triangles) {
     const auto v = std::ranges::find_if(t.v, [&](VertexId c) { return c < sample.mesh.input_vertices; });
     if (v == t.v.end()) continue;
@@ -588,7 +590,7 @@ TEST_P(CheckByPlaceOf, MissingVertexIsFound) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, CheckByPlaceOf, ::testing::ValuesIn([] {
-                           // Points alone leave bad triangles along their hull, rays of one vertex a few too many.
+                           // RandomPoints leaves bad triangles along the hull, FanOfAngles a few at its rays.
                            std::vector<NamedPslg> chosen = assortedPslgs();
                            std::erase_if(chosen, [](const NamedPslg& n) {
                              return n.name == "RandomPoints" || n.name == "FanOfAngles";

@@ -25,7 +25,7 @@ struct BothRuns {
 };
 
 BothRuns runBoth(const Pslg& pslg, RefineOptions options) {
-  // Where refinement does not end by itself, another test says so.
+  // Stops runs that do not terminate; refine_test checks termination.
   options.max_vertices = std::min<std::uint64_t>(options.max_vertices, 20'000);
   BothRuns run;
   run.refined = constrainedDelaunay(pslg);
@@ -35,7 +35,7 @@ BothRuns runBoth(const Pslg& pslg, RefineOptions options) {
   return run;
 }
 
-// Length of what each segment has as edges, from either side.
+// The total edge length of each segment, summed over both sides.
 std::vector<double> lengthsOfSegments(const TriMesh& mesh, std::size_t segments) {
   std::vector<double> lengths(segments, 0.0);
   for (TriId t = 0; t < mesh.triangles.size(); ++t)
@@ -60,17 +60,17 @@ class CoarsenOf : public ::testing::TestWithParam<NamedPslg> {
     const auto before = areasByRegion(run.refined), after = areasByRegion(run.coarsened);
     ASSERT_EQ(after.size(), before.size());
     for (const auto& [region, area] : before) EXPECT_NEAR(after.at(region), area, 1e-9 * area) << "region " << region;
-    // Segments lose no piece, on neither side.
+    // Segments stay complete, on both sides.
     const auto whole = lengthsOfSegments(run.refined, pslg.segments.size());
     const auto kept = lengthsOfSegments(run.coarsened, pslg.segments.size());
     for (std::size_t s = 0; s < whole.size(); ++s) EXPECT_NEAR(kept[s], whole[s], 1e-12 * whole[s]) << "segment " << s;
-    // No triangle that did not before falls short.
+    // No more bound violations than before.
     EXPECT_LE(run.coarsen_stats.unresolved.size(), run.refine_stats.unresolved.size());
     const auto defects = checkMesh(run.coarsened, &pslg,
                                    {.min_angle_deg = options.min_angle_deg, .max_angle_deg = options.max_angle_deg});
     EXPECT_LE(defects.size(), run.coarsen_stats.unresolved.size());
     EXPECT_EQ(wrongBoundViolations(run.coarsened, pslg, options, run.coarsen_stats.unresolved), "");
-    // The same again.
+    // The result is reproducible.
     const BothRuns again = runBoth(pslg, options);
     EXPECT_EQ(digestOf(again.coarsened), digestOf(run.coarsened));
   }

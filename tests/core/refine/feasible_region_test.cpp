@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kNoSize = std::numeric_limits<double>::infinity();
 
-// What is asked, free of the code under test.
+// The bounds, independent of the code under test.
 struct Asked {
   double min_angle_deg;
   double max_angle_deg;
@@ -23,8 +23,9 @@ struct Asked {
   TriangleBound bound() const { return {min_angle_deg, max_angle_deg, size_max}; }
 };
 
-// By how much a place holds what is asked of all triangles of the star: the least room of all angles, in degrees, and
-// of all lengths, in degrees too at one a hundredth of the size. The largest angle at the place itself is not asked.
+// The margin by which a point satisfies the bounds in all triangles of the star: the smallest over angles, in degrees,
+// and over lengths, also in degrees, at one per hundredth of the size. The largest angle at the point itself is not
+// bounded.
 double roomAt(const Point& at, const std::vector<LinkEdge>& link, const Asked& asked) {
   double room = 180.0;
   for (const LinkEdge& e : link) {
@@ -41,7 +42,7 @@ double roomAt(const Point& at, const std::vector<LinkEdge>& link, const Asked& a
   return room;
 }
 
-// The link of a vertex near `centre`: corners in all directions, nearer and farther.
+// The link of a vertex near `centre`, with corners in all directions at various distances.
 std::vector<LinkEdge> randomLink(std::mt19937_64& random, const Point& centre, double size) {
   const int n = 4 + static_cast<int>(random() % 5);
   const double nearest = uniform(random, 0.2, 1.0);
@@ -55,7 +56,7 @@ std::vector<LinkEdge> randomLink(std::mt19937_64& random, const Point& centre, d
   return link;
 }
 
-// The most room that any place of a fine grid over the link has.
+// The largest margin at any point of a grid over the link.
 double bestOfSamples(const std::vector<LinkEdge>& link, const Asked& asked, int cells) {
   Point low{kNoSize, kNoSize}, high{-kNoSize, -kNoSize};
   for (const LinkEdge& e : link) {
@@ -76,7 +77,7 @@ void PrintTo(const Asked& asked, std::ostream* out) {
   *out << asked.min_angle_deg << " to " << asked.max_angle_deg << " degrees, size " << asked.size_max;
 }
 
-// Against sampling: a place that is found holds what is asked; where a sample has room, a place is found.
+// Against sampling: a point that is found satisfies the bounds; if a sample has a clear margin, a point is found.
 TEST_P(FeasibleRegionAt, AgreesWithSampling) {
   const Asked asked = GetParam();
   FeasibleRegion region(asked.bound());
@@ -96,7 +97,7 @@ TEST_P(FeasibleRegionAt, AgreesWithSampling) {
     empty += !place;
     roomy += sampled;
   }
-  // Both kinds occur, or the test says little.
+  // Both outcomes must occur, or the test proves little.
   EXPECT_GT(roomy, 3);
   EXPECT_GE(found, roomy);
   EXPECT_GT(empty, 0);
@@ -108,7 +109,7 @@ TEST_P(FeasibleRegionAt, BetweenTwoPointsAgreesWithSampling) {
   for (unsigned seed = 1; seed <= 120; ++seed) {
     SCOPED_TRACE(::testing::Message() << "seed " << seed);
     std::mt19937_64 random(1000 + seed);
-    // A vertex on the way between two corners of its link, as on a segment; every other time the half on one side.
+    // A point between two corners of the link, as on a segment; in every other case only one half of the link.
     auto link = randomLink(random, {}, 1.0);
     const Point a = link[0].x, b = link[link.size() / 2].x;
     if (seed % 2 == 0) link.resize(link.size() / 2);
@@ -155,7 +156,7 @@ TEST(FeasibleRegion, RegularLinkHasItsCentre) {
 }
 
 TEST(FeasibleRegion, WithoutAnAngleTheKernelOfTheLink) {
-  // An L: its kernel is the square at the corner.
+  // An L-shaped link: its kernel is the square at the corner.
   const std::vector<Point> corners{{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}};
   std::vector<LinkEdge> link;
   for (std::size_t i = 0; i < corners.size(); ++i) link.push_back({corners[i], corners[(i + 1) % corners.size()]});
@@ -185,7 +186,7 @@ TEST(FeasibleRegion, SizeAndPlaceDoNotMatter) {
 }
 
 TEST(FeasibleRegion, ALookFindsAPlaceOrThatThereIsNone) {
-  constexpr double kLong = 1e6;  // never reached, but a bound that a look does not know
+  constexpr double kLong = 1e6;  // never reached; with it, findPoint does not use `look`, which has no sizes
   int empty = 0, found = 0;
   for (unsigned seed = 1; seed <= 2000; ++seed) {
     std::mt19937_64 random(seed);

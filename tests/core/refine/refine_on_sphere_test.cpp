@@ -27,7 +27,7 @@ double angleAtDeg(const SpacePoint& at, const SpacePoint& p, const SpacePoint& q
   return toDegrees(std::atan2(lengthOf(cross(p - at, q - at)), dot(p - at, q - at)));
 }
 
-// A cap of the sphere as far as `reach` (radians) from the origin, its boundary of so many corners.
+// A cap of the sphere up to `reach` (radians) from the origin, with a boundary of `corners` points.
 Pslg cap(double reach, unsigned corners) {
   Pslg pslg;
   const double far = 2.0 * kRadius * std::tan(0.5 * reach);
@@ -41,7 +41,7 @@ Pslg cap(double reach, unsigned corners) {
 
 struct InSpace {
   double least_angle = 180.0, greatest_angle = 0.0;
-  double area = 0.0, area_near_size = 0.0;  // of triangles, and of those whose edges are all 0.6 to 1.6 of the size
+  double area = 0.0, area_near_size = 0.0;  // of all triangles; of those whose edges are all 0.6 to 1.6 of the size
   double longest = 0.0;
 };
 
@@ -65,7 +65,7 @@ InSpace measure(const TriMesh& mesh, double size) {
   return result;
 }
 
-// Nearly the whole sphere: at its boundary the plane is 50 times as large as the ground.
+// Nearly the whole sphere: at the boundary, the plane is enlarged 50 times.
 TEST(RefineOnSphere, AnglesHoldInSpaceFarFromTheCentre) {
   for (const double min_angle : {30.0, 33.0, 38.0}) {
     const Pslg pslg = cap(toRadians(164.0), 12);

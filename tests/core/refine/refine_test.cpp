@@ -27,19 +27,19 @@ constexpr Algorithm kAlgorithms[] = {Algorithm::Circumcenter, Algorithm::Offcent
 
 using Places = std::set<std::pair<double, double>>;
 
-// All that holds of every refined mesh, whatever was asked.
+// Properties of every refined mesh, whatever the options.
 void expectRefined(const TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RefineStats& stats) {
-  // A valid mesh of the input, with the regions that it had.
+  // A valid mesh of the input, with the same regions.
   expectValidMesh(mesh, pslg);
   EXPECT_EQ(stats.steiner_points, mesh.points.size() - pslg.points.size());
   const auto before = areasByRegion(constrainedDelaunay(pslg)), after = areasByRegion(mesh);
   ASSERT_EQ(after.size(), before.size());
   for (const auto& [region, area] : before) EXPECT_NEAR(after.at(region), area, 1e-9 * area) << "region " << region;
 
-  // Every triangle that falls short is excused or listed; what is listed falls short.
+  // Every triangle that misses the bounds is excused or listed; every listed triangle misses them.
   EXPECT_EQ(wrongBoundViolations(mesh, pslg, options, stats.unresolved), "");
 
-  // The checker finds the same, but for those within rounding of the bound.
+  // The checker finds the same triangles, except those within rounding of the bound.
   if (!std::isinf(options.size_max)) return;
   constexpr double kHair = 1e-5;
   Places listed;
@@ -77,20 +77,20 @@ std::string describe(const RefineOptions& o) {
 
 class RefineOf : public ::testing::TestWithParam<NamedPslg> {
  protected:
-  // Points alone have a boundary that is no segment, and that no point may split.
+  // Without segments, the boundary is the convex hull, whose edges may not be split.
   bool hasSegments() const { return !GetParam().pslg.segments.empty(); }
-  // Rays 2 degrees apart and of uneven lengths: at small bounds one triangle goes from the tip of one to that of the
-  // next, further than an angle excuses, and no point mends it.
+  // Rays 2 degrees apart, of uneven lengths: at small bounds, one triangle joins the tips of two neighbouring rays,
+  // beyond the reach of an excusing angle, and no point repairs it.
   std::size_t mostUnresolved(double angle) const { return GetParam().name == "FanOfAngles" && angle <= 20.0 ? 1 : 0; }
 
   RefineStats expectRefinedWith(RefineOptions options) {
     SCOPED_TRACE(describe(options));
-    // A run that does not end by itself is to fail, not to hang.
+    // A run that does not terminate must fail, not hang.
     options.max_vertices = 20'000;
     const Refined result = refined(GetParam().pslg, options);
     expectRefined(result.mesh, GetParam().pslg, options, result.stats);
     EXPECT_FALSE(result.stats.budget_reached);
-    // The input's own spacing, or the size asked for, bounds edges from below.
+    // The input's spacing or the requested size bounds edges from below.
     constexpr double kShare = 1e-3;
     EXPECT_GE(measureQuality(result.mesh, 0.0).shortest_edge,
               kShare * std::min(smallestSpacing(GetParam().pslg), options.size_max));
@@ -152,7 +152,7 @@ TEST_P(RefineOf, IsTheSameTwice) {
   }
 }
 
-// Powers of two scale without rounding, so nothing may change at all.
+// Scaling by a power of two does not round, so the result must scale exactly.
 TEST_P(RefineOf, ScalesExactly) {
   const RefineOptions options{.min_angle_deg = 33.0};
   const Refined once = refined(GetParam().pslg, options);
@@ -177,7 +177,7 @@ TEST_P(RefineOf, BudgetGivesAValidMesh) {
       const Refined result = refined(pslg, options);
       expectRefined(result.mesh, pslg, options, result.stats);
       EXPECT_LE(result.mesh.points.size(), std::max<std::uint64_t>(most, pslg.points.size()));
-      // Nothing but the budget makes another mesh.
+      // If the budget is not reached, it does not change the mesh.
       if (!result.stats.budget_reached) {
         EXPECT_EQ(digestOf(result.mesh), digestOf(refined(pslg, without_budget).mesh));
       }
@@ -188,7 +188,8 @@ TEST_P(RefineOf, BudgetGivesAValidMesh) {
 INSTANTIATE_TEST_SUITE_P(All, RefineOf, ::testing::ValuesIn(assortedPslgs()),
                          [](const auto& param_info) { return nameOf(param_info.param); });
 
-// Bounds that cannot be held end at the floor that the input's spacing sets, not at that of double precision.
+// With bounds that cannot be met, refinement ends at the spacing limit set by the input, not at that of double
+// precision.
 TEST(Refine, HopelessBoundsEnd) {
   const auto expectEnd = [](const Pslg& pslg, RefineOptions options) {
     options.max_vertices = 20'000;
@@ -225,13 +226,13 @@ TEST(Refine, LongestEdgeHoldsTheSize) {
       EXPECT_TRUE(result.stats.unresolved.empty());
       const MeshQuality quality = measureQuality(result.mesh, 28.0);
       EXPECT_LE(quality.longest_edge, size);
-      // And not with far more than it takes: an equilateral triangle of that size has 0.43 size².
+      // And not with far more triangles than necessary: an equilateral triangle of that size has 0.43 size².
       EXPECT_LT(static_cast<double>(quality.triangles), 40.0 + 8.0 * quality.area / (0.43 * size * size));
     }
   }
 }
 
-// The triangle that fills an input angle too small for the bound is no longer than any other.
+// The triangle that fills an input angle too small for the bound also obeys the longest edge.
 TEST(Refine, LongestEdgeHoldsInSharpCorners) {
   for (const double width : {0.02, 0.1, 0.3}) {
     Pslg pslg;
@@ -245,8 +246,9 @@ TEST(Refine, LongestEdgeHoldsInSharpCorners) {
   }
 }
 
-// A lake whose western end is an angle too small for the bound: the triangle that fills it has its base across the
-// water, and what mends the triangle beyond lies in that triangle's circumcircle. Its sides are to be split first.
+// A lake whose western end is an angle too small for the bound. The triangle that fills it has its base across the
+// water; the point that repairs the triangle beyond the base lies in the filling triangle's circumcircle. The filling
+// triangle's sides must be split first.
 TEST(Refine, BeyondTheBaseOfATriangleThatFillsACorner) {
   Pslg pslg;
   pslg.points = {{0, 1135}, {1062, 1325}, {1564, 1046}, {1897, 0}, {1062, 378}, {970, 1046}};
@@ -260,7 +262,7 @@ TEST(Refine, BeyondTheBaseOfATriangleThatFillsACorner) {
   }
 }
 
-// A canal: nothing tells how narrow it is but the opposite shore.
+// A channel whose width only the opposite shore reveals.
 TEST(Refine, ChannelsOfAnyWidth) {
   for (const double width : {0.03, 0.01, 0.001, 0.0001}) {
     for (const Algorithm algorithm : {Algorithm::Optimal, Algorithm::Relocate}) {
@@ -276,17 +278,16 @@ TEST(Refine, ChannelsOfAnyWidth) {
   }
 }
 
-// Neither huge nor tiny coordinates matter, nor how the input lies. A mesh depends on every rounding, so one count says
-// little; several together hardly change. A sea with an inlet that narrows to an angle, or as much water between two
-// features: the rays are of uneven lengths, and end near others. Only what fills the angle is excused, so all the rest
-// has to be good.
+// An inlet that narrows to an angle, with land behind its shores, or with water on both sides of the two rays. The rays
+// have uneven lengths, and their tips are close together. Only triangles that fill the angle are excused, so all others
+// must be good.
 Pslg narrowInlet(double angle_deg, bool water_beside) {
   const double along = std::cos(toRadians(angle_deg)), across = std::sin(toRadians(angle_deg));
   Pslg pslg;
   pslg.points = {{-3, -3}, {3, -3}, {3, 3}, {-3, 3}, {-2, 0}, {-2 + 2.27, 0}, {-2 + 2.38 * along, 2.38 * across}};
   pslg.segments = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {4, 6}};
   if (!water_beside) {
-    // Land behind the rays, with a tip of its own at the end of each.
+    // Land behind the rays, with a tip at the end of each.
     pslg.points.insert(pslg.points.end(), {{-2.2, 1.1}, {-2.2, -0.9}});
     pslg.segments.insert(pslg.segments.end(), {{6, 7}, {7, 8}, {8, 5}});
     pslg.holes = {{-2.15, 0.1}};
@@ -304,10 +305,10 @@ TEST(Refine, InletsOfAnyAngle) {
                      std::to_string(min_angle));
         const auto [mesh, stats] = refined(pslg, options);
         expectRefined(mesh, pslg, options, stats);
-        // Where water lies on both sides of a ray no good triangles lead from its length to the width of a tiny angle:
-        // of those round a point of the ray each can be a little wider than the one before, and half a turn has room
-        // for five. Wherever the ray's pieces change from long to short some fall short, and here that is beyond what
-        // the angle excuses.
+        // With water on both sides of a ray, good triangles cannot grade from the ray's length down to the width of a
+        // tiny angle: around a point of the ray, each can be only a little wider than the one before, and half a turn
+        // has room for five. Where the ray's pieces change from long to short, some triangles miss the bound, here
+        // beyond the reach of the excusing angle.
         const bool has_limits = water_beside && angle < 1.0;
         EXPECT_LE(stats.unresolved.size(), has_limits ? mesh.triangles.size() / 12 : 0);
         EXPECT_LT(mesh.triangles.size(), 2500u);
@@ -316,6 +317,8 @@ TEST(Refine, InletsOfAnyAngle) {
   }
 }
 
+// Neither huge nor tiny coordinates nor the input's orientation matter. Each mesh depends on every rounding, so a
+// single count says little; sums over several hardly change.
 TEST(Refine, ScaleMoveAndTurnHardlyChangeTheCount) {
   for (const Algorithm algorithm : {Algorithm::Optimal, Algorithm::Relocate}) {
     const RefineOptions options{.min_angle_deg = 33.0, .algorithm = algorithm};
@@ -406,7 +409,7 @@ TEST(RefineStats, AddUp) {
   EXPECT_EQ(a.unresolved[2].place, (Point{9, 10}));
 }
 
-// The ends of the range of coordinates: a mesh of the same shape, as good.
+// Near both limits of the range of coordinates, refinement meets the same bounds.
 TEST(Refine, AtTheEndsOfTheRangeOfCoordinates) {
   for (const double factor : {1e-68, 1e-40, 1e40, 0.9e70}) {
     SCOPED_TRACE(factor);
@@ -419,7 +422,7 @@ TEST(Refine, AtTheEndsOfTheRangeOfCoordinates) {
   }
 }
 
-// The same gap between two shores: more than there is room for lies in it, and nowhere else.
+// A narrow gap between two segments takes more vertices than fit into memory; the error must name a place in it.
 TEST(Refine, StopsWhereTheMemoryWouldNotHoldWhatTheInputTakes) {
   Pslg pslg = squarePslg();
   pslg.points.insert(pslg.points.end(), {{0.1, 0.5}, {0.9, 0.5}, {0.1, 0.50001}, {0.9, 0.50001}});
@@ -439,7 +442,7 @@ TEST(Refine, StopsWhereTheMemoryWouldNotHoldWhatTheInputTakes) {
   EXPECT_NO_THROW(refine(mesh, squareWithHole(), {.min_angle_deg = 33.0, .most_in_memory = 1000}));
 }
 
-// A gap of a thousandth, which takes vertices as near to one another: none comes nearer than asked for.
+// A gap of 0.001, which needs vertices as close together: with a resolution, none is closer than that.
 TEST(Refine, PutsNoVertexNearerThanTheResolution) {
   Pslg pslg = squarePslg();
   pslg.points.insert(pslg.points.end(), {{0.3, 0.5}, {0.5, 0.5}, {0.501, 0.5}, {0.7, 0.5}});

@@ -37,7 +37,7 @@ TEST(SplitSegments, PiecesAreEven) {
   }
 }
 
-// Pieces of the fewest that are no longer than the longest edge asked.
+// As few pieces as possible, none longer than `size_max`.
 TEST(SplitSegments, PiecesHoldALongestEdge) {
   Pslg square;
   square.points = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}};
@@ -65,7 +65,7 @@ TEST(SplitSegments, AreWantedForLengthsAndBesideALattice) {
   EXPECT_TRUE(wantsSplitSegments(mesh, {.size = &size}));
   EXPECT_FALSE(wantsSplitSegments(mesh, {.size_max = 0.1}));
   EXPECT_FALSE(wantsSplitSegments(mesh, {}));
-  mesh.points.push_back({0.5, 0.5});  // of a lattice
+  mesh.points.push_back({0.5, 0.5});  // a lattice point
   EXPECT_TRUE(wantsSplitSegments(mesh, {.size_max = 0.1}));
   EXPECT_FALSE(wantsSplitSegments(mesh, {}));
 }

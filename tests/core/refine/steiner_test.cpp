@@ -18,7 +18,7 @@ namespace {
 constexpr double kNoSize = std::numeric_limits<double>::infinity();
 
 struct Petal {
-  Point p, q;  // the bad triangle's shortest edge, the triangle to its left
+  Point p, q;  // the bad triangle's shortest edge; the triangle is to its left
   Point centre;
   double radius = 0.0;
 };
@@ -47,8 +47,8 @@ Point circumcentre(const EditMesh& mesh, TriId t) {
   return mesh.corner(t, 0) + circumcenterOffset(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
 }
 
-// The most clearance among all circumcentres in the petal and all crossings of its circle with Voronoi edges. REQUIRES:
-// no constraint is in sight of the petal, so that its Voronoi edges are all between two triangles.
+// The largest clearance over all circumcentres in the petal and all intersections of its circle with Voronoi edges.
+// REQUIRES: no constraint is visible from the petal, so that all its Voronoi edges are between two triangles.
 double naiveClearance(const EditMesh& mesh, const Petal& petal) {
   double best = 0.0;
   const auto offer = [&](const Point& x) { best = std::max(best, clearanceAt(mesh, x)); };
@@ -72,7 +72,7 @@ double naiveClearance(const EditMesh& mesh, const Petal& petal) {
   return best;
 }
 
-// No edge of the boundary or of a segment comes near the disk of twice the radius.
+// True if no constrained edge comes within three radii of the petal's centre.
 bool isFarFromConstraints(const EditMesh& mesh, const Petal& petal) {
   for (TriId t = 0; t < mesh.triangleSlots(); ++t)
     for (unsigned i = 0; i < 3; ++i) {
@@ -90,7 +90,7 @@ struct Bad {
   unsigned apex;
 };
 
-// The angle that points aim at, in radians: as far above the bound as that is above what was asked.
+// The angle that Steiner points aim at, radians. It exceeds the bound as much as the bound exceeds the requested angle.
 double placeAngle(const TriangleBound& bound) { return bound.min_angle + toRadians(1e-6); }
 
 std::vector<Bad> badTriangles(const EditMesh& mesh, const TriangleBound& bound) {
@@ -113,7 +113,8 @@ TEST_P(SteinerAt, OptimalHasTheClearanceOfTheNaiveSearch) {
     const EditMesh mesh(constrainedDelaunay(randomPoints(seed, 120)));
     for (const auto [t, apex] : badTriangles(mesh, bound)) {
       const Petal petal = petalOf(mesh, t, apex, placeAngle(bound));
-      // Bad triangles with shorter edges come first; until then vertices may lie behind the shortest edge.
+      // Refinement treats bad triangles with shorter edges first; before that, vertices may lie behind the shortest
+      // edge.
       if (holdsVertex(mesh, petal) || !isFarFromConstraints(mesh, petal)) continue;
       const SteinerPoint found = search.find(mesh, t, apex);
       const double clearance = clearanceAt(mesh, found.place);
@@ -124,7 +125,7 @@ TEST_P(SteinerAt, OptimalHasTheClearanceOfTheNaiveSearch) {
       EXPECT_LE(distance(found.place, petal.centre), petal.radius * (1.0 + 1e-9));
       EXPECT_GE(
           inCircle(mesh.corner(found.near, 0), mesh.corner(found.near, 1), mesh.corner(found.near, 2), found.place), 0);
-      // No place of the petal is further from all vertices.
+      // No point of the petal is farther from all vertices.
       for (int i = -8; i <= 8; ++i) {
         for (int j = -8; j <= 8; ++j) {
           const Point x = petal.centre + petal.radius / 8.0 * Point{1.0 * i, 1.0 * j};
@@ -142,7 +143,7 @@ INSTANTIATE_TEST_SUITE_P(Angles, SteinerAt, ::testing::Values(15.0, 20.0, 30.0, 
 
 class SteinerOf : public ::testing::TestWithParam<NamedPslg> {};
 
-// What holds with segments in the way as well.
+// Properties that also hold with segments nearby.
 TEST_P(SteinerOf, PlacesLieInThePetalOnAVoronoiEdge) {
   const TriangleBound bound(32.0, 180.0, kNoSize);
   const EditMesh mesh(constrainedDelaunay(GetParam().pslg));
@@ -152,7 +153,7 @@ TEST_P(SteinerOf, PlacesLieInThePetalOnAVoronoiEdge) {
     const Petal petal = petalOf(mesh, t, apex, placeAngle(bound));
     const Point own = circumcentre(mesh, t);
     const double length = distance(petal.p, petal.q);
-    // Places are rounded as the coordinates are; a needle's circumcentre is far away and badly known.
+    // Places are rounded as coordinates are; a needle's circumcentre is far away and ill-conditioned.
     const double grain = 1e-9 * petal.radius + 1e-15 * (std::abs(petal.p.x) + std::abs(petal.p.y));
     const double rounding = 1e-12 * squaredDistance(own, petal.p) / length + grain;
 
@@ -161,7 +162,7 @@ TEST_P(SteinerOf, PlacesLieInThePetalOnAVoronoiEdge) {
     EXPECT_LE(distance(ruppert.place, own), rounding);
     EXPECT_EQ(ruppert.near, t);
 
-    // The off-centre is the circumcentre or sees the shortest edge under the angle aimed at.
+    // The off-centre is the circumcentre, or sees the shortest edge under the target angle.
     const SteinerPoint off = offcenter.find(mesh, t, apex);
     EXPECT_LE(distance(off.place, petal.centre), petal.radius + grain);
     EXPECT_NEAR(distance(off.place, petal.p), distance(off.place, petal.q), grain);
@@ -176,7 +177,7 @@ TEST_P(SteinerOf, PlacesLieInThePetalOnAVoronoiEdge) {
     EXPECT_LE(distance(best.place, petal.centre), petal.radius + grain);
     EXPECT_GE(best.squared_clearance, off.squared_clearance * (1.0 - 1e-12));
     ASSERT_LT(best.near, mesh.triangleSlots());
-    // As far from the three corners of the triangle it is near to, or from the two of a Voronoi edge.
+    // Equidistant from the three corners of the triangle nearby, or from the two of a Voronoi edge.
     std::vector<double> to_corners;
     for (unsigned i = 0; i < 3; ++i) to_corners.push_back(distance(best.place, mesh.corner(best.near, i)));
     std::ranges::sort(to_corners);
@@ -210,7 +211,7 @@ TEST(Steiner, AimingHigherMovesTheOffcenterInwards) {
 }
 
 TEST(Steiner, BadForItsSizeAlone) {
-  // Good angles, edges of 1, and a largest size of half of that.
+  // Good angles, edges of about 1, and half of that as the maximum size.
   Pslg pslg;
   pslg.points = {{0, 0}, {1, 0}, {0.5, 0.9}};
   const EditMesh mesh(constrainedDelaunay(pslg));
@@ -225,7 +226,7 @@ TEST(Steiner, BadForItsSizeAlone) {
   }
 }
 
-// Lengths that grow with the distance from the edge y = 0.
+// Target lengths that grow with the distance from the edge y = 0.
 class LengthFourTimesY final : public SizeFunction {
  public:
   double at(const Point& x) const override { return 4.0 * x.y; }
@@ -233,7 +234,8 @@ class LengthFourTimesY final : public SizeFunction {
   double most() const override { return 100.0; }
 };
 
-// A disk in which an equilateral triangle of the length wanted fits, at the centroid of that on the edge.
+// The petal is the circumscribed disk of an equilateral triangle with the target length at the centroid of the
+// equilateral triangle on the edge.
 TEST(Steiner, LengthsWantedMakeThePetal) {
   Pslg pslg;
   pslg.points = {{0, 0}, {1, 0}, {0.5, 20}};
@@ -252,7 +254,7 @@ TEST(Steiner, LengthsWantedMakeThePetal) {
   EXPECT_NEAR(longer.place.y, tip(1.2 * length / std::sqrt(3.0)), 1e-9);
 }
 
-// No length wanted makes the petal larger than the angle does, and none smaller than the edge has room in.
+// A long target length does not make the petal larger than the angle does; a short one leaves room for the edge.
 TEST(Steiner, PetalsHaveRoomForTheirEdge) {
   Pslg pslg;
   pslg.points = {{0, 0}, {1, 0}, {0.5, 20}};
@@ -266,7 +268,7 @@ TEST(Steiner, PetalsHaveRoomForTheirEdge) {
   }
 }
 
-// As in the plane on a sphere so large that it is flat here; elsewhere on it too.
+// On a sphere so large that it is flat here, as in the plane; also away from the origin.
 TEST(Steiner, OnASphere) {
   for (const Point& away : {Point{0, 0}, Point{500, 200}}) {
     Pslg pslg;
@@ -286,8 +288,8 @@ TEST(Steiner, OnASphere) {
   }
 }
 
-// Wherever on a sphere, the off-centre sees its edge under the angle aimed at: that of the chords in space. The further
-// it may be from what is asked, by the surface's margin, the more it keeps.
+// Anywhere on a sphere, the off-centre sees its edge under the target angle, measured between chords in space. The
+// angle exceeds the bound by at least the surface's margin times the clearance.
 TEST(Steiner, OffcentresOnASphereSeeTheirEdgeUnderTheAngle) {
   for (const Point& away : {Point{0, 0}, Point{3, 1}, Point{-8, 4}}) {
     for (const double margin : {0.0, 0.02}) {
@@ -313,7 +315,7 @@ TEST(Steiner, OffcentresOnASphereSeeTheirEdgeUnderTheAngle) {
   }
 }
 
-// Random points on a small sphere that is flat where they are: as in the plane, point by point.
+// Random points on a sphere so large that it is flat there: each Steiner point is that of the plane.
 TEST(Steiner, WhereASphereIsFlatAsInThePlane) {
   const TriangleBound flat(30.0, 180.0, kNoSize);
   TriangleBound curved = flat;

@@ -27,7 +27,7 @@ class SubmeshOf : public ::testing::TestWithParam<NamedPslg> {
           refine(mesh, GetParam().pslg, {.min_angle_deg = 30.0, .algorithm = Algorithm::Optimal});
           return EditMesh(std::move(mesh));
         }()) {
-    // Something to recognise.
+    // Distinct values that identify the vertices.
     for (VertexId v = 0; v < mesh_.vertexSlots(); ++v) notes_.spacing.push_back(1.0 + v);
     for (VertexId v = 0; v < mesh_.inputVertices(); ++v) {
       notes_.shell_unit.push_back(0.5 + v);
@@ -35,7 +35,7 @@ class SubmeshOf : public ::testing::TestWithParam<NamedPslg> {
     }
   }
 
-  // Some triangles all over the mesh.
+  // Triangles spread over the whole mesh.
   std::vector<TriId> centres() const {
     std::vector<TriId> some;
     const TriId step = 1 + mesh_.triangleSlots() / 12;
@@ -129,7 +129,7 @@ TEST_P(SubmeshOf, ChangedPatchFits) {
   for (const TriId centre : centres()) {
     EditMesh mesh = mesh_;
     const Submesh patch = extractAround(mesh, notes_, {&centre, 1}, 2, numbers_);
-    // Points put into the patch, free vertices of it taken out.
+    // Inserts points into the patch and removes some of its free vertices.
     EditMesh local{TriMesh(patch.mesh)};
     std::vector<TriId> touched;
     Patch cavity;
@@ -156,7 +156,7 @@ TEST_P(SubmeshOf, ChangedPatchFits) {
   }
 }
 
-// The same for a compact mesh, with as many triangles as before, more and fewer.
+// The same for a compact mesh, with as many triangles as before, more, and fewer.
 TEST_P(SubmeshOf, FitsIntoACompactMesh) {
   const TriMesh whole = releasedCopy(mesh_);
   for (TriId centre = 0; centre < whole.triangles.size();
@@ -195,7 +195,7 @@ TEST_P(SubmeshOf, FitsIntoACompactMesh) {
         EXPECT_EQ(mesh.points.size(), whole.points.size() + solved.points.size() - patch.mesh.points.size());
         EXPECT_EQ(mesh.triangles.size(),
                   whole.triangles.size() + solved.triangles.size() - patch.mesh.triangles.size());
-        // Whole again: no gap, no overlap, links that agree. The patch's boundary need not be Delaunay.
+        // The mesh is complete: no gap, no overlap, consistent links. The patch's boundary need not be Delaunay.
         std::vector<EdgeRef> edges_of_mesh;
         for (TriId t = 0; t < mesh.triangles.size(); ++t)
           for (unsigned i = 0; i < 3; ++i)
@@ -213,7 +213,7 @@ TEST_P(SubmeshOf, FitsIntoACompactMesh) {
 INSTANTIATE_TEST_SUITE_P(All, SubmeshOf, ::testing::ValuesIn(assortedPslgs()),
                          [](const auto& param_info) { return nameOf(param_info.param); });
 
-// Where no vertex is pinched, a ring is what shares a vertex.
+// If no vertex is pinched, a ring consists of the triangles that share a vertex with the previous ones.
 TEST(Submesh, RingsGrowByVertices) {
   const Pslg pslg = fractalCoast(2, 2, 3);
   const EditMesh mesh(constrainedDelaunay(pslg));

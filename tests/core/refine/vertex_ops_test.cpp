@@ -25,7 +25,7 @@ std::size_t countBad(const EditMesh& mesh, const TriangleBound& bound) {
   return bad;
 }
 
-// A mesh refined for a larger angle than the operations are to hold: they find room.
+// A mesh refined for a larger angle than the operations must keep, so that they find room.
 EditMesh roomyMesh(const Pslg& pslg) {
   TriMesh mesh = constrainedDelaunay(pslg);
   refine(mesh, pslg, {.min_angle_deg = 33.0, .algorithm = Algorithm::Optimal});
@@ -46,7 +46,7 @@ class VertexOpsOf : public ::testing::TestWithParam<NamedPslg> {
   VertexOpsOf()
       : mesh_(roomyMesh(GetParam().pslg)), bound_(25.0, 180.0, kNoSize), ops_(mesh_, GetParam().pslg, bound_) {}
 
-  // Does something to a vertex and holds it to the contract. Returns whether anything was done.
+  // Applies an operation to a vertex and checks its contract. Returns whether it changed anything.
   bool attempt(VertexId v, std::size_t vertices_fewer, const std::function<bool(std::vector<TriId>&)>& operation) {
     const std::uint64_t digest = digestOf(releasedCopy(mesh_));
     const std::size_t bad = countBad(mesh_, bound_), vertices = mesh_.vertexCount();
@@ -107,7 +107,7 @@ TEST_P(VertexOpsOf, MergeLeavesGoodTriangles) {
 INSTANTIATE_TEST_SUITE_P(All, VertexOpsOf, ::testing::ValuesIn(assortedPslgs()),
                          [](const auto& param_info) { return nameOf(param_info.param); });
 
-// That anything is done at all.
+// Each operation succeeds for some vertices.
 TEST(VertexOps, FindRoom) {
   const Pslg pslg = collinearRuns();
   const TriangleBound bound(20.0, 180.0, kNoSize);
@@ -159,7 +159,7 @@ TEST(VertexOps, NeedlessVerticesOfASquareGo) {
   ASSERT_NE(side, kNone);
   const VertexId on_side = mesh.splitSegment(side, {0.5, 0.0}, touched);
   ASSERT_NE(on_side, kNone);
-  // At 26 degrees the middle goes though the vertex on the side stays; then that goes too.
+  // At 26 degrees, the inner vertex can be removed while the one on the side remains; then that one, too.
   const TriangleBound bound(26.0, 180.0, kNoSize);
   VertexOps ops(mesh, pslg, bound);
   EXPECT_TRUE(ops.remove(inner, touched));

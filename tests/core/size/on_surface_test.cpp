@@ -14,7 +14,7 @@ namespace {
 constexpr double kRadius = 6371.0;
 const Surface kSphere = Surface::sphere(kRadius);
 
-// Sums of small squares, each by its middle.
+// Midpoint rule over small rectangles.
 double areaBySums(const Point& low, const Point& high) {
   constexpr int kSteps = 400;
   const Point step{(high.x - low.x) / kSteps, (high.y - low.y) / kSteps};
@@ -38,10 +38,10 @@ TEST(OnSurface, AreasOfRectangles) {
     const double area = areaOn(kSphere, low, high);
     EXPECT_NEAR(area / areaBySums(low, high), 1.0, 2e-3) << low.x << " " << low.y << " " << reach;
   }
-  // All of the sphere, but for what lies beyond.
+  // The whole sphere except what lies beyond `far`.
   const double all = 4.0 * std::numbers::pi * kRadius * kRadius, far = 1e5 * kRadius;
   EXPECT_NEAR(areaOn(kSphere, {-far, -far}, {far, far}) / all, 1.0, 1e-8);
-  // A hemisphere's share, where the shrink is just alike or just not.
+  // Squares around the origin with sizes on both sides of the limit below which the shrink counts as constant.
   for (const double half : {1e-3, 1.0, 100.0, 280.0, 290.0, 1000.0})
     EXPECT_NEAR(areaOn(kSphere, SizeBox{{0.0, 0.0}, half}) / areaBySums({-half, -half}, {half, half}), 1.0, 1e-3)
         << half;
@@ -50,11 +50,11 @@ TEST(OnSurface, AreasOfRectangles) {
 TEST(OnSurface, ArcsAndChords) {
   EXPECT_EQ(arcOfChord({}, 3.0), 3.0);
   EXPECT_EQ(chordOfArc({}, 3.0), 3.0);
-  // To the rim of the hemisphere about the origin, and across it.
+  // From the origin to the edge of the hemisphere around it, and across the hemisphere.
   const double rim = 2.0 * kRadius;
   EXPECT_NEAR(arcBetween(kSphere, {0.0, 0.0}, {rim, 0.0}), 0.5 * std::numbers::pi * kRadius, 1e-9);
   EXPECT_NEAR(arcBetween(kSphere, {0.0, -rim}, {0.0, rim}), std::numbers::pi * kRadius, 1e-3);
-  // The same angle beyond it as within.
+  // One degree is the same arc inside and outside the hemisphere.
   const auto out = [](double degrees) { return Point{2.0 * kRadius * std::tan(0.5 * toRadians(degrees)), 0.0}; };
   for (const double degrees : {1.0, 30.0, 89.0, 150.0, 178.0}) {
     EXPECT_NEAR(arcBetween(kSphere, out(degrees), out(degrees + 1.0)), toRadians(1.0) * kRadius, 1e-6);

@@ -34,7 +34,7 @@ TEST(SizePlaces, NumbersPlacesAsTheyCome) {
   expectNumbersOfFirstCome(order);
 }
 
-// The rows of the table that these want are few.
+// These places share few rows of the hash table.
 TEST(SizePlaces, NumbersPlacesThatStandInTheWayOfEachOther) {
   std::vector<SizePlaces::Place> order;
   for (std::uint32_t i = 0; i < 5000; ++i) order.push_back({8 * i + 1, 0});

@@ -17,13 +17,13 @@
 namespace coastmesh {
 namespace {
 
-// The Earth in kilometres, but for a cap of some 24 degrees about the antipode of the plane's origin, where the plane
-// is 30 times as large and more.
+// The Earth in kilometres, except a cap of about 24 degrees around the antipode of the projection centre, where the
+// plane is enlarged at least 23 times.
 constexpr double kRadius = 6371.0, kExtent = 6e4;
 const Surface kSphere = Surface::sphere(kRadius);
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// A function that grows no faster than `slope` on the sphere, and its bounds from that.
+// A function that grows no faster than `slope` on the sphere; its bounds follow from that.
 class FunctionSource final : public SizeSource {
  public:
   FunctionSource(double least, double slope, std::function<double(const Point&)> f)
@@ -50,7 +50,7 @@ SizeTree treeOf(const SizeSource& source, double gradation) {
   return {{-kExtent, -kExtent}, {kExtent, kExtent}, source, {.surface = kSphere, .gradation = gradation}};
 }
 
-// Evenly on the sphere, as far as the square goes.
+// Uniform on the sphere, within the square.
 Point randomPlace(std::mt19937_64& random) {
   while (true) {
     const double up = uniform(random, -1.0, 1.0), turn = uniform(random, 0.0, 2.0 * std::numbers::pi);
@@ -62,7 +62,7 @@ Point randomPlace(std::mt19937_64& random) {
 
 double arc(const Point& a, const Point& b) { return arcBetween(kSphere, a, b); }
 
-// Whether the arc of a great circle stays in the square.
+// True if the great-circle arc stays in the square, which gets a margin of 1 %.
 bool isInside(const Point& a, const Point& b) {
   const Frame frame(kSphere, a);
   const Point to = frame.to(b);
@@ -87,7 +87,7 @@ TEST(SizeTreeOnSphere, AConstantTakesLittleRoomAndAsksForTheSpheresArea) {
 
 class GradedTreeOnSphere : public ::testing::TestWithParam<double> {};
 
-// Distances from metres to the whole Earth; steps, cones, waves, sources near the antipode, and land.
+// Distances from metres to the whole Earth; steps, cones, waves, sources near the antipode, and an area without sizes.
 TEST_P(GradedTreeOnSphere, NoTwoPlacesDifferMore) {
   const double gradation = GetParam();
   const std::vector<std::pair<const char*, FunctionSource>> sources = {
@@ -121,7 +121,7 @@ TEST_P(GradedTreeOnSphere, NoTwoPlacesDifferMore) {
     double most = 0.0;
     for (int i = 0; i < 20'000; ++i) {
       const Point p = randomPlace(random);
-      // Near ones in the frame of the place, and any.
+      // Three of four are near p, in its frame; the others are anywhere.
       const double turn = uniform(random, 0.0, 2.0 * std::numbers::pi);
       const double away = std::exp(uniform(random, std::log(1e-3), std::log(3e3)));
       const Point q =
@@ -135,7 +135,7 @@ TEST_P(GradedTreeOnSphere, NoTwoPlacesDifferMore) {
   }
 }
 
-// Against the largest function that is nowhere above the wanted one and nowhere too steep.
+// Against the largest function that nowhere exceeds the wanted size or the gradation.
 TEST_P(GradedTreeOnSphere, GrowsFromManyPlacesAsFastAsItMay) {
   const double gradation = GetParam();
   std::mt19937_64 random(4);
@@ -163,7 +163,7 @@ TEST_P(GradedTreeOnSphere, GrowsFromManyPlacesAsFastAsItMay) {
 
 INSTANTIATE_TEST_SUITE_P(Grades, GradedTreeOnSphere, ::testing::Values(0.05, 0.15, 0.3));
 
-// The same places, turned to where the plane is 20 times as large: the sizes there are those at the middle.
+// The same cone at the projection centre and where the plane is enlarged 20 times: sizes around both agree.
 TEST(SizeTreeOnSphere, NoPlaceIsSpecial) {
   const Point far{4e4, 4e4};
   const Frame frame(kSphere, far);
@@ -188,7 +188,7 @@ TEST(SizeTreeOnSphere, PlaneSizesAreTheLengthsInThePlane) {
   for (int i = 0; i < 1000; ++i) {
     const Point p = randomPlace(random);
     const double length = sizes.at(p);
-    // Across the place, half on either side.
+    // A segment of that length, centred at p.
     const Point half{0.5 * length, 0.0};
     EXPECT_NEAR(kSphere.chord(p - half, p + half), 50.0, 0.05);
     EXPECT_LE(length, sizes.most());
@@ -198,7 +198,7 @@ TEST(SizeTreeOnSphere, PlaneSizesAreTheLengthsInThePlane) {
 }
 
 TEST(SizeTreeOnSphere, SegmentsCountByTheirLengthOnTheSphere) {
-  // A boundary of straight ways out to where the plane is large, of which none counts as short.
+  // A straight segment out to where the plane is greatly enlarged; none of it counts as short.
   Pslg pslg;
   pslg.points = {{1e4, 0.0}, {5e4, 0.0}};
   pslg.segments.push_back({0, 1, 0, 0, kOutside});

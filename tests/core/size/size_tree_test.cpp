@@ -15,7 +15,7 @@
 namespace coastmesh {
 namespace {
 
-// A function that grows no faster than `slope`, and its bounds from that.
+// A function that grows no faster than `slope`; its bounds follow from that.
 class FunctionSource final : public SizeSource {
  public:
   FunctionSource(double least, double slope, std::function<double(const Point&)> f)
@@ -69,7 +69,7 @@ TEST(SizeTree, MemoryFollowsTheMesh) {
     return treeOf(FunctionSource(size, 0.2, [=](const Point& p) { return size + 0.2 * std::hypot(p.x, p.y); }), 0.3)
         .leaves();
   };
-  // Round one fine place the number of triangles grows with the logarithm of its size.
+  // Around one place of small size, the number of leaves grows with the logarithm of that size.
   const std::size_t some = leaves(1e-3), more = leaves(1e-6);
   EXPECT_LT(more, 3 * some);
   EXPECT_LT(some, 5000u);
@@ -88,7 +88,8 @@ TEST(SizeTree, WhereNothingIsWantedItIsAsLargeAsTheWhole) {
   EXPECT_TRUE(std::isfinite(tree.most()));
 }
 
-// Of lines and areas as soon as it is sure; of a place that asks for little not, however small it is.
+// Construction stops at lines and areas as soon as they certainly need too many vertices, but not at a single place,
+// which needs few however small its size.
 TEST(SizeTree, StopsWhereMoreIsAskedForThanAllowed) {
   const auto cone = [](const Point& p) { return 1e-7 + 0.3 * std::hypot(p.x - 0.1, p.y - 0.4); };
   const auto line = [](const Point& p) { return 1e-6 + 0.3 * std::abs(p.y - 0.4); };
@@ -108,8 +109,9 @@ TEST(SizeTree, StopsWhereMoreIsAskedForThanAllowed) {
   EXPECT_NEAR(flat.demand().vertices, 2.0 / std::sqrt(3.0) * 2.02 * 2.02 / 1e-6, 1.0);
 }
 
-// Lengths at the centres of cells tell it long before their bounds do. Beside a line along an axis all centres are as
-// far away, so that they may tell too much on a level, or too little: what fits is never given up for that.
+// Sizes at the cells' centres reveal the excess long before bounds do. Beside a line along an axis, all centres of a
+// level are equally far from it, so they may over- or underestimate the demand; a demand that fits must never be
+// rejected for that.
 TEST(SizeTree, StopsEarlyWhereALittleMoreIsAskedForThanAllowed) {
   constexpr double kLeast = 5e-5, kSlope = 0.15;
   const auto madeFor = [](double tilt, double most) {
@@ -145,8 +147,8 @@ double distanceTo(const Point& x, const Point& a, const Point& b) {
 
 class GradedTree : public ::testing::TestWithParam<double> {};
 
-// From a ten-thousandth of the whole to all of it, within cells and across many; sources with steps, cones, waves,
-// cells of all levels side by side, and places that nobody asks for.
+// Distances from 1e-4 to 1, in a box of 2 by 1: within cells and across many. Sources with steps, cones, waves,
+// neighbouring cells of all levels, and an area without sizes.
 TEST_P(GradedTree, NoTwoPlacesDifferMore) {
   const double gradation = GetParam();
   const double none = std::numeric_limits<double>::infinity();
@@ -156,7 +158,7 @@ TEST_P(GradedTree, NoTwoPlacesDifferMore) {
       FunctionSource(0.002, 1.0, [](const Point& p) { return 0.002 + std::hypot(p.x - 0.123, p.y - 0.456); }),
       FunctionSource(0.03, 2.0,
                      [](const Point& p) { return 0.06 + 0.03 * std::sin(30.0 * p.x) * std::sin(20.0 * p.y); }),
-      // As steep as allowed: where nothing is to spare, interpolation between vertices must not exceed it.
+      // As steep as allowed: there is no slack, so interpolation between vertices must not be steeper.
       FunctionSource(0.01, gradation,
                      [=](const Point& p) {
                        return 0.01 + gradation * std::min(distanceTo(p, {-0.5, 0.1}, {0.3, 0.7}),
@@ -168,7 +170,7 @@ TEST_P(GradedTree, NoTwoPlacesDifferMore) {
                               3.0 * std::min({std::hypot(p.x, p.y - 0.5), 0.01 + std::hypot(p.x - 0.6, p.y - 0.2),
                                               0.1 + std::abs(p.x + 0.7)});
                      }),
-      // Nothing wanted in the east.
+      // No size wanted in the east.
       FunctionSource(0.02, 1e3, [=](const Point& p) { return p.x < 0.2 ? 0.02 : none; }),
   };
   for (std::size_t s = 0; s < sources.size(); ++s) {
@@ -189,7 +191,7 @@ TEST_P(GradedTree, NoTwoPlacesDifferMore) {
 
 TEST_P(GradedTree, GrowsAsFastAsItMay) {
   const double gradation = GetParam();
-  // From a fine place as from a point; elsewhere anything.
+  // A steep cone at one place: after grading, the size grows as from a single point.
   const FunctionSource source(0.002, 5.0,
                               [](const Point& p) { return 0.002 + 5.0 * std::hypot(p.x - 0.1, p.y - 0.4); });
   const SizeTree tree = treeOf(source, gradation);
@@ -202,7 +204,7 @@ TEST_P(GradedTree, GrowsAsFastAsItMay) {
   }
 }
 
-// Against the largest function that is nowhere above the wanted one and nowhere too steep.
+// Against the largest function that nowhere exceeds the wanted size or the gradation.
 TEST_P(GradedTree, GrowsFromManyPlacesAsFastAsItMay) {
   const double gradation = GetParam();
   std::mt19937_64 random(4);
@@ -228,7 +230,7 @@ TEST_P(GradedTree, GrowsFromManyPlacesAsFastAsItMay) {
   EXPECT_LE(sum, 1.05);
 }
 
-// Squares that nobody asks for stay coarse, and take nothing away from those beside them.
+// Cells without wanted sizes stay coarse and do not affect their neighbours.
 TEST(SizeTree, CoarseWhereNobodyAsks) {
   class Half final : public SizeSource {
    public:
@@ -261,8 +263,7 @@ TEST(SizeTree, CoarseWhereNobodyAsks) {
 
 INSTANTIATE_TEST_SUITE_P(Grades, GradedTree, ::testing::Values(0.05, 0.15, 0.3));
 
-// Triangles that tilting alone would take long to mend: a pit of one vertex on a field that is nearly as steep as
-// allowed.
+// A pit of one vertex in a field nearly as steep as allowed: tilting triangles alone would take many passes.
 TEST(SizeGrading, EndsWithNothingSteep) {
   SizePlaces places;
   std::vector<LeafVertices> leaves;
@@ -285,7 +286,7 @@ TEST(SizeGrading, EndsWithNothingSteep) {
   SizeGrading(sizes, {places, 1.0, {}, {}, gradation}, leaves, loop).flatten();
   for (const LeafVertices& leaf : leaves) {
     forEachTriangle(leaf, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-      // Along and across: the slope from two edges at right angles.
+      // The slope from two edges at right angles.
       const auto place = [&](std::uint32_t v) { return Point{1.0 * places[v].x, 1.0 * places[v].y}; };
       const Point ab = place(b) - place(a), ac = place(c) - place(a);
       ASSERT_EQ(dot(ab, ac), 0.0);
@@ -294,7 +295,7 @@ TEST(SizeGrading, EndsWithNothingSteep) {
                 gradation * (1.0 + 1e-12));
     });
   }
-  // Down the slope from the pit next to nothing is lost.
+  // Downhill from the pit, sizes hardly change.
   const std::uint32_t below = places.find({10, 4});
   EXPECT_NEAR(sizes.size[below], sizes.own[below], 0.01 * sizes.own[below]);
 }

@@ -15,7 +15,7 @@ namespace {
 
 const Surface kEarth = Surface::sphere(6.371e6);
 
-// Of the corners as seen from outside of the sphere.
+// Positive if the corners run counter-clockwise as seen from outside the sphere.
 double turnOf(const Point& a, const Point& b, const Point& c) {
   const SpacePoint p = placeOnSphere(a, kEarth), q = placeOnSphere(b, kEarth), r = placeOnSphere(c, kEarth);
   return dot(cross(q - p, r - p), p + q + r);
@@ -49,7 +49,7 @@ TEST(CloseSphere, TrianglesFaceOutwardsWhateverThePlaneSays) {
     if (orient2d(a, b, c) <= 0) ++turned;
   }
   EXPECT_GT(turned, 0u);
-  EXPECT_LE(turned, 5u);  // those round the apex alone
+  EXPECT_LE(turned, 5u);  // only those around the apex
 }
 
 TEST(CloseSphere, CornersOfARingLieAsFarFromTheApexAsAsked) {

@@ -71,7 +71,7 @@ TEST(SphereLattice, ItsMeshHasTheTrianglesOfADelaunayTriangulation) {
     const TriMesh mesh = meshOf({h, 0}, surface), other = closedLattice({h, 0}, surface);
     EXPECT_EQ(findBrokenLink(mesh.triangles), kNone);
     ASSERT_EQ(mesh.points, other.points) << h;
-    // From the least corner on.
+    // Rotated to begin at the smallest vertex.
     const auto cornersOf = [](const TriMesh& of) {
       std::vector<std::array<VertexId, 3>> all;
       for (const Triangle& t : of.triangles) {

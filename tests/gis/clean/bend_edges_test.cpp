@@ -22,7 +22,7 @@ Coastline bent(const Ring& ring, EdgeLine line, double tolerance_m, SurfaceKind 
   return coastline;
 }
 
-// How far, on the ground, the middle of each edge's line lies from the edge in the plane, at the most.
+// The largest distance on the ground, metres, from the middle of an edge's line to the edge in the plane.
 double furthestOff(const Ring& ring, EdgeLine line, const Projection& projection) {
   double most = 0.0;
   for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -52,7 +52,7 @@ TEST(BendEdges, EdgesKeepWithinTheToleranceOfTheirLines) {
         const Ring ring = bent(kOcean, line, tolerance_m, kind).features[0].polygons[0].outer;
         EXPECT_LE(furthestOff(ring, line, projection), tolerance_m);
         EXPECT_GT(ring.size(), before);
-        // The deviation is a quarter for twice the points: no more than some 4 times those that are needed.
+        // Twice the points make a quarter of the deviation: at most about 4 times the necessary number.
         EXPECT_LT(ring.size(), 4.0 * 10.0 * std::sqrt(1e6 / tolerance_m));
         before = ring.size();
       }
@@ -76,7 +76,7 @@ TEST(BendEdges, PointsLieOnTheLine) {
   EXPECT_NEAR(sum, whole, 1e-3);
 }
 
-// Two features that share an edge have the same points there, though it runs the other way.
+// Two features that share an edge have the same points there, though in the other direction.
 TEST(BendEdges, SharedEdgesStayShared) {
   const Ring west{{0, 40}, {20, 40}, {27, 60}, {0, 60}}, east{{20, 40}, {40, 42}, {40, 61}, {27, 60}};
   for (const EdgeLine line : {EdgeLine::LonLat, EdgeLine::Geodesic}) {
@@ -99,7 +99,7 @@ TEST(BendEdges, AcrossTheAntimeridianTheShorterWay) {
       EXPECT_GE(std::abs(p.x), 140.0);
       EXPECT_LE(std::abs(p.x), 180.0);
     }
-    // The same in longitudes that go on.
+    // The same with unwrapped longitudes.
     Ring turned = pacific;
     for (Point& p : turned)
       if (p.x < 0) p.x += 360.0;
@@ -112,7 +112,7 @@ TEST(BendEdges, AcrossTheAntimeridianTheShorterWay) {
   }
 }
 
-// A millimetre round half of the Earth: as many as are allowed, and no more.
+// A tolerance of a millimetre over half of the Earth: the number of points is capped.
 TEST(BendEdges, AreBounded) {
   EXPECT_LE(bent(kOcean, EdgeLine::LonLat, 0.001).features[0].polygons[0].outer.size(), 4u * 4096u);
 }

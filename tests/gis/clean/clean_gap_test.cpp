@@ -11,7 +11,7 @@
 namespace coastmesh {
 namespace {
 
-// The least distance between a vertex and another one, or a segment that does not end there; every pair is looked at.
+// The smallest distance between a vertex and another one, or a segment that does not end there, over all pairs.
 double leastGap(const Pslg& pslg) {
   double least = std::numeric_limits<double>::infinity();
   for (VertexId v = 0; v < pslg.points.size(); ++v) {
@@ -30,8 +30,8 @@ double leastGap(const Pslg& pslg) {
 bool holds(const Domain& domain, const Point& p) { return std::ranges::count(domain.input_points, p) > 0; }
 
 constexpr double kRounding = 1 - 1e-6;
-// Of three vertices a snap distance apart each may lie as near as this to the edge between the others, for both its
-// ways; of three a little further apart nearer still, which none of these seeds makes (two in a hundred others).
+// If three vertices are a snap distance apart, an edge between two may stay as close as this to the third. If they are
+// a little farther apart, it may stay even closer; none of these seeds produces that (two in a hundred others do).
 const double kOfATriangle = std::sqrt(0.75) * kRounding;
 
 TEST(LeastGap, SimplifyingStopsShortOfAnIslandBesideTheNewShore) {
@@ -46,8 +46,8 @@ TEST(LeastGap, SimplifyingStopsShortOfAnIslandBesideTheNewShore) {
 }
 
 TEST(LeastGap, SimplifyingMakesNoCornerThinnerThanRounding) {
-  // Two lines part at the origin by 2.5e-8 once the bend of one is gone; as far as a short third one reaches, that is
-  // less than the coordinates' grain.
+  // Without its bend, one line leaves the other at an angle of 2.5e-8; along the length of the short third line, that
+  // gap is less than the coordinates' grain.
   for (const double third : {0.002, 1000.0}) {
     SCOPED_TRACE(third);
     Feature lines = polygonFeature(2, {});
@@ -65,7 +65,7 @@ class LeastGapRandom : public ::testing::TestWithParam<unsigned> {};
 std::vector<Feature> tangledFeatures(std::mt19937_64& random) {
   std::vector<Feature> features;
   for (int f = 0; f < 4; ++f) {
-    const Ring hole = tangledRing(random, 5);  // each drawn by itself: the order of arguments is the compiler's
+    const Ring hole = tangledRing(random, 5);  // drawn first: the evaluation order of arguments is unspecified
     features.push_back(polygonFeature(f, tangledRing(random, 12), {hole}));
   }
   features.push_back(polygonFeature(4, starRing(random, {0.5, 0.5}, 0.5, 60)));
@@ -116,7 +116,7 @@ TEST_P(LeastGapRandom, OpeningPinchesKeepsTheSnapDistance) {
   EXPECT_GE(leastGap(touching.domain.pslg), 1e-3 * kOfATriangle);
 }
 
-// Without a snap distance what the input holds stays, however near; nothing comes nearer than rounding moves it.
+// Without a snap distance, gaps of the input stay however small, and no new gap is smaller than rounding makes it.
 TEST_P(LeastGapRandom, WithoutSnappingSimplifyingBringsNothingNearer) {
   std::mt19937_64 random(400 + GetParam());
   const std::vector<Feature> features = tangledFeatures(random);

@@ -18,14 +18,14 @@ Cleaned cleanWith(const std::vector<Feature>& features, Pinches pinches, double 
   return cleanInPlane(features, {.snap_m = snap, .pinches = pinches});
 }
 
-// Vertices in which the triangles of the domain touch without sharing an edge.
+// The number of vertices in which triangles of the domain touch without sharing an edge.
 std::size_t pinchesIn(const Pslg& pslg) {
   const TriMesh mesh = constrainedDelaunay(pslg);
   const auto defects = checkMesh(mesh, nullptr, {.delaunay = false, .pinches = true});
   return static_cast<std::size_t>(std::ranges::count(defects, DefectKind::PinchedVertex, &MeshDefect::kind));
 }
 
-// Pieces of the domain that hang together by edges.
+// The number of parts of the domain that are connected by edges.
 std::size_t watersIn(const Pslg& pslg) {
   const TriMesh mesh = constrainedDelaunay(pslg);
   std::vector<char> seen(mesh.triangles.size(), 0);
@@ -69,7 +69,7 @@ void expectOpened(const std::vector<Feature>& features, std::size_t pinches, dou
   EXPECT_GT(water, area);
   EXPECT_LT(water, 1.01 * area);
   EXPECT_GT(shortestEdge(opened.domain.pslg), 0.04 * shortestEdge(kept.domain.pslg));
-  // What was there stays, and its own bits.
+  // Existing vertices stay, bit for bit.
   for (const Point& p : kept.domain.input_points) {
     EXPECT_EQ(std::ranges::count(opened.domain.input_points, p), 1) << p.x << ", " << p.y;
   }
@@ -98,7 +98,7 @@ TEST(Pinches, WaterPassesBetweenAnIslandAndTheShore) {
 }
 
 TEST(Pinches, ARingThatTouchesItself) {
-  // An island of two lobes; a lake of two; one that crosses itself.
+  // An island of two lobes; a lake of two lobes; a lake that crosses itself.
   expectOpened({polygonFeature(1, square(0, 0, 10), {{{5, 5}, {7, 4}, {7, 6}, {5, 5}, {3, 6}, {3, 4}}})}, 1, 96);
   expectOpened({polygonFeature(1, {{0, 0}, {4, 0}, {4, 4}, {8, 4}, {8, 8}, {4, 8}, {4, 4}, {0, 4}})}, 1, 32);
   expectOpened({polygonFeature(1, {{0, 0}, {4, 4}, {4, 0}, {0, 4}})}, 1, 8);
@@ -108,7 +108,7 @@ TEST(Pinches, ManyRingsInOneVertex) {
   expectOpened({polygonFeature(1, square(0, 0, 10),
                                {{{5, 5}, {8, 4.5}, {8, 5.5}}, {{5, 5}, {5, 8}, {3, 8}}, {{5, 5}, {2, 5}, {3, 2}}})},
                1, 100 - 1.5 - 3 - 4.5);
-  // On both ends of one edge, and both of its neighbours': every corner of a chequered lake.
+  // Pinches at both ends of an edge and at those of its neighbours: every corner of a chequered lake.
   std::vector<Ring> holes;
   for (int i = 0; i < 6; ++i) {
     for (int j = i % 2; j < 6; j += 2) holes.push_back(square(1 + i, 1 + j, 1));
@@ -136,7 +136,7 @@ TEST(Pinches, AnEdgeInCommonIsNone) {
 }
 
 TEST(Pinches, TheGapIsNarrowerWhereLittleRoomIs) {
-  // Just behind the corner that would give way lies a lake on the island.
+  // A lake on the island lies just behind the corner that would recede.
   const Ring pond{{0.01, 0.01}, {0.5, 0.01}, {0.01, 0.5}};
   const std::vector<Feature> features{polygonFeature(1, square(-5, -5, 10), {square(0, 0, 2), square(-4, -4, 4)}),
                                       polygonFeature(2, pond)};
@@ -153,21 +153,21 @@ TEST(Pinches, WhatIsNoLargerThanAFewSnapDistancesGoes) {
   EXPECT_EQ(opened.count(EditKind::OpenedPinch), 1u);
   EXPECT_EQ(opened.segments(), 8u);
   EXPECT_EQ(opened.area(0), 96);
-  // The same as water, at a corner of the lake.
+  // The same for a piece of water, at a corner of the lake.
   Feature lake = polygonFeature(1, square(0, 0, 10));
   lake.polygons.push_back({{{10, 10}, {10.003, 10.001}, {10.001, 10.003}}, {}});
   opened = cleanWith({lake}, Pinches::Open, snap);
   EXPECT_EQ(opened.count(EditKind::OpenedPinch), 1u);
   EXPECT_EQ(opened.domain.pslg.points.size(), 4u);
   EXPECT_EQ(opened.area(0), 100);
-  // An islet that is larger than that is parted.
+  // A larger islet is separated.
   const Ring larger{{4, 4}, {4.3, 4.1}, {4.1, 4.3}};
   opened = cleanWith({polygonFeature(1, square(0, 0, 10), {square(2, 2, 2), larger})}, Pinches::Open, snap);
   EXPECT_EQ(pinchesIn(opened.domain.pslg), 0u);
   EXPECT_NEAR(opened.area(0), 96 - 0.04, 1e-3);
 }
 
-// An island whose corner is two vertices a few snap distances apart: the gap is as wide as its larger edges ask for.
+// An island with vertices a few snap distances beside its corner: the longer edges determine the width of the gap.
 TEST(Pinches, VerticesBesideTheCornerAreNoMeasure) {
   const double snap = 0.001;
   const Ring island{{4, 4}, {4.003, 4}, {6, 4}, {6, 6}, {4, 6}, {4, 4.003}};
@@ -195,7 +195,7 @@ TEST(Pinches, TheGapIsWiderThanTheSnapDistance) {
 
 class PinchesRandom : public ::testing::TestWithParam<unsigned> {};
 
-// Rings on a grid of places touch everywhere; so do tangles where they cross.
+// Rings on grid points touch in many places, as do tangles where they cross.
 TEST_P(PinchesRandom, NoneIsLeft) {
   std::mt19937_64 random(GetParam());
   std::vector<Feature> features;
@@ -208,7 +208,7 @@ TEST_P(PinchesRandom, NoneIsLeft) {
   for (std::size_t f = 0; f < features.size(); ++f) {
     const auto region = static_cast<RegionId>(f);
     before += kept.area(region), after += opened.area(region);
-    EXPECT_GE(opened.area(region), kept.area(region) - 1e-12);  // nobody loses water
+    EXPECT_GE(opened.area(region), kept.area(region) - 1e-12);  // no feature loses water
   }
   EXPECT_LT(after, 1.05 * before);
 }

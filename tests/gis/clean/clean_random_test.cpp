@@ -12,7 +12,7 @@
 namespace coastmesh {
 namespace {
 
-// Random input against the even-odd area that is computed from the coordinates alone.
+// Compares areas with even-odd areas computed from the coordinates alone.
 void expectCleanable(const std::vector<Feature>& features, double tolerance) {
   const Coastline coastline = coastlineOf(features);
   CleanReport report;
@@ -52,7 +52,7 @@ TEST_P(CleanRandom, FarFromTheOrigin) {
   std::mt19937_64 random(3000 + GetParam());
   Ring ring = tangledRing(random, 40);
   for (Point& p : ring) p = {p.x + 1e6, p.y - 3e6};
-  // Crossings are rounded to the grain of the coordinates, some 5e-10, and points nearer than 2e-7 become one.
+  // Crossings are rounded to the grain of the coordinates, about 5e-10, and points closer than 2e-7 are merged.
   expectCleanable({polygonFeature(1, ring)}, 1e-5);
 }
 
@@ -98,7 +98,7 @@ TEST_P(CleanRandom, EveryInputVertexThatBoundsTheDomainStays) {
   const Coastline coastline = coastlineOf({polygonFeature(1, ring)});
   CleanReport report;
   const Domain domain = cleanFeatures(coastline, {0}, Projection::plane(), {.snap_m = 0}, report);
-  // Every edge of a ring that crosses itself parts inside from outside along all its length.
+  // Every edge of a self-crossing ring separates inside from outside along its whole length.
   for (std::size_t i = 0; i < ring.size(); ++i) EXPECT_EQ(domain.input_points[i], ring[i]);
   EXPECT_EQ(domain.pslg.points.size(), ring.size() + report.counts[static_cast<std::size_t>(EditKind::SelfCrossing)]);
 }
@@ -114,8 +114,8 @@ TEST_P(CleanRandom, AnySnapDistanceMakesAValidGraph) {
   }
 }
 
-// Here the graph is not done when the rounds begin that make near vertices one: edges that these leave as they are have
-// to be looked at as well, or two of them cross.
+// Here the graph is unfinished when the rounds that merge close vertices begin. Edges that these rounds leave unchanged
+// must be checked as well, or two of them cross.
 TEST(Clean, WhatIsNewAndNotMovedIsLookedAtInTheLastRounds) {
   std::mt19937_64 random(189);
   const Coastline coastline = coastlineOf({polygonFeature(1, tangledRing(random, 40))});

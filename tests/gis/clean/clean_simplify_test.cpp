@@ -43,7 +43,7 @@ TEST(Simplify, DropsWhatLiesWithinTheTolerance) {
 }
 
 TEST(Simplify, AnIslandKeepsItsSide) {
-  // The shore bulges round an island: cutting the bulge would put the island on land.
+  // The shore bulges around an island: without the bulge, the island would be on land.
   const Ring shore{{0, 0}, {4, 0}, {5, -2}, {6, 0}, {10, 0}, {10, 10}, {0, 10}};
   const Ring island{{4.9, -0.5}, {5.1, -0.5}, {5, -0.3}};
   CleanReport report;
@@ -56,7 +56,7 @@ TEST(Simplify, AnIslandKeepsItsSide) {
 }
 
 TEST(Simplify, JunctionsAndRingsStay) {
-  // Two features with a common wavy border; tiny islands do not vanish.
+  // Two features share a wavy border; tiny islands do not vanish.
   const Ring left{{0, 0}, {5, 0}, {5.1, 2}, {4.9, 4}, {5, 6}, {0, 6}};
   const Ring right{{5, 0}, {10, 0}, {10, 6}, {5, 6}, {4.9, 4}, {5.1, 2}};
   CleanReport report;

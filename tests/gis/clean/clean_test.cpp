@@ -57,7 +57,7 @@ TEST(Clean, SnapsEdgesToPointsNearerThanTheSnapDistance) {
   EXPECT_EQ(cleaned.segments(), 8u);
 }
 
-// The shore comes nearer to the second island once it goes through a corner of the first.
+// The shore comes closer to the second island once it is led through a corner of the first.
 TEST(Clean, AnEdgeThatWasLedThroughAPointIsSnappedToOthersAgain) {
   const Ring shore{{0, 0}, {10, 0}, {10, 10}, {0, 10}};
   const Ring first{{5, 0.9}, {5, 4}, {2, 4}}, second{{7.5, 1.4}, {8.8, 6}, {6, 6}};
@@ -66,7 +66,7 @@ TEST(Clean, AnEdgeThatWasLedThroughAPointIsSnappedToOthersAgain) {
   EXPECT_EQ(alone.segments(), 4u + 3u);
   const Cleaned both = cleanInPlane({polygonFeature(1, shore, {first, second})}, {.snap_m = 1.0});
   EXPECT_EQ(both.segments(), 6u + 3u + 3u);
-  // Without the islands, and what lies below the shore that goes through both.
+  // Minus the islands and the area below the shore, which is led through both.
   EXPECT_NEAR(both.area(0), 100.0 - 4.65 - 6.44 - 0.5 * (5.0 * 0.9 + 2.5 * (0.9 + 1.4) + 2.5 * 1.4), 1e-9);
 }
 
@@ -75,7 +75,7 @@ TEST(Clean, DropsSpikes) {
   EXPECT_EQ(cleaned.count(EditKind::Spike), 1u);
   EXPECT_EQ(cleaned.report.edits.front().place, (Point{9, 0}));
   EXPECT_EQ(cleaned.domain.input_points, square(0, 0, 4));
-  // Where the ring closes: at its first and at its last point.
+  // At the start of the ring, and at its end.
   EXPECT_EQ(cleanInPlane({polygonFeature(1, {{9, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, {4, 0}})}).count(EditKind::Spike),
             1u);
   EXPECT_EQ(cleanInPlane({polygonFeature(1, {{4, 0}, {4, 4}, {0, 4}, {0, 0}, {4, 0}, {9, 0}})}).count(EditKind::Spike),
@@ -159,7 +159,7 @@ TEST(Clean, AFeatureInAnotherIsSwallowed) {
   EXPECT_EQ(cleaned.area(0), 81.0);
 }
 
-// In whichever order: neither makes an island of the inner one.
+// In any order: the inner feature does not become an island of the outer one.
 TEST(Clean, AFeatureInAnotherIsWarnedOf) {
   const Feature lake = polygonFeature(1, square(0, 0, 9)), island = polygonFeature(2, square(2, 2, 2)),
                 beside = polygonFeature(3, square(9, 0, 9)), across = polygonFeature(4, square(8, 8, 4));
@@ -187,7 +187,7 @@ TEST(Clean, LinesThatCloseNoRingSayHowFarTheyAreApart) {
   }
 }
 
-// Otherwise the even-odd rule would leave neither.
+// Otherwise the even-odd rule would cancel both.
 TEST(Clean, RingsThatAFeatureHasTwiceCountOnce) {
   const Ring island = square(1, 1, 2), turned{{3, 3}, {1, 3}, {1, 1}, {3, 1}}, reversed{{3, 1}, {1, 1}, {1, 3}, {3, 3}};
   Cleaned cleaned = cleanInPlane({polygonFeature(1, square(0, 0, 4), {island, turned, reversed})});
@@ -199,19 +199,19 @@ TEST(Clean, RingsThatAFeatureHasTwiceCountOnce) {
   cleaned = cleanInPlane({twice});
   EXPECT_EQ(cleaned.count(EditKind::RepeatedRing), 1u);
   EXPECT_EQ(cleaned.area(0), 16.0);
-  // A ring traced twice without a stop, and one that touches itself where it began.
+  // A ring traced twice in one pass, and one that touches itself at its start.
   cleaned = cleanInPlane({polygonFeature(1, {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}})});
   EXPECT_EQ(cleaned.count(EditKind::RepeatedRing), 1u);
   EXPECT_EQ(cleaned.area(0), 16.0);
   cleaned = cleanInPlane({polygonFeature(1, {{0, 0}, {4, 0}, {4, 4}, {0, 0}, {-4, 0}, {-4, -4}})});
   EXPECT_EQ(cleaned.count(EditKind::RepeatedRing), 0u);
   EXPECT_EQ(cleaned.area(0), 16.0);
-  // Two islands that share a corner, of which the second is there twice.
+  // Two islands that share a corner; the second is listed twice.
   const Ring west{{2, 2}, {1, 3}, {1, 1}}, east{{2, 2}, {3, 1}, {3, 3}};
   cleaned = cleanInPlane({polygonFeature(1, square(0, 0, 4), {west, east, east})});
   EXPECT_EQ(cleaned.count(EditKind::RepeatedRing), 1u);
   EXPECT_EQ(cleaned.area(0), 14.0);
-  // An island that another part fills is no repetition.
+  // An island that another part fills is not a repeated ring.
   Feature filled = polygonFeature(1, square(0, 0, 4), {island});
   filled.polygons.push_back({island, {}});
   cleaned = cleanInPlane({filled});
@@ -236,7 +236,7 @@ TEST(Clean, DropsRingsWithoutArea) {
   EXPECT_EQ(cleaned.count(EditKind::DegenerateRing), 4u);
   EXPECT_EQ(cleaned.area(0), 16.0);
   EXPECT_EQ(cleaned.points(), 4u);
-  // Three collinear points: found out by the arrangement.
+  // Three collinear points: detected by the arrangement.
   EXPECT_EQ(cleanInPlane({polygonFeature(1, square(0, 0, 4), {{{1, 1}, {2, 2}, {3, 3}}})}).points(), 4u);
 }
 
@@ -311,8 +311,8 @@ TEST(Clean, EditsLieInTheInputsCoordinates) {
 }
 
 TEST(Clean, WhatTouchesInTheInputTouchesInThePlane) {
-  // Two lakes cut along a parallel; the southern one has a vertex more on the cut, which no straight line hits once it
-  // is projected.
+  // Two lakes divided along a parallel. The southern one has an additional vertex on the cut, which is off the northern
+  // one's straight edge after projection.
   const Coastline coastline = coastlineOf({polygonFeature(1, {{0, 50}, {2, 50}, {2, 51}, {0, 51}}),
                                            polygonFeature(2, {{0, 49}, {2, 49}, {2, 50}, {1, 50}, {0, 50}})},
                                           wgs84());
@@ -325,7 +325,7 @@ TEST(Clean, WhatTouchesInTheInputTouchesInThePlane) {
 }
 
 TEST(Clean, HealsTheCutAlongTheAntimeridian) {
-  // An island state in two halves; the eastern half has a vertex on the cut that the western one lacks.
+  // An island state in two halves; the eastern half has a vertex on the cut that the western half lacks.
   Feature feature = polygonFeature(1, {{179, -17}, {180, -17}, {180, -16}, {179, -16}});
   feature.polygons.push_back({{{-180, -17}, {-179, -17}, {-179, -16}, {-180, -16}, {-180, -16.4}}, {}});
   const Coastline coastline = coastlineOf({feature}, wgs84());
@@ -338,7 +338,7 @@ TEST(Clean, HealsTheCutAlongTheAntimeridian) {
 }
 
 TEST(Clean, AnOceanRoundThePoleNeedsNoCut) {
-  // Water from 60°N to the pole as plate carrée has it: a rectangle of longitudes whose upper side is the pole.
+  // Water from 60°N to the pole in plate carrée: a rectangle of longitudes whose upper side is the pole.
   Ring ring;
   for (int lon = -180; lon <= 180; lon += 10) ring.push_back({static_cast<double>(lon), 60});
   ring.push_back({180, 90});

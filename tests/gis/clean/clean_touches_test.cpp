@@ -13,7 +13,7 @@
 namespace coastmesh {
 namespace {
 
-// How many points were put on the edge ab because of `p`.
+// The number of points inserted into edge ab because of `p`.
 std::size_t putOn(const Point& a, const Point& b, const Point& p, double tolerance) {
   std::vector<Point> edge{a, b}, other{p, {p.x + 50, p.y + 70}};
   insertTouchingPoints({{&edge, false}, {&other, false}}, tolerance);
@@ -53,8 +53,8 @@ TEST(CleanTouches, WhatIsNearToAnEndIsLeftToSnapping) {
   EXPECT_EQ(putOn({0, 0}, {100, 0}, {0.005, 0}, 0.01), 1u);  // exactly on it
 }
 
-// A ring that runs back along itself in degrees, by what decimals are rounded: in the plane, where its sides are
-// straight between other points, they lay centimetres apart over a kilometre. Begun anywhere, either way round.
+// A ring that runs back along itself in degrees, up to rounded decimals. In the plane, where its sides are straight
+// between other points, they were centimetres apart over a kilometre. Tests all starting points and both directions.
 TEST(CleanTouches, ASpikeThatRunsBackIsNone) {
   Ring ring{{-48.50508505085051, -25.523976958566983},
             {-48.48708487084869, -25.535796999456167},

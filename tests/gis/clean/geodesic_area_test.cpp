@@ -35,7 +35,7 @@ TEST(GeodesicArea, HolesAreTakenOutAndMembersSummed) {
   EXPECT_NEAR(geodesicArea(coastline, {0, 1, 2}), geodesicArea(coastline, {0}) + geodesicArea(coastline, {1}), 1);
 }
 
-// Slivers that geodesics turn the other way round.
+// Slivers whose orientation is reversed by geodesics.
 TEST(GeodesicArea, OfNoDomainIsAllOfTheGlobe) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> anywhere(-1.0, 1.0);
@@ -78,7 +78,7 @@ TEST(GeodesicArea, OfMoreThanHalfTheGlobe) {
   EXPECT_NEAR(areaOf(ocean) / (kGlobe - areaOf(cap)), 1, 1e-12);
 }
 
-// Edges of all lengths, on all latitudes, against the library's own sum.
+// Edges of all lengths, at all latitudes, against the library's own sum.
 TEST(GeodesicArea, OfShortAndLongEdgesAlike) {
   std::mt19937_64 random(7);
   for (const double lat : {-88.0, -60.0, -20.0, 0.0, 35.0, 51.5, 75.0, 87.0}) {
@@ -90,7 +90,7 @@ TEST(GeodesicArea, OfShortAndLongEdgesAlike) {
         for (const Point& p : ring) polygon.AddPoint(p.y, p.x);
         double perimeter, area;
         polygon.Compute(false, true, perimeter, area);
-        // The library's rounding: some square centimetres, whatever the area.
+        // The library's rounding error: some square centimetres, whatever the area.
         EXPECT_NEAR(areaOf(ring), std::abs(area), 1e-8 * std::abs(area) + 3e-4)
             << "latitude " << lat << ", radius " << radius << ", " << n;
       }

@@ -23,13 +23,13 @@ bool holds(const std::vector<Ring>& rings, const Point& p) {
   return index.edgeCount() > 0 && index.locate(p) == Location::Inside;
 }
 
-// Longitudes that jump, from those that go on.
+// Wraps longitudes to ±180, so that they jump.
 Ring wrapped(Ring ring) {
   for (Point& p : ring) p.x -= 360 * std::floor((p.x + 180) / 360);
   return ring;
 }
 
-// A star about a place near the antimeridian.
+// A star around a point near the antimeridian.
 Ring star(double lon, double lat, double radius, int corners, std::mt19937& random) {
   std::uniform_real_distribution<double> reach(0.3, 1);
   Ring ring;
@@ -40,7 +40,7 @@ Ring star(double lon, double lat, double radius, int corners, std::mt19937& rand
   return ring;
 }
 
-// Within the box a place is land after clipping iff it was before, from whichever end of the map it is seen.
+// A point in the box is land after clipping iff it was before, on either side of the antimeridian.
 TEST(ClipChains, TurnedRingsHoldTheSamePlaces) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> unit(0, 1);

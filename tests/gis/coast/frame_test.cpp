@@ -85,7 +85,7 @@ TEST(Frame, WaterRoundAnIsland) {
   EXPECT_DOUBLE_EQ(framed.openLength(), 40);
 }
 
-// Two lands that overlap, one across the frame's boundary, and one that only the box of another reaches.
+// Two overlapping lands, one of them across the frame's boundary, and a third beyond the frame.
 TEST(Frame, LandAcrossTheBoundary) {
   const Coastline coastline = coastlineOf(
       {polygonFeature(1, square(-5, 2, 8)), polygonFeature(2, square(2, 3, 3)), polygonFeature(3, square(30, 30, 1))});
@@ -95,7 +95,7 @@ TEST(Frame, LandAcrossTheBoundary) {
   EXPECT_EQ(framed.frame.beyond_frame, 1u);
 }
 
-// Lakes within, across and beyond the frame, and one round it all.
+// Lakes within, across and beyond the frame, and one around all of it.
 TEST(Frame, InsideOfPolygons) {
   const Coastline coastline = coastlineOf({polygonFeature(1, square(1, 1, 2)), polygonFeature(2, square(8, 8, 4)),
                                            polygonFeature(3, square(20, 0, 2)), polygonFeature(4, square(10.5, 1, 1))});
@@ -112,7 +112,7 @@ Feature frameFeature(std::int64_t fid, Ring ring) {
   return feature;
 }
 
-// Frames that overlap, that touch along a side, and one apart: their sides inside of the water are no edges.
+// Frames that overlap, touch along a side, or lie apart: their sides inside the water are not edges.
 TEST(Frame, SeveralAreOne) {
   const Framed framed = frame(coastlineOf({polygonFeature(1, square(2, 2, 3)), frameFeature(11, square(0, 0, 10)),
                                            frameFeature(12, square(8, 4, 10)), frameFeature(13, square(-10, 0, 10)),
@@ -125,7 +125,7 @@ TEST(Frame, SeveralAreOne) {
   EXPECT_EQ(std::ranges::count(framed.coastline.features, FeatureUse::Frame, &Feature::use), 3);
 }
 
-// A frame in the hole of another, which it fills, and two that cross themselves where they meet.
+// A frame that fills the hole of another, and a self-crossing frame that meets another.
 TEST(Frame, SeveralWithHolesAndCrossings) {
   Feature with_hole = frameFeature(11, square(0, 0, 10));
   with_hole.polygons[0].holes.push_back(square(4, 4, 2));
@@ -152,8 +152,7 @@ TEST(Frame, WaterLiesToTheRightOfACoast) {
   EXPECT_NEAR(frame(coastlineOf({coastFeature(north)}), options).area(), 100 - east, 1e-9);
 }
 
-// A bay and an island: water on both sides of the land.
-// Whichever way its rings run, also among lines.
+// The outside of polygons is water, whichever way their rings run, also in the presence of lines.
 TEST(Frame, OutsideOfPolygonsIsWaterAmongLinesToo) {
   Ring land = square(0.4, 0.4, 0.2), lake = square(0.51, 0.51, 0.05);
   const Feature line = coastFeature({{0.3, 0.5}, {0.5, 0.5}});
@@ -187,7 +186,7 @@ TEST(Frame, AGapInTheCoastIsRefusedByItsPlace) {
   EXPECT_NE(text.find("0.25 m away"), std::string::npos) << text;
 }
 
-// A pier ends blindly, but begins at a coast.
+// A pier has a free end, but begins at a coast.
 TEST(Frame, APierBecomesAnEdge) {
   const Coastline coastline = coastlineOf({coastFeature({{4, -1}, {4, 5}, {4, 11}}), coastFeature({{4, 5}, {6, 5}})});
   const Framed framed = frame(coastline, boxOf(0, 0, 10, 10));
@@ -242,7 +241,7 @@ double landArea(const Coastline& coastline) {
   return sum;
 }
 
-// The part of the ellipsoid between two parallels and so many degrees of longitude.
+// The area of the ellipsoid between two parallels, over `width` degrees of longitude.
 double zone(double south, double north, double width) {
   const auto below = [](double latitude) {
     const double f = 1 / 298.257223563, e = std::sqrt(f * (2 - f)), s = std::sin(latitude * M_PI / 180);
@@ -253,7 +252,7 @@ double zone(double south, double north, double width) {
 }
 
 // Files that are not cut at the antimeridian: islands whose rings jump from one end of the map to the other, and a
-// continent round a pole without an edge along it. The places between, all round the globe, are no land.
+// continent around a pole without an edge along it. The area between the ends of a jump, around the globe, is not land.
 TEST(Frame, RingsThatJumpHoldNothingBetween) {
   std::vector<Feature> land;
   Ring antarctica;
@@ -262,7 +261,7 @@ TEST(Frame, RingsThatJumpHoldNothingBetween) {
   land.push_back(polygonFeature(2, square(20, 10, 30)));
   double islands = 0;
   const RingArea area(wgs84());
-  // One for each latitude at which the map might be turned away from the land.
+  // One at each latitude at which the map might be turned away from the land.
   for (int lat = -60; lat < 60; lat += 10) {
     const double south = lat + 0.5, north = lat + 9.5;
     land.push_back(polygonFeature(100 + lat, {{179.5, south}, {-179.5, south}, {-179.5, north}, {179.5, north}}));
@@ -275,7 +274,7 @@ TEST(Frame, RingsThatJumpHoldNothingBetween) {
   EXPECT_NEAR(framed.area() / expected, 1, 1e-4);
 }
 
-// An island that its file cuts at the antimeridian, in data that run from -180 and from 0, and boxes in either turn.
+// An island that its file cuts at the antimeridian, in data from -180 and from 0, and boxes in either range.
 TEST(Frame, AcrossTheAntimeridian) {
   const Ring west{{179, -18}, {180, -18}, {180, -17}, {179, -17}},
       east{{-180, -18}, {-179, -18}, {-179, -17}, {-180, -17}};
@@ -292,7 +291,7 @@ TEST(Frame, AcrossTheAntimeridian) {
   }
 }
 
-// With many points, so that edges are the same lines on every map.
+// With many points, so that edges are the same lines in every projection.
 Ring along(const Ring& ring) {
   Ring fine;
   for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -302,8 +301,8 @@ Ring along(const Ring& ring) {
   return fine;
 }
 
-// A land whose ring jumps at the antimeridian and reaches far beyond the box: it holds what the same land cut there
-// does, within boxes on either side of the map and across its end, and nothing at the latitudes where it jumps.
+// Land whose ring jumps at the antimeridian and extends far beyond the box. It covers what the same land cut there
+// covers, in boxes on either side of the map and across its end, and nothing else at the latitudes where it jumps.
 TEST(Frame, LandThatJumpsIsCutOffLikeAnyOther) {
   Ring jumping = along({{100, 55}, {190, 62}, {188, 70}, {150, 68}, {100, 75}});
   for (Point& p : jumping) p.x -= p.x > 180 ? 360 : 0;
@@ -315,7 +314,7 @@ TEST(Frame, LandThatJumpsIsCutOffLikeAnyOther) {
   for (const Box& box : {Box{0, 60, 50, 72}, Box{-60, 56, -20, 74}, Box{160, 58, -160, 72}, Box{-178, 58, -150, 71},
                          Box{140, 50, 175, 69}, Box{-180, 60, 180, 80}}) {
     const FrameOptions options = boxOf(box.xmin, box.ymin, box.xmax, box.ymax, DomainSide::Outside);
-    Coastline with_islet = whole, cut_with_islet = cut;  // some land lies in every box
+    Coastline with_islet = whole, cut_with_islet = cut;  // so that every box contains some land
     const Feature islet = polygonFeature(9, square(box.xmin + 0.5, box.ymax - 0.2, 0.1));
     with_islet.features.push_back(islet);
     cut_with_islet.features.push_back(islet);
@@ -326,7 +325,7 @@ TEST(Frame, LandThatJumpsIsCutOffLikeAnyOther) {
   }
 }
 
-// Land that is cut off far along a parallel beyond the frame: no straight line of the plane is left of that.
+// Land is cut off along a parallel far beyond the frame; the cut leaves no straight edge in the plane.
 TEST(Frame, WhatIsCutOffStaysBeyondTheFrame) {
   const Coastline coastline = coastlineOf(
       {polygonFeature(1, {{0, 30}, {120, 30}, {120, 61}, {0, 61}}), polygonFeature(2, square(-100, 70, 1))}, wgs84());
@@ -336,7 +335,7 @@ TEST(Frame, WhatIsCutOffStaysBeyondTheFrame) {
   ASSERT_EQ(framed.domains.size(), 1u);
   EXPECT_NEAR(framed.area() / islet.area(), 1, 1e-9);
   EXPECT_NEAR(framed.openLength() / islet.openLength(), 1, 1e-9);
-  // The same where the land reaches into it.
+  // The same if the land extends into the frame.
   const Coastline large = coastlineOf({polygonFeature(1, along({{0, 30}, {120, 30}, {120, 70}, {0, 70}}))}, wgs84());
   const Framed sea = frame(large, boxOf(-180, 65, 180, 80, DomainSide::Outside));
   EXPECT_NEAR(sea.area() / (zone(65, 80, 360) - zone(65, 70, 120)), 1, 1e-4);
@@ -349,10 +348,10 @@ TEST(Frame, PolygonsThatAreNoDegreesAreRefused) {
   EXPECT_NE(refusalOf(coastline, {}).find("give its CRS"), std::string::npos);
 }
 
-// Round a pole, and the whole globe: nothing is left of the frame's boundary but what lies in water.
+// Around a pole, and the whole globe: of the frame's boundary, only the parts in water remain.
 TEST(Frame, RoundThePoleAndTheGlobe) {
   const Ring antarctica{{-180, -90}, {-180, -78}, {-90, -72}, {0, -70}, {90, -66}, {180, -78}, {180, -90}};
-  Ring fine;  // long edges are another line on the ellipsoid than in the plane
+  Ring fine;  // long edges on the ellipsoid differ from those in the plane
   for (std::size_t i = 0; i < antarctica.size(); ++i) {
     const Point &a = antarctica[i], &b = antarctica[(i + 1) % antarctica.size()];
     const int n = a.y == -90 || b.y == -90 ? 1 : 400;
@@ -369,7 +368,7 @@ TEST(Frame, RoundThePoleAndTheGlobe) {
   EXPECT_EQ(globe.openLength(), 0);
 }
 
-// A lake in three pieces: the cuts go, and so do the vertices that they left in the shore.
+// A lake in three pieces: the cuts disappear, and so do the vertices that they left in the shore.
 TEST(Dissolve, LeavesNoTraceOfACut) {
   const Coastline coastline = coastlineOf({polygonFeature(4, {{0, 0}, {5, 0}, {5, 5}, {0, 5}}),
                                            polygonFeature(2, {{5, 0}, {9, 0}, {9, 5}, {5, 5}}),
@@ -379,13 +378,14 @@ TEST(Dissolve, LeavesNoTraceOfACut) {
   CleanReport report;
   const Domain domain = cleanFeatures(coastline, allMembers(coastline), Projection::plane(), options, report);
   EXPECT_EQ(defectOfLabelled(domain.pslg), "");
-  // The corners, and the vertex at 9, 0, where the shore turns.
+  // The corners, and the vertex at (9, 0), where the shore turns.
   EXPECT_EQ(domain.pslg.points.size(), 5u);
   EXPECT_DOUBLE_EQ(labelledArea(domain.pslg, 0), 60 - 1.5);
   EXPECT_EQ(report.counts[static_cast<std::size_t>(EditKind::DissolvedEdge)], 2u + 3u);
 }
 
-// Where something holds what no feature does, as on a whole globe, shores part from that too: only the cut goes.
+// If a feature holds the rest, as on a whole globe, shores separate the lakes from that as well: only the cut
+// disappears.
 TEST(Dissolve, LeavesTheShoreTowardsTheRest) {
   Coastline coastline = coastlineOf({polygonFeature(1, {{0, 0}, {5, 0}, {5, 5}, {0, 5}}), Feature{},
                                      polygonFeature(2, {{5, 0}, {9, 0}, {9, 4}, {5, 5}}),
@@ -395,7 +395,7 @@ TEST(Dissolve, LeavesTheShoreTowardsTheRest) {
   options.dissolve = true;
   CleanReport report;
   const Domain domain = cleanFeatures(coastline, allMembers(coastline), Projection::plane(), options, report);
-  // The cut, and its foot at 5, 0: at 5, 5 the shore turns.
+  // The cut and its end at (5, 0); at (5, 5) the shore turns.
   EXPECT_EQ(report.counts[static_cast<std::size_t>(EditKind::DissolvedEdge)], 1u + 1u);
   EXPECT_EQ(domain.pslg.segments.size(), 5u + 3u);
   EXPECT_EQ(domain.rest, 1);
@@ -405,8 +405,8 @@ TEST(Dissolve, LeavesTheShoreTowardsTheRest) {
   }
 }
 
-// What a cut left, rounded to the decimals that the input has, is no bend; a bend of more digits is one, though
-// smaller, and so is one as fine as the decimals where the lake is no larger.
+// A bend no larger than the decimals of the input is a trace of the cut. A bend is real if it has more digits, even if
+// it is smaller, or if the lake itself is as small as the decimals.
 TEST(Dissolve, TakesABendForATraceOnlyWithinTheDecimals) {
   const auto vertices = [](double unit, double x, double bend) {
     const Coastline coastline =
@@ -428,14 +428,14 @@ TEST(Dissolve, TakesABendForATraceOnlyWithinTheDecimals) {
   EXPECT_EQ(vertices(0.01, 0.03, 0.01), 5u);
 }
 
-// Segments of the lines of a use.
+// The number of segments that belong to lines of `use`.
 std::ptrdiff_t segmentsOf(const Domain& domain, FeatureUse use) {
   return std::ranges::count_if(domain.pslg.segments, [&](const Segment& s) {
     return isLineTag(s.tag) && domain.lines.at(lineOfTag(s.tag)).use == use;
   });
 }
 
-// Where lines run along one another a weir comes before a constraint, and this before a region's border.
+// Where lines overlap, a weir takes precedence over a constraint, and a constraint over a region's border.
 TEST(Constraints, OverlappingLines) {
   Feature wall = lineFeature(1, {{1, 5}, {9, 5}}), weir = lineFeature(2, {{3, 5}, {5, 5}});
   wall.use = FeatureUse::Constraint;
@@ -465,7 +465,7 @@ TEST(Constraints, OverlappingLines) {
 TEST(Constraints, LinesPointsAndRegionsInTheWater) {
   Feature wall = lineFeature(1, {{1, 1}, {3, 1}, {30, 1}}), weir = lineFeature(2, {{1, 2}, {3, 2}});
   wall.use = FeatureUse::Constraint;
-  wall.points = {{50, 50}, {5, 5}, {5, 5}};  // what lies outside does not keep the next from being taken, nor twice
+  wall.points = {{50, 50}, {5, 5}, {5, 5}};  // the first is outside, and repeats are ignored
   wall.attributes = {{"Name", "wall"}};
   weir.use = FeatureUse::Weir;
   Feature region = polygonFeature(3, square(6, 6, 20));
@@ -475,14 +475,14 @@ TEST(Constraints, LinesPointsAndRegionsInTheWater) {
   const auto groups = groupFeatures(coastline);
   ASSERT_EQ(groups.size(), 1u);
   const Domain domain = cleanFeatures(coastline, groups[0], Projection::plane(), {0.0}, report);
-  EXPECT_EQ(defectOfLabelled(domain.pslg), "vertex in no segment at 5, 5");  // as was asked for
+  EXPECT_EQ(defectOfLabelled(domain.pslg), "vertex in no segment at 5, 5");  // requested points
   EXPECT_EQ(segmentsOf(domain, FeatureUse::Weir), 1);
   EXPECT_EQ(segmentsOf(domain, FeatureUse::Constraint), 2);
   EXPECT_EQ(segmentsOf(domain, FeatureUse::Region), 2);
   ASSERT_EQ(domain.lines.size(), 3u);
   EXPECT_EQ(domain.lines[0].name, "wall");
   EXPECT_EQ(domain.lines[1].name, "");
-  EXPECT_EQ(domain.lines[2].name, "3");  // the region's number, for want of a name
+  EXPECT_EQ(domain.lines[2].name, "3");  // the region's number, as it has no name
   EXPECT_EQ(std::ranges::count(domain.pslg.points, Point{5, 5}), 1);
   EXPECT_EQ(std::ranges::count(domain.pslg.points, Point{50, 50}), 0);
   EXPECT_EQ(report.counts[static_cast<std::size_t>(EditKind::OutsideWater)], 1u);

@@ -46,7 +46,7 @@ TEST(GroupFeatures, ALakeOnAnIslandIsALakeOfItsOwn) {
   EXPECT_EQ(group({sea, polygonFeature(1, square(3, 3, 1))}), (Groups{{0}, {1}}));
   // A lake that fills the island to its shore touches the sea.
   EXPECT_EQ(group({sea, polygonFeature(1, square(2, 2, 4))}), (Groups{{0, 1}}));
-  // And one that lies in it but for a corner on its shore.
+  // And so does one inside the island with a corner on its shore.
   EXPECT_EQ(group({sea, polygonFeature(1, square(2, 2, 1))}), (Groups{{0, 1}}));
 }
 
@@ -56,7 +56,7 @@ TEST(GroupFeatures, AFeatureOfWhichOnlyAPartLiesInAnother) {
   EXPECT_EQ(group({two_parts, polygonFeature(1, square(0, 0, 9))}), (Groups{{0, 1}}));
 }
 
-// Such a ring has no edges, by which the others are told.
+// Features are grouped by edges, and such a ring has none.
 TEST(GroupFeatures, ARingOfOnePointBelongsToNothing) {
   EXPECT_EQ(group({polygonFeature(0, square(0, 0, 9)), polygonFeature(1, {{2, 1}}), polygonFeature(2, {})}),
             (Groups{{0}, {1}, {2}}));
@@ -73,11 +73,11 @@ TEST(GroupFeatures, WhatACutAlongAMeridianPartsBelongsTogether) {
                                     polygonFeature(2, square(-180, 50, 1)), polygonFeature(3, square(178, 50, 1)),
                                     polygonFeature(4, {{180, 11.5}, {179, 12}, {179, 11.6}})};
   EXPECT_EQ(groupFeatures(coastlineOf(halves, wgs84())), (Groups{{0, 1, 4}, {2}, {3}}));
-  // In a plane there is no such thing.
+  // A plane has no antimeridian.
   EXPECT_EQ(group(halves).size(), 5u);
 }
 
-// Points and edges of both become one when they are cleaned together, and only then.
+// Snapping merges points and edges of two features only if they are cleaned together.
 TEST(GroupFeatures, WhatSnappingMayMergeBelongsTogether) {
   const auto groupsOf = [](double gap, const SnapDistance& snap) {
     return groupFeatures(coastlineOf({polygonFeature(0, square(0, 0, 1)), polygonFeature(1, square(1 + gap, 0, 1))}),
@@ -87,12 +87,12 @@ TEST(GroupFeatures, WhatSnappingMayMergeBelongsTogether) {
   EXPECT_EQ(groupsOf(1e-4, {}), 2u);
   EXPECT_EQ(groupsOf(1e-4, {1e-3}), 1u);
   EXPECT_EQ(groupsOf(1e-2, {1e-3}), 2u);
-  // A vertex that comes near the middle of an edge.
+  // A vertex close to the middle of an edge.
   EXPECT_EQ(
       groupFeatures(coastlineOf({polygonFeature(0, square(0, 0, 3)), polygonFeature(1, {{3.01, 1}, {5, 0}, {5, 2}})}),
                     {0.1}),
       (Groups{{0, 1}}));
-  // A line beside a shore, and one in a hole beside the shore of that.
+  // A line beside a shore, and one in a hole, beside the hole's shore.
   EXPECT_EQ(groupFeatures(coastlineOf({polygonFeature(0, square(0, 0, 9), {square(2, 2, 4)}),
                                        lineFeature(1, {{9.01, 1}, {12, 1}}), lineFeature(2, {{3, 3}, {5.99, 3}}),
                                        lineFeature(3, {{3, 4}, {5.8, 4}})}),
@@ -109,17 +109,17 @@ TEST(GroupFeatures, SnapsByMetresOnTheGround) {
   for (const double metres : {9.0, 15.0})
     EXPECT_EQ(groupsOf(square(0, 59, 1), square(1 + 2 * metres / degree, 59.5, 0.5), wgs84(), {10.0}),
               metres < 10 ? 1u : 2u);
-  // Apart by as many units, and at the pole by nothing that has a length.
+  // A snap distance in units of the CRS; and at the pole, where differences in longitude have no length.
   EXPECT_EQ(groupsOf(square(0, 59, 1), square(1.001, 59, 1), wgs84(), {0.01, true}), 1u);
   EXPECT_EQ(groupsOf({{0, 80}, {10, 80}, {5, 90}}, {{50, 80}, {60, 80}, {55, 89.99999}}, wgs84(), {10.0}), 1u);
-  // Mercator's metres at 60 degrees north are half a metre long.
+  // At 60 degrees north, a metre of Mercator is half a metre on the ground.
   const Crs mercator = parseCrs("EPSG:3857");
   for (const double metres : {9.0, 15.0})
     EXPECT_EQ(groupsOf(square(0, 8.3997e6, 1000), square(1000 + 2 * metres, 8.3997e6, 1000), mercator, {10.0}),
               metres < 10 ? 1u : 2u);
 }
 
-// Every vertex and edge against every other.
+// Compares every vertex and edge with every other.
 bool slowlyBelongTogether(const Feature& a, const Feature& b) {
   const auto ringsOf = [](const Feature& f) {
     std::vector<Ring> rings;

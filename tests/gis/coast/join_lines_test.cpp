@@ -13,7 +13,7 @@ namespace {
 
 using Lines = std::vector<std::vector<Point>>;
 
-// Rings as sorted sets of points: where they begin and which way they go is left open.
+// Rings as sorted point sets: their start and direction do not matter.
 std::vector<std::vector<Point>> pointSets(const std::vector<JoinedLines::Part>& parts) {
   std::vector<std::vector<Point>> sets;
   for (const auto& part : parts) {
@@ -123,7 +123,7 @@ TEST(JoinLines, PiecesOfManyRingsInAnyOrder) {
 }
 
 TEST(JoinLines, ANetOfStreetsComesApartWhole) {
-  // Every line of a grid of places is its own piece: all must come out once, in rings or open.
+  // Every edge of a grid is a line of its own: each must appear exactly once, in a ring or an open line.
   Lines lines;
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < 6; ++j) {
@@ -174,7 +174,7 @@ TEST(NestRings, EveryRingComesOutOnceWhateverCrosses) {
   }
 }
 
-// Files that were put together twice: the same closed line, and the same halves of one.
+// Files concatenated twice: the same closed line, and the same halves of one.
 TEST(JoinLines, LinesGivenTwice) {
   const std::vector<Point> ring{{0, 0}, {2, 0}, {1, 2}, {0, 0}};
   EXPECT_EQ(joinLines({ring, ring}).rings.size(), 2u);

@@ -44,8 +44,8 @@ TEST(TurnedRings, RoundAPole) {
   }
 }
 
-// A small island on the antimeridian with an edge from one end of the map to the other, begun at any point, either way
-// round, with a point on the meridian written either way: never a band round the Earth.
+// A small island on the antimeridian with an edge from one end of the map to the other, from every starting point, in
+// both directions, with the meridian as 180 or -180: it never becomes a band around the Earth.
 TEST(TurnedRings, AnEdgeFromEndToEndBesideAJumpHasNoLength) {
   const std::vector<Ring> islands{
       {{-180, -16.49}, {180, -16.54}, {179.985, -16.542}, {179.985, -16.523}},
@@ -76,7 +76,7 @@ TEST(TurnedRings, AnEdgeFromEndToEndIsOneOfTheMapWhereNothingElseJumps) {
   EXPECT_EQ(turnedRings(band), std::vector<Ring>{band});
 }
 
-// Where the jumps alone close the ring, an edge from end to end is not one of them.
+// If the jumps alone close the ring, an edge from end to end does not count as a jump.
 TEST(TurnedRings, AnEdgeFromEndToEndDoesNotKeepARingFromClosing) {
   const Ring ring{{170, 0}, {-170, 0}, {-170, 5}, {-180, 5}, {180, 9}, {-180, 10}, {170, 10}};
   EXPECT_EQ(turnsOf(ring, true).round, 0);
@@ -88,7 +88,7 @@ TEST(TurnedRings, RoundAPoleWithAPointOnTheMeridianTwice) {
   for (const double sign : {-1.0, 1.0}) {
     Ring ring{{180, sign * 80}};
     for (int lon = 160; lon >= -160; lon -= 20) ring.push_back({static_cast<double>(lon), sign * 75});
-    ring.push_back({-180, sign * 80});  // and an edge from end to end back to the first
+    ring.push_back({-180, sign * 80});  // an edge from end to end closes the ring
     EXPECT_FALSE(longitudesJump(ring));
     ring.back() = {-179, sign * 79};
     EXPECT_EQ(turnsOf(ring, true).round, -1);

@@ -32,7 +32,7 @@ std::vector<std::array<std::uint32_t, 3>> cornersOf(const TriMesh& mesh) {
 
 struct Extent {
   Point south_west;
-  double degrees;  // of a cell
+  double degrees;  // size of a cell
 };
 
 void PrintTo(const Extent& extent, std::ostream* out) { *out << extent.degrees << " degrees"; }
@@ -53,11 +53,11 @@ TEST_P(TriangleAreas, AddUpToThePolygon) {
   const std::vector<double> areas = triangleAreas(mesh.points, cornersOf(mesh), wgs84());
   const double sum = std::accumulate(areas.begin(), areas.end(), 0.0);
   const double whole = polygonArea(mesh.points, boundaryLoops(mesh).at(0));
-  // PolygonArea is good to some 0.1 square metres.
+  // PolygonArea is accurate to about 0.1 square metres.
   EXPECT_NEAR(sum, whole, 1e-7 * whole + 0.5);
 }
 
-// Cells of 11 m to 550 km; some where triangles change from the series to the exact formula at 20 km.
+// Cells of 11 m to 550 km; some near 20 km, where triangles change from the series to the exact formula.
 INSTANTIATE_TEST_SUITE_P(Places, TriangleAreas,
                          ::testing::Values(Extent{{-87.5, 43.1}, 1e-3}, Extent{{-87.5, 43.1}, 0.01},
                                            Extent{{-87.5, 43.1}, 0.1}, Extent{{-87.5, 43.1}, 0.14},
@@ -72,7 +72,7 @@ TEST(TriangleAreas, OfFewAreThoseOfAll) {
   EXPECT_EQ(areasOfFew(nodes, few, wgs84()), (std::vector<double>{areas[2], areas[0]}));
 }
 
-// Triangles of 10 to 15 km against the exact formula on its own.
+// Single triangles of 10 to 15 km against the exact formula.
 TEST(TriangleAreas, AgreeWithTheExactFormulaOneByOne) {
   for (const double latitude : {0.0, 30.0, 60.0, 85.0}) {
     const std::vector<Point> nodes{{5.0, latitude}, {5.12, latitude + 0.01}, {5.05, latitude + 0.14}};
@@ -82,8 +82,8 @@ TEST(TriangleAreas, AgreeWithTheExactFormulaOneByOne) {
   }
 }
 
-// Edges of 20 to 60 km, by a series, anywhere and of any shape that a mesh has: to 1e-9 of the exact formula, whose own
-// error is some 0.01 square metres.
+// Edges of 20 to 60 km, computed by a series, anywhere and of any shape found in meshes: within 1e-9 of the exact
+// formula, whose own error is about 0.01 square metres.
 TEST(TriangleAreas, OfMediumTrianglesAreThoseOfTheExactFormula) {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> share(0.0, 1.0);
@@ -96,7 +96,7 @@ TEST(TriangleAreas, OfMediumTrianglesAreThoseOfTheExactFormula) {
       geodesic.Direct(lat, lon, turn + 120.0 * k + 40.0 * share(random), 13e3 + 16e3 * share(random), to_lat, to_lon);
       nodes.push_back({to_lon, to_lat});
     }
-    const double exact = polygonArea(nodes, {0, 2, 1});  // azimuths turn clockwise
+    const double exact = polygonArea(nodes, {0, 2, 1});  // azimuths run clockwise
     EXPECT_NEAR(triangleAreas(nodes, {{{0, 2, 1}}}, wgs84())[0], exact, 1e-9 * exact + 0.2) << lon << ' ' << lat;
   }
 }

@@ -31,7 +31,7 @@ TEST(GeographicMap, TakesEastingsAndNorthingsToThePlaceOnTheEllipsoid) {
   EXPECT_NEAR(map.inverse(place).y, utm.y, 1e-5);
 }
 
-// Lambert zone II of France counts in grads from Paris; its scale is 0.99988 along 52 grads north.
+// Lambert zone II of France uses grads and the meridian of Paris; its scale is 0.99988 along 52 grads north.
 TEST(GeographicMap, HasDegreesWhateverTheCrsCountsIn) {
   const Crs france = parseCrs("EPSG:27572");
   const LonLat place = GeographicMap(france).forward({600000, 2200000});

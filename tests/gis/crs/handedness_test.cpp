@@ -20,7 +20,7 @@ TEST(Handedness, AxesToTheSouthAndWestMirrorTheGround) {
   EXPECT_EQ(unmirrored(unnamed), "a CRS with axes east and north");
 }
 
-// Half a turn is no mirror, nor are axes that are listed in another order than files have them.
+// A half turn does not mirror, nor do axes defined in an order other than that of files.
 TEST(Handedness, OthersDoNot) {
   EXPECT_FALSE(mirrorsGround(parseCrs("EPSG:2053"), {20000.0, 3700000.0}));     // west and south
   EXPECT_FALSE(mirrorsGround(parseCrs("EPSG:2193"), {1700000.0, 5500000.0}));   // north and east

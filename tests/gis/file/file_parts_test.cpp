@@ -22,7 +22,7 @@ std::vector<char> bytesOf(const std::string& path) {
 
 char byteAt(std::uint64_t at) { return static_cast<char>(at * 0x9E3779B97F4A7C15ull >> 56); }
 
-// Parts that begin and end anywhere, side by side or apart, beside what stands in the file already.
+// Parts with arbitrary ends, adjacent or apart, within a file's existing content.
 void expectWritten(const ItemLoop& loop, std::uint64_t large_file) {
   constexpr std::uint64_t kSize = 9'000'001;
   const testing::TemporaryFolder folder;

@@ -73,13 +73,13 @@ TEST_P(GeoPackageIndexTest, FindsWhatLiesInABox) {
     const double east = west + 0.03, north = south + 0.02;
     layer->SetSpatialFilterRect(west, south, east, north);
     const auto inside = [&](const Point& p) { return p.x >= west && p.x <= east && p.y >= south && p.y <= north; };
-    std::int64_t found = 0;  // one by one: OGR counts by the index alone, whose boxes are rounded
+    std::int64_t found = 0;  // counted one by one: OGR's count uses only the index, whose boxes are rounded
     for (const auto& feature : *layer) found += feature->GetFID() > 0;
     EXPECT_EQ(found, std::ranges::count_if(grid.nodes, inside));
   }
 }
 
-// So many that they are sorted by several threads, and merged twice.
+// So many rows that several threads sort them, with two levels of merging.
 TEST(GeoPackageIndex, OfManyRowsIsSound) {
   const TemporaryFolder folder;
   writeGeoPackage(sampleGrid(wgs84(), {-87.5, 43.1}, 0.0001, 200), folder / "lakes.gpkg", testing::backwards);
@@ -88,7 +88,7 @@ TEST(GeoPackageIndex, OfManyRowsIsSound) {
   EXPECT_GT(std::stoi(rows), 2 * 65536);
   EXPECT_EQ(ask(*dataset, "SELECT count(DISTINCT id) FROM rtree_triangles_geom"), rows);
   EXPECT_EQ(checkIndex(*dataset, "triangles"), "ok");
-  // In slices: few nodes of the tree lie about any one place.
+  // In slices: few nodes of the tree are around any one place.
   const int nodes =
       std::stoi(ask(*dataset,
                     "SELECT count(DISTINCT nodeno) FROM rtree_triangles_geom_rowid WHERE rowid IN (SELECT id FROM "
@@ -97,7 +97,7 @@ TEST(GeoPackageIndex, OfManyRowsIsSound) {
   EXPECT_LE(nodes, 20);
 }
 
-// Whoever edits the file finds an index that follows.
+// The index follows edits of the file.
 TEST_P(GeoPackageIndexTest, FollowsEdits) {
   const TemporaryFolder folder;
   writeGeoPackage(sampleGrid(wgs84(), {-87.5, 43.1}, 0.01, GetParam()), folder / "lakes.gpkg");

@@ -21,7 +21,7 @@ std::string integers(std::initializer_list<std::uint32_t> values) {
   return bytes;
 }
 
-// CDF-1 without dimensions, records and variables, and with one attribute of a type and so many values.
+// A CDF-1 file without dimensions, records and variables, with one attribute of this type and number of values.
 std::string withAttribute(std::uint32_t type, std::uint32_t values, const std::string& bytes) {
   return "CDF\1" + integers({0, 0, 0, 12, 1, 1}) + std::string("a\0\0\0", 4) + integers({type, values}) + bytes +
          integers({0, 0});
@@ -35,7 +35,7 @@ bool fits(const std::string& bytes) {
 
 TEST(HeaderFitsFile, AttributesAreOfTypesThatSuchFilesHave) {
   EXPECT_TRUE(fits(withAttribute(2, 4, "text")));
-  EXPECT_TRUE(fits(withAttribute(2, 1, "t---")));  // filled up
+  EXPECT_TRUE(fits(withAttribute(2, 1, "t---")));  // padded
   EXPECT_TRUE(fits(withAttribute(11, 1, "12345678")));
   EXPECT_FALSE(fits(withAttribute(12, 4, "text")));
   EXPECT_FALSE(fits(withAttribute(0, 4, "text")));
@@ -45,7 +45,7 @@ TEST(HeaderFitsFile, NothingClaimsMoreThanTheFileHas) {
   EXPECT_FALSE(fits(withAttribute(2, 1'000'000'000, "text")));
   EXPECT_FALSE(fits(withAttribute(6, 3, "1234567812345678")));
   EXPECT_FALSE(fits(withAttribute(2, 4, "text").substr(0, 40)));
-  EXPECT_TRUE(fits("CDF\3" + integers({1'000'000'000})));  // no version of these
+  EXPECT_TRUE(fits("CDF\3" + integers({1'000'000'000})));  // not a version of this format
   EXPECT_TRUE(fits(""));
 }
 

@@ -36,7 +36,7 @@ std::string ask(const std::string& path, const std::string& sql) {
   return dataset ? ask(*dataset, sql) : "not open";
 }
 
-// A database with an empty table `t`; gives the page that the table begins in.
+// Creates a database with an empty table `t`. Returns the root page of the table.
 std::uint64_t makeEmpty(const std::string& path, const std::string& columns) {
   GDALAllRegister();
   GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("SQLite");
@@ -46,7 +46,7 @@ std::uint64_t makeEmpty(const std::string& path, const std::string& columns) {
 }
 
 void onThreads(std::size_t count, const std::function<void(std::size_t)>& work) {
-  for (std::size_t i = count; i-- > 0;) work(i);  // any order will do
+  for (std::size_t i = count; i-- > 0;) work(i);  // any order is valid
 }
 
 TEST(SqlitePages, EveryKindOfValueIsReadBack) {
@@ -79,7 +79,7 @@ TEST(SqlitePages, EveryKindOfValueIsReadBack) {
   }
 }
 
-// Tables of one page, of a root above leaves, and of two levels above them; the numbers of rows take one byte to four.
+// Tables of one page, of a root above leaves, and of two levels above leaves; row numbers take one to three bytes.
 TEST(SqlitePages, TreesOfAnyDepthAreSound) {
   for (const std::uint64_t rows : {0, 1, 3, 100, 127, 128, 2000, 40000}) {
     const TemporaryFolder folder;
@@ -101,7 +101,7 @@ TEST(SqlitePages, TreesOfAnyDepthAreSound) {
   }
 }
 
-// A page above leaves holds up to 272 of them, and none holds a single one.
+// A page above leaves holds up to 272 of them, and at least two.
 TEST(SqlitePages, LeavesOneMoreThanFillPagesMakeASoundTree) {
   for (const std::uint64_t leaves : {2, 3, 271, 272, 273, 274, 544, 545, 546, 817}) {
     const TemporaryFolder folder;
@@ -118,7 +118,7 @@ TEST(SqlitePages, LeavesOneMoreThanFillPagesMakeASoundTree) {
   }
 }
 
-// SQLite keeps the page at 1 GiB for locks. The file is made to end just before that, with a hole for its pages.
+// SQLite reserves the page at 1 GiB for locks. The file is extended by a hole so that it ends just before that page.
 TEST(SqlitePages, ThePageOfLocksIsPassedOver) {
   constexpr std::uint64_t kPage = 4096, kLockPage = (std::uint64_t{1} << 30) / kPage + 1;
   for (const std::uint64_t before : {0, 1, 2, 6}) {

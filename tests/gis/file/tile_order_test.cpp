@@ -30,7 +30,7 @@ TileOrder orderOf(const std::vector<IndexBox>& boxes, const ItemLoop& loop = inO
       static_cast<std::uint32_t>(boxes.size()), kTogether, [&](std::uint32_t row) { return boxes[row]; }, loop);
 }
 
-// How far the middles of a node's rows reach, both ways together, on average.
+// The mean extent, x plus y, of the box centres of a node's rows.
 double reachOfNodes(const std::vector<IndexBox>& boxes, const std::vector<std::uint32_t>& rows) {
   double sum = 0.0;
   std::size_t nodes = 0;
@@ -54,7 +54,7 @@ bool isPermutation(std::vector<std::uint32_t> rows) {
   return true;
 }
 
-// Few rows are sorted as a whole, more are dealt out first.
+// Few rows are sorted at once; more are first distributed.
 class TileOrderTest : public ::testing::TestWithParam<std::size_t> {};
 
 INSTANTIATE_TEST_SUITE_P(Rows, TileOrderTest, ::testing::Values(1, 51, 200, 1000, 20000, 70000, 200000));
@@ -64,7 +64,7 @@ TEST_P(TileOrderTest, HasEveryRowInCompactNodes) {
   const TileOrder order = orderOf(boxes);
   ASSERT_EQ(order.rows.size(), boxes.size());
   EXPECT_TRUE(isPermutation(order.rows));
-  // Squares that share the area out have this.
+  // The extent of squares that divide the area evenly.
   const double ideal = 2.0 / std::sqrt(static_cast<double>(boxes.size()) / static_cast<double>(kTogether));
   EXPECT_LE(reachOfNodes(boxes, order.rows), 1.25 * ideal);
 }
@@ -84,7 +84,7 @@ TEST_P(TileOrderTest, IsTheSameInAnyOrderOfWork) {
   EXPECT_EQ(orderOf(boxes, testing::backwards).rows, rows);
 }
 
-// Places of which all have one coordinate, or both, and such as leave no range that is a number.
+// Centres that share one coordinate or both, and centres whose range is not finite.
 TEST(TileOrder, OddPlaces) {
   constexpr double kHuge = 1.7e308;
   for (const auto& [width, height] : {std::pair{0.0, 1.0}, {1.0, 0.0}, {0.0, 0.0}, {kHuge, kHuge}}) {

@@ -19,7 +19,7 @@ class WholeFile : public ::testing::Test {
  protected:
   void TearDown() override { std::filesystem::remove(path_); }
 
-  // Of a length at and beside those that memory is taken by; no byte like its neighbours.
+  // `count` bytes, each unlike its neighbours; kLengths has lengths at and near multiples of the allocated blocks.
   static std::string bytes(std::size_t count) {
     std::string text;
     for (std::size_t i = 0; i < count; ++i) text.push_back(static_cast<char>(i * 131 + (i >> 8)));

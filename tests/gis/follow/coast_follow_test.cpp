@@ -61,7 +61,7 @@ TEST(FollowSizes, ARoughShoreGetsNoSegmentsMuchShorterThanTheSizeAndKeepsApart) 
   EXPECT_NEAR(areaOf(coarse), area, 0.01 * area);
 }
 
-// A frame of side 40 with a short way out through land, or with a bit of land at it: neither leaves short edges.
+// A frame of side 40 with a short outlet through land, or with a bit of land at its side: neither leaves short edges.
 TEST(FollowSizes, ShortPiecesOfAnOpenBoundaryAndOfShoreAtItGo) {
   for (const bool way_out : {true, false}) {
     Domain domain;
@@ -96,7 +96,8 @@ TEST(FollowSizes, LinesInTheWaterStay) {
   EXPECT_EQ(parts(coarse), 1u);
 }
 
-// The last vertex of a shore whose ends a border between two waters joins stays: without it the border would run twice.
+// A border between two waters joins the ends of a shore. The shore's last vertex stays: without it, the shore would
+// coincide with the border.
 TEST(FollowSizes, AShoreIsNotCoarsenedOntoTheBorderBesideIt) {
   Domain domain;
   domain.pslg.points = {{0, 0}, {40, 0}, {40, 40}, {0, 40}, {10, 41}, {20, 42}, {30, 41}};
@@ -157,7 +158,7 @@ TEST(FollowSizes, SmallIslandsGoAndAreCounted) {
   EXPECT_EQ(loops, 3u);
 }
 
-// A .poly says with a point in each hole what the labels of a cleaned domain say.
+// A .poly file marks holes by points; a cleaned domain marks them by labels.
 TEST(FollowSizes, AGraphWithoutLabelsIsFollowedAsWell) {
   Domain labelled;
   addRing(labelled, {0.0, 0.0}, 10.0, 400, false, 0.003);

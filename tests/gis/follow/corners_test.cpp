@@ -15,7 +15,7 @@ namespace {
 
 using testing::farthestFrom;
 
-// The ring with vertices along its sides, turned, so that no side lies along an axis.
+// The ring with vertices along its sides, rotated so that no side is parallel to an axis.
 std::vector<Point> dense(const std::vector<Point>& ring, double step, double degrees) {
   std::vector<Point> points;
   for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -66,7 +66,7 @@ TEST(FollowSizes, CornersOfHarboursStayHoweverDenseTheirSidesAre) {
   }
 }
 
-// A cape of 60 degrees ends where it is an element wide.
+// A cape of 60 degrees is cut off where it is an element wide.
 TEST(FollowSizes, SharpCornersAreCutOff) {
   Domain domain;
   addShore(domain,

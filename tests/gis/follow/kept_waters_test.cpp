@@ -36,7 +36,7 @@ TEST(FollowSizes, OfWaterThatIsCutApartWhatIsAskedForStays) {
   for (const Point& p : none_open.pslg.points) EXPECT_LT(p.x, 25.0);
 }
 
-// A large lake, and one beside it at an open boundary.
+// A large lake, and beside it a lake with an open boundary.
 TEST(FollowSizes, AFrameThatGrazesAnotherWaterDoesNotDropTheOneThatIsMeant) {
   for (const double side : {12.0, 20.0}) {
     Domain domain;
@@ -46,7 +46,7 @@ TEST(FollowSizes, AFrameThatGrazesAnotherWaterDoesNotDropTheOneThatIsMeant) {
     for (const KeepWater keep : {KeepWater::Modelled, KeepWater::Open}) {
       CleanReport report;
       const Domain coarse = followSizes(Domain(domain), ConstantSize(2.0), {.keep = keep}, oneFeature(), report);
-      const bool grazed = side == 12.0 && keep == KeepWater::Modelled;  // 144 of 1744, 400 of 2000
+      const bool grazed = side == 12.0 && keep == KeepWater::Modelled;  // areas: 144 of 1744, 400 of 2000
       for (const Point& p : coarse.pslg.points) EXPECT_EQ(p.x < 45.0, grazed) << side;
       addWaterNotes(report, {.keep = keep});
       ASSERT_EQ(report.warnings.size(), 1u);
@@ -58,7 +58,7 @@ TEST(FollowSizes, AFrameThatGrazesAnotherWaterDoesNotDropTheOneThatIsMeant) {
   }
 }
 
-// Two lakes of two features: each is judged by itself, whichever comes first.
+// Two lakes of two features: each feature is judged separately, whichever comes first.
 TEST(FollowSizes, TheLakeOfAnotherFeatureStays) {
   for (const bool large_first : {true, false}) {
     Domain domain;
@@ -76,7 +76,7 @@ TEST(FollowSizes, TheLakeOfAnotherFeatureStays) {
   }
 }
 
-// The same with an open boundary at both: the small one is left out, unless it is asked for.
+// The same with open boundaries at both: the small one is dropped, unless all waters with openings are kept.
 TEST(FollowSizes, AFrameThatGrazesAWaterBesideTheSeaLeavesOneWater) {
   Domain domain;
   addShore(domain, {{0, 0}, {40, 0}, {40, 40}, {0, 40}});
@@ -90,8 +90,8 @@ TEST(FollowSizes, AFrameThatGrazesAWaterBesideTheSeaLeavesOneWater) {
   }
 }
 
-// Two waters, each with an open boundary, and a strait between them narrower than an element: it is widened unless it
-// is far narrower, and then named.
+// Two waters, each with an open boundary, and a strait between them narrower than an element: it is widened, or
+// reported if it is far narrower.
 TEST(FollowSizes, WatersThatAreBothKeptAreJoinedOrNamed) {
   for (const double width : {0.6, 1.2}) {
     for (const KeepWater keep : {KeepWater::All, KeepWater::Modelled, KeepWater::Open}) {
@@ -114,7 +114,7 @@ TEST(FollowSizes, WatersThatAreBothKeptAreJoinedOrNamed) {
   }
 }
 
-// Water whose opening is too short for an element would be left without any.
+// An opening too short for an element would disappear, so it does not keep its water.
 TEST(FollowSizes, AShortOpeningKeepsNoWater) {
   Domain domain = twoLakes(0.6);
   domain.pslg.segments[5].tag = kOpenTag;  // the eastern side of the eastern lake

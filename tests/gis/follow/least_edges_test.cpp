@@ -15,7 +15,7 @@
 namespace coastmesh {
 namespace {
 
-// A lake of radius 20 whose shore goes in and out, with segments of about 0.6.
+// A lake of radius 20 with an uneven shore of segments about 0.6 long.
 Domain finelyCutLake() {
   Domain lake;
   std::vector<Point> ring;
@@ -63,7 +63,7 @@ Domain squareBay() {
   return sea;
 }
 
-// By how much a corner at the end of the bay is not a right angle, at most: degrees.
+// The largest deviation of a corner at the end of the bay from a right angle, degrees.
 double offSquare(const Domain& domain) {
   double off = 0.0;
   const auto& points = domain.pslg.points;

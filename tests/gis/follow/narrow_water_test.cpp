@@ -17,8 +17,8 @@
 namespace coastmesh {
 namespace {
 
-// A sea of side 100 with inlets on its western side, 30 deep: pairs of the land before an inlet and its width,
-// southwards.
+// A sea of side 100 with inlets in its western side, 30 deep: pairs of the width of the land before an inlet and of the
+// inlet, from north to south.
 Domain combedSea(const std::vector<std::pair<double, double>>& inlets) {
   std::vector<Point> ring{{0, 0}, {100, 0}, {100, 100}, {0, 100}};
   double y = 95.0;
@@ -35,7 +35,7 @@ Domain combedSea(const std::vector<std::pair<double, double>>& inlets) {
 TEST(FollowSizes, TheWaterKeepsItsAreaWhereNarrowWaterIsClosed) {
   const Domain sea = combedSea({{15.0, 2.5}, {15.0, 2.5}});
   const double area = areaOf(sea);
-  ASSERT_GT(2 * 2.5 * 30.0, 0.014 * area);  // what closing takes
+  ASSERT_GT(2 * 2.5 * 30.0, 0.014 * area);  // closing the inlets takes this area
   CleanReport report;
   const Domain coarse = followSizes(Domain(sea), ConstantSize(4.0), {}, oneFeature(), report);
   EXPECT_GE(countOf(report, EditKind::ClosedWater), 2u);
@@ -61,10 +61,11 @@ TEST(FollowSizes, WhereLandAndWaterAreNarrowNeitherGivesWayToAllOfTheOther) {
   EXPECT_GT(countOf(report, EditKind::DroppedSpit), 0u);
 }
 
-// Behind a bar, with one narrow mouth, and a quarter of an element deep: simplifying alone may be caught in its shore.
+// A bay behind a bar, with one narrow mouth, a quarter of an element deep: simplifying alone may get stuck in its
+// shore.
 TEST(FollowSizes, AShallowBayWithAWindingShoreIsNotLeftToSimplifying) {
   std::vector<Point> ring{{0, 0}, {100, 0}, {100, 100}, {0, 100}, {0, 50.3}, {-1, 50.3}, {-1, 55}};
-  // Comb by comb, from the west and from the bar.
+  // Thin spikes of land from the west, almost to the bar.
   for (double y = 55.0; y > 45.5; y -= 0.8)
     for (const Point& p :
          {Point{-5, y}, Point{-5, y - 0.5}, Point{-1.5, y - 0.5}, Point{-1.5, y - 0.6}, Point{-5, y - 0.6}})
@@ -128,7 +129,7 @@ TEST(FollowSizes, AStraitALittleNarrowerThanAnElementThatAloneJoinsWatersIsWiden
   EXPECT_EQ(parts(followSizes(twoLakes(1.5), ConstantSize(2.0), {.strait_min = 1.0}, oneFeature(), closed)), 2u);
 }
 
-// A pond of side 6 behind a strait 15 long, which would take more than a quarter of it.
+// A pond of side 6 behind a strait 15 long; widening the strait would take more than a quarter of the pond's area.
 TEST(FollowSizes, NoStraitIsWidenedThatTakesAsMuchAsTheWaterBehindItHas) {
   Domain domain;
   addShore(domain, {{0, 0},
@@ -182,8 +183,8 @@ TEST(FollowSizes, ASpitNarrowerThanAnElementGoesAndABarThatPartsWatersStays) {
   EXPECT_EQ(parts(followSizes(std::move(barred), size, {}, oneFeature(), report)), 2u);
 }
 
-// Two waters with an opening in the wall between them. Sizes grow from the shores: those of the triangles at its
-// mouths, which reach far into the water, do not matter.
+// Two waters with an opening in the wall between them. Sizes grow from the shores; sizes of the triangles at the
+// opening's mouths, which extend far into the water, must not count.
 TEST(FollowSizes, AnOpeningIsWidenedByTheSizesInIt) {
   for (const double width : {0.35, 0.45, 0.6, 0.8}) {
     for (const double thick : {0.2, 3.0}) {
@@ -211,7 +212,7 @@ TEST(FollowSizes, AnOpeningIsWidenedByTheSizesInIt) {
   }
 }
 
-// A harbour behind a breakwater that is thin beside the elements: 15 out into the sea, and 10 along the coast.
+// A harbour behind a breakwater much thinner than an element: 15 out into the sea, and 10 along the coast.
 TEST(FollowSizes, LongBreakwatersThatGoAreNamed) {
   const auto harbour = [](double out, double along) {
     Domain domain;

@@ -9,7 +9,7 @@
 
 namespace coastmesh::testing {
 
-// The distance from the shores of a domain at the farthest of these points.
+// The largest distance of these points from the shores of a domain.
 inline double farthestFrom(const std::vector<Point>& points, const Domain& domain) {
   double farthest = 0.0;
   for (const Point& p : points) {

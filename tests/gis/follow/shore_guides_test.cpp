@@ -88,7 +88,7 @@ TEST(FollowSizes, APassageIsCutThroughLand) {
   const Domain coarse = followSizes(std::move(domain), ConstantSize(2.0), {}, oneFeature(), report, guides);
   EXPECT_EQ(parts(coarse), 1u);
   for (const Point& p : coarse.pslg.points) EXPECT_TRUE(p.x > -1.0 && p.x < 51.0) << p.x;  // not beyond the last water
-  ASSERT_EQ(report.warnings.size(), 3u);  // what was dug, and both ends of the line
+  ASSERT_EQ(report.warnings.size(), 3u);  // the part dug through land, and both ends of the line
   double dug = 0.0, x = 0.0, y = 0.0, beyond = 0.0;
   ASSERT_EQ(std::sscanf(report.warnings[0].c_str(),
                         "passage 1 was dug through land: %lf of it, the longest piece, at (%lf, %lf)", &dug, &x, &y),
@@ -115,7 +115,7 @@ TEST(FollowSizes, LandUpToAnElementIsDugWithoutAWord) {
   EXPECT_EQ(report.warnings, std::vector<std::string>{});
 }
 
-// Sizes grow from the shores, and deep in the land they are seven times as large as on them.
+// Sizes grow from the shores; deep in the land they are seven times as large as at the shores.
 TEST(FollowSizes, APassageThroughLandIsAsWideAsTheSizesAtItsShores) {
   const SizeOf size(1.0, 20.0, [](const Point& p) { return 1.0 + 0.3 * std::max(0.0, 20.0 - std::abs(p.x)); });
   for (const double elements : {1.0, 3.0}) {
@@ -142,7 +142,7 @@ TEST(FollowSizes, APassageThroughLandIsAsWideAsTheSizesAtItsShores) {
   }
 }
 
-// A frame around the southern half of a bay: the line leaves it and comes back.
+// A frame around the southern half of a bay: the line leaves and re-enters it.
 TEST(FollowSizes, NothingIsDugBeyondAnOpenBoundary) {
   Domain domain;
   addShore(domain, {{0, 0}, {60, 0}, {60, 30}, {0, 30}});
@@ -177,7 +177,7 @@ TEST(FollowSizes, ABarrierThatClosesNothingIsSaidTo) {
     idle = report.idle;
     return report.notes;
   };
-  // Across the channel, to the land beside it; then also with an end that touches another.
+  // Across the channel to the land beside it; then with an end that touches another barrier.
   EXPECT_TRUE(notesOf({{{{25, 4}, {25, 16}}, ""}}).empty());
   EXPECT_TRUE(notesOf({{{{10, -2}, {10, 10}}, ""}, {{{10.5, 10}, {10.5, 22}}, ""}}).empty());
   const auto short_of = notesOf({{{{10, -2}, {10, 10}}, "mole"}});

@@ -21,10 +21,10 @@ struct Ones final : SizeFunction {
   double most() const override { return 1.0; }
 };
 
-// So uneven that no four corners of it and of what is around lie on a circle.
+// Irregular, so that no four corners of the sea and of the frame around it are cocircular.
 const std::array<Point, 4> kCorners = {Point{0.0, 0.0}, Point{10.0, 0.3}, Point{9.7, 10.2}, Point{-0.2, 9.9}};
 
-// A sea with places of the domain in it.
+// A sea with vertices of the domain in it.
 ShoreGraph sea(std::mt19937& random, std::size_t places) {
   ShoreGraph graph;
   graph.pslg.points.assign(kCorners.begin(), kCorners.end());
@@ -35,14 +35,14 @@ ShoreGraph sea(std::mt19937& random, std::size_t places) {
   return graph;
 }
 
-// Each time the part of it that changes hangs together in places and touches itself in others.
+// Changes patches that are connected in some places and pinched in others.
 void changeSome(ShoreTriangles& t, std::mt19937& random) {
   std::uniform_real_distribution<double> share(0.0, 1.0);
   const double drawn = share(random);
   for (TriId i = 0; i < t.mesh.triangles.size(); ++i) {
     const auto& v = t.mesh.triangles[i].v;
     const Point x = centroid(t.mesh.point(v[0]), t.mesh.point(v[1]), t.mesh.point(v[2]));
-    bool is_inside = std::ranges::all_of(v, [](VertexId w) { return w >= 4; });  // the sea stays as large as it is
+    bool is_inside = std::ranges::all_of(v, [](VertexId w) { return w >= 4; });  // the sea keeps its extent
     for (std::size_t k = 0; k < 4; ++k) is_inside = is_inside && orient2d(kCorners[k], kCorners[(k + 1) % 4], x) > 0;
     if (is_inside && share(random) < 0.3 && std::sin(3.0 * x.x + 6.0 * drawn) * std::sin(2.0 * x.y) > 0.2)
       t.mesh.regions[i] = share(random) < 0.6 ? t.land : 0;
@@ -65,7 +65,7 @@ std::set<Edge> edgesOf(const ShoreTriangles& t, bool segments) {
   return edges;
 }
 
-// Whether all is as if it were triangulated anew.
+// Expects the same as triangulating from scratch.
 void expectSettled(const ShoreTriangles& t) {
   ASSERT_EQ(findBrokenLink(t.mesh.triangles), kNone);
   ASSERT_EQ(t.mesh.regions, t.region_was);
@@ -84,7 +84,7 @@ void expectSettled(const ShoreTriangles& t) {
       EXPECT_LE(inCircle(t.mesh.point(v[0]), t.mesh.point(v[1]), t.mesh.point(v[2]), beyond), 0);
     }
   }
-  EXPECT_NEAR(area, (3.0 * 10.2) * (3.0 * 10.2), 1e-9);  // three times as wide and as high as the sea
+  EXPECT_NEAR(area, (3.0 * 10.2) * (3.0 * 10.2), 1e-9);  // the frame is three times as wide and as high as the sea
   for (VertexId v = 0; v < t.mesh.points.size(); ++v) {
     if (t.home[v] == kNone || (t.use[v] & kAround) != 0) continue;
     int changes = 0;
@@ -129,7 +129,7 @@ TEST(ShoreSettle, HelpersStayOnShoresAlone) {
     ShoreTriangles t = triangulateShores(sea(random, 100), Ones());
     std::uniform_real_distribution<double> within(-5.0, 15.0);
     std::vector<Point> helpers{midpoint(kCorners[0], kCorners[3]),
-                               t.mesh.point(7)};  // on the shore, and at a vertex: these are left out
+                               t.mesh.point(7)};  // on the shore, and at a vertex: both are skipped
     const std::size_t before = t.mesh.points.size();
     for (int i = 0; i < 200; ++i) helpers.push_back({within(random), within(random)});
     helpers.push_back(midpoint(t.mesh.point(7), t.mesh.point(t.mesh.triangles[t.home[7]].v[0])));

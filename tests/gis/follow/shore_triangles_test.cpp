@@ -14,7 +14,7 @@
 namespace coastmesh {
 namespace {
 
-// A ring of water with shores of these corners, sampled where sizes are 1; how many points that makes.
+// The number of points after sampling the shores of a ring of water where sizes are 1.
 std::size_t sampled(const std::vector<Point>& ring) {
   ShoreGraph graph;
   const auto count = static_cast<VertexId>(ring.size());
@@ -63,14 +63,14 @@ TEST(SampleShores, WhatWasCutIsWholeAgain) {
   sampleShores(graph, ConstantSize(1.0));
   ASSERT_GT(graph.pslg.points.size(), 6u);
   ShoreChains chains = chainsOf(std::move(graph), ConstantSize(1.0));
-  chains.at[10].y += 0.01;  // one has been moved since: it stays, and so do those beside it
+  chains.at[10].y += 0.01;  // moved since sampling: it stays, and so do its neighbours
   dropSamples(chains);
   const ShoreGraph left = graphOf(std::move(chains));
   ASSERT_EQ(left.pslg.points.size(), 9u);
   for (VertexId i = 0; i < 6; ++i) EXPECT_EQ(left.pslg.points[i], ring[i]);
 }
 
-// A star of land in the sea, and a line of open boundary at the left.
+// A star-shaped island in the sea; the left side is an open boundary.
 ShoreGraph starInTheSea() {
   ShoreGraph graph;
   const auto add = [&](const std::vector<Point>& ring, bool is_island) {
@@ -94,7 +94,7 @@ ShoreGraph starInTheSea() {
   return graph;
 }
 
-// 1 on the shore, and a fifth of the distance to it more.
+// 1 on the shore, plus a fifth of the distance to it.
 class FromShore final : public SizeFunction {
  public:
   explicit FromShore(const Pslg& pslg) : pslg_(pslg) {}
@@ -115,7 +115,7 @@ TEST(ShoreTriangles, SizesThatGrowEvenlyFollowFromTheirVertices) {
   const FromShore size(starInTheSea().pslg);
   const ConstantSize on_shore(1.0);
   const EvenSizes even{0.2, on_shore};
-  // Nothing but the shore is known to be at it.
+  // Only vertices on the shore have the shore's size.
   const ShoreChains chains = chainsOf(starInTheSea(), size, inOrder, &even);
   for (VertexId v = 0; v < chains.at.size(); ++v) EXPECT_DOUBLE_EQ(chains.size[v], size.at(chains.at[v])) << v;
 
@@ -130,7 +130,7 @@ TEST(ShoreTriangles, SizesThatGrowEvenlyFollowFromTheirVertices) {
   for (TriId t = 0; t < asked.size.size(); ++t) {
     EXPECT_GE(by_vertices.size[t], asked.size[t] * (1.0 - 1e-12));
     if (asked.width[t] > 2.0) continue;
-    ++narrow;  // those that are judged by it
+    ++narrow;  // only narrow water is judged by size
     EXPECT_LE(by_vertices.size[t], asked.size[t] * 1.1);
   }
   EXPECT_GT(narrow, 10u);

@@ -12,7 +12,7 @@
 namespace coastmesh {
 namespace {
 
-// A square sea of side 20 whose lower side is open, cut finely.
+// A square sea of side 20 with an open lower side of short segments.
 Domain seaWithFineOpening() {
   Domain sea;
   std::vector<Point> ring;
@@ -41,7 +41,7 @@ TEST(ThinToLeast, TakesOutWhatIsFinerAndIsKnownAfterwards) {
     EXPECT_EQ(start.thinned_m, 2.0);
     EXPECT_LT(thin.pslg.points.size(), lake.pslg.points.size() / 5);
     EXPECT_EQ(countOf(thinning, EditKind::SmallIsland), 1u);
-    // The island's vertices are one edit.
+    // The removed island's 40 vertices count as one edit, not as simplified points.
     EXPECT_EQ(countOf(thinning, EditKind::SimplifiedPoint), lake.pslg.points.size() - thin.pslg.points.size() - 40u);
     EXPECT_NEAR(start.gained.at(0), areaOf(thin) - areaOf(lake), 1e-6 * areaOf(lake));
     const std::size_t left = thin.pslg.points.size();
@@ -70,7 +70,7 @@ TEST(FollowSizes, LargerSizesAtOpenBoundariesMakeTheseCoarserAlone) {
   const Domain sea = seaWithFineOpening();
   const SizeOf before(0.5, 20.0, [](const Point& p) { return p.y < 1.0 ? 0.5 : 20.0; });
   const SizeOf after(4.0, 20.0, [](const Point& p) { return p.y < 1.0 ? 4.0 : 20.0; });
-  // The corners are of both, and count as shore.
+  // The corners belong to both, and count as shore.
   EXPECT_EQ(growthOf(sea.pslg, before, before).elsewhere, 1.0);
   EXPECT_EQ(growthOf(sea.pslg, before, after).elsewhere, 8.0);
   const SizeOf inland(0.5, 40.0, [](const Point& p) { return p.y < 10.0 ? 0.5 : 40.0; });

@@ -26,7 +26,7 @@ using ::testing::UnorderedElementsAre;
 
 constexpr double kSize = 10.0;
 
-// Water within a ring, with a line of these points, some of which may be the ring's.
+// Water within a ring, with a line through these points, some of which may be vertices of the ring.
 ShoreGraph graphOf(const std::vector<Point>& ring, const std::vector<Point>& line) {
   Domain domain;
   addShore(domain, ring);
@@ -43,7 +43,7 @@ ShoreGraph graphOf(const std::vector<Point>& ring, const std::vector<Point>& lin
   return graph;
 }
 
-// What of lines drawn for one shore is left in the water of another.
+// The remains of lines, drawn for one shore, in the water of another.
 struct Returned {
   ShoreGraph graph;
   LostLines lost;
@@ -59,7 +59,7 @@ struct Returned {
     EXPECT_NO_THROW(constrainedDelaunay(graph.pslg));
   }
 
-  // From end to end, in the order of the graph.
+  // The ends of each, in the order of the graph.
   std::vector<std::pair<Point, Point>> lines() const {
     std::vector<std::pair<Point, Point>> all;
     for (const Segment& s : graph.pslg.segments)
@@ -131,7 +131,7 @@ TEST(WaterLines, WhatNeverGetsOffTheShoreGoes) {
   std::vector<Point> wavy{{100, 0}, {100, 100}, {0, 100}, {0, 0}};
   for (double x = 5.0; x < 100.0; x += 5.0) wavy.push_back({x, std::fmod(x, 10.0) == 0.0 ? 2.0 : -2.0});
   const Returned along(kBasin, {{20, 50}, {20, 0.5}, {80, 0.5}, {80, 50}}, wavy);
-  for (const auto& [a, b] : along.lines()) EXPECT_EQ(a.x == b.x, true);  // the two upright ones
+  for (const auto& [a, b] : along.lines()) EXPECT_EQ(a.x == b.x, true);  // the two vertical parts
   EXPECT_EQ(along.lines().size(), 2u);
   EXPECT_GT(along.lostLength(), 40.0);
 }
@@ -199,7 +199,7 @@ TEST(WaterLines, APointOnWhatIsLandNowIsLost) {
   EXPECT_EQ(lost.points, (std::vector<Point>{{70, 50}}));
 }
 
-// A sea with an inlet to the west that is too narrow, and a line from far in it into the sea.
+// A sea with an inlet in the west that is too narrow, and a line from deep in the inlet into the sea.
 Domain seaWithInlet(const std::vector<Point>& line) {
   Domain domain;
   addShore(domain, {{0, 0}, {300, 0}, {300, 200}, {0, 200}, {0, 103}, {-80, 103}, {-80, 97}, {0, 97}});
@@ -230,7 +230,7 @@ TEST(FollowSizes, ALineThroughANarrowInletEndsWhereItIsClosed) {
 }
 
 TEST(FollowSizes, ALineGoesOnWhereNarrowLandHasGone) {
-  // A spit from the south that is too narrow, crossed by a line half way.
+  // A spit from the south that is too narrow; a line crosses it half way.
   Domain domain;
   addShore(domain,
            {{0, 0}, {147, 0}, {147, 50}, {147, 90}, {153, 90}, {153, 50}, {153, 0}, {300, 0}, {300, 200}, {0, 200}});
@@ -300,7 +300,7 @@ TEST(FollowSizes, APointInANarrowInletIsLeftOutAndNamed) {
   EXPECT_THAT(report.warnings, Contains(HasSubstr("1 point lies in water that is closed")));
 }
 
-// Lines criss-cross over wiggly shores and islands.
+// Random lines across uneven shores and islands.
 TEST(FollowSizes, LinesThatCrossShoresAnywhereLeaveAPlanarGraph) {
   std::mt19937_64 random(20);
   std::uniform_real_distribution<double> place(-1.1, 1.1), off(-0.02, 0.02);
@@ -309,7 +309,7 @@ TEST(FollowSizes, LinesThatCrossShoresAnywhereLeaveAPlanarGraph) {
         polygonFeature(1, starRing(random, {0, 0}, 1.0, 120), {starRing(random, {0.1, 0.1}, 0.2, 40)})};
     for (int line = 0; line < 4; ++line) {
       std::vector<Point> points{{place(random), place(random)}};
-      // Every second one stays near the shore.
+      // Every other line stays near the shore.
       const Ring& ring = features[0].polygons[0].outer;
       for (std::size_t i = 0; i < 8; ++i) {
         points.push_back(line % 2 == 0 ? Point{place(random), place(random)}

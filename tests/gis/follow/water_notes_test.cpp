@@ -1,4 +1,4 @@
-// Sentences on waters are on all groups of features, and so are shares of the water in them.
+// Notes and warnings on waters cover all groups of features, and so do the shares of water that they state.
 #include "gis/follow/water_notes.hpp"
 
 #include <gmock/gmock.h>
@@ -45,7 +45,7 @@ TEST(WaterNotes, ManyLittleLossesAreOneWarning) {
 TEST(WaterNotes, AreasThatChangeByMoreThanTwoPercentAreWarnedOf) {
   const FollowedWaters waters = group(1e10, {1e9});
   const FollowOptions largest{.keep = KeepWater::Largest};
-  EXPECT_EQ(warningOfArea(waters, largest, 8.9e9), "");  // a tenth of it is left out, which another warning says
+  EXPECT_EQ(warningOfArea(waters, largest, 8.9e9), "");  // another warning reports the tenth that is left out
   EXPECT_EQ(warningOfArea(waters, largest, 9.1e9), "");
   EXPECT_EQ(warningOfArea(waters, {}, 9.9e9), "");
   EXPECT_EQ(warningOfArea(waters, largest, 1e9),

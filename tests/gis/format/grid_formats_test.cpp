@@ -1,4 +1,4 @@
-// Every format that keeps coordinates gives back the grid that was written; tests/gis/globe has the others.
+// Every format that keeps coordinates returns the grid that was written; tests/gis/globe has the others.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -33,15 +33,15 @@ Carried carriedBy(const std::string& format) {
   return {};
 }
 
-// Formats of models, which have their own ideas of where one boundary ends and the next begins.
+// Model formats, which begin and end boundaries according to their own rules.
 bool cutsBoundaries(const std::string& format) {
   return format == "adcirc" || format == "schism" || format == "telemac" || format == "fvcom" || format == "ww3";
 }
 
-// Formats that say openings only: all else of the boundary is shore.
+// Formats that store open boundaries only: the rest of the boundary is shore.
 bool impliesShores(const std::string& format) { return format == "telemac" || format == "fvcom" || format == "ww3"; }
 
-// What each edge of the boundaries is, in its direction.
+// The directed edges of boundaries, and whether each is open.
 std::map<std::pair<std::uint32_t, std::uint32_t>, bool> openEdges(const Grid& grid) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, bool> edges;
   for (const Boundary& boundary : grid.boundaries) {
@@ -153,7 +153,7 @@ TEST_P(RoundTrip, GivesTheSameGrid) {
 TEST_P(RoundTrip, KeepsExtremeNumbers) {
   const auto& [format, place] = GetParam();
   Grid grid = sampleGrid(parseCrs(place.crs), place.origin, place.size);
-  grid.nodes[0].y = 5e-324;  // the least number, one ulp beside a whole one, and one of many digits
+  grid.nodes[0].y = 5e-324;  // the least positive number, one ulp above 1, and a number of many digits
   grid.nodes[1].y = 1.0000000000000002;
   grid.nodes[2].x = 1e-7 / 3.0;
   grid.z[0] = -1.7976931348623157e+308;
@@ -162,7 +162,7 @@ TEST_P(RoundTrip, KeepsExtremeNumbers) {
   EXPECT_EQ(bitsOf(got.z), bitsOf(grid.z));
 }
 
-// A gap in the depths comes back as one, or is refused: it never becomes a number.
+// A gap in the depths is read back as a gap, or refused; it never becomes a number.
 TEST_P(RoundTrip, KeepsGapsInZ) {
   const auto& [format, place] = GetParam();
   Grid grid = sampleGrid(parseCrs(place.crs), place.origin, place.size);
@@ -187,7 +187,7 @@ TEST_P(RoundTrip, KeepsGapsInZ) {
   }
 }
 
-// The number that stands for a gap in some file is a depth like any other.
+// A number that marks a gap in some format is an ordinary depth.
 TEST_P(RoundTrip, KeepsDepthsThatLookLikeGaps) {
   const auto& [format, place] = GetParam();
   Grid grid = sampleGrid(parseCrs(place.crs), place.origin, place.size);
@@ -197,7 +197,7 @@ TEST_P(RoundTrip, KeepsDepthsThatLookLikeGaps) {
   for (std::size_t i = 0; i < grid.z.size(); ++i) EXPECT_NEAR(got.z[i], grid.z[i], 1e-12) << i;
 }
 
-// Bare: no z, no features, no boundaries, no angles.
+// A bare grid: no z, features, boundaries or angles.
 TEST_P(RoundTrip, InventsNothing) {
   const auto& [format, place] = GetParam();
   const Grid full = sampleGrid(parseCrs(place.crs), place.origin, place.size);
@@ -220,7 +220,7 @@ TEST_P(RoundTrip, InventsNothing) {
   EXPECT_TRUE(got.title.empty());
 }
 
-// Two writings of one grid do not differ in a byte.
+// Writing a grid twice gives the same bytes.
 TEST_P(RoundTrip, IsDeterministic) {
   const auto& [format, place] = GetParam();
   const Grid grid = sampleGrid(parseCrs(place.crs), place.origin, place.size);
@@ -236,7 +236,7 @@ TEST_P(RoundTrip, IsDeterministic) {
   }
 }
 
-// Enough rows that threads would share them out, and those of a large UGRID file, in the order of its bytes or not.
+// Enough rows to be shared by threads, and enough for the large-file path of UGRID, written in file order or backwards.
 TEST(GridFormats, HoldTheSameBytesInWhateverOrderTheyAreMade) {
   const Grid grid = testing::inParts(sampleGrid(parseCrs("EPSG:4326"), {-87.5, 43.1}, 0.001, 70));
   for (const GridFormat& format : gridFormats()) {
@@ -257,7 +257,7 @@ TEST(GridFormats, HoldTheSameBytesInWhateverOrderTheyAreMade) {
   }
 }
 
-// What was read is written again as the same bytes.
+// Writing what was read gives the same bytes.
 TEST_P(RoundTrip, WritesAgainWhatItReads) {
   const auto& [format, place] = GetParam();
   const Grid grid = sampleGrid(parseCrs(place.crs), place.origin, place.size);
@@ -290,7 +290,8 @@ INSTANTIATE_TEST_SUITE_P(Formats, RoundTrip,
                                   std::get<1>(instance.param).name;
                          });
 
-// Models would see a triangle round the globe where longitudes jump; layers stay within ±180.
+// Models would see triangles around the globe where longitudes jump, so their formats unwrap them. Layers, FESOM and 3D
+// VTU stay within ±180.
 TEST(GridFormats, OfModelsGoOnPastTheAntimeridian) {
   const Grid past = sampleGrid(wgs84(), {179.95, -16.6}, 0.01);
   Grid grid = past;
@@ -309,7 +310,7 @@ TEST(GridFormats, OfModelsGoOnPastTheAntimeridian) {
   }
 }
 
-// SCHISM reads hgrid.ll in degrees, whatever the mesh is in.
+// SCHISM's hgrid.ll is in degrees, whatever the CRS of the mesh.
 TEST(GridFormats, LongitudesOfAProjectedGridGoOnToo) {
   const TemporaryFolder folder;
   StagedOutput output(folder / "hgrid.gr3", gridFormatFor("hgrid.gr3"), false);
@@ -326,7 +327,7 @@ TEST(GridFormats, LongitudesOfAProjectedGridGoOnToo) {
   EXPECT_EQ(readGrid(folder / "hgrid.gr3").nodes, grid.nodes);
 }
 
-// UTM zones by their projection, but in other units, or on a datum that is shifted: no drivers take them for the zone.
+// Projections of UTM zones in other units, or with a datum shift: drivers must not take them for the zone itself.
 TEST(GridFormats, KeepCrssThatHaveNoCode) {
   const TemporaryFolder folder;
   const std::vector<std::pair<std::string, double>> with_metres = {
@@ -345,7 +346,7 @@ TEST(GridFormats, KeepCrssThatHaveNoCode) {
   }
 }
 
-// Files that hold longitudes and no CRS mean WGS 84, whatever meridian and datum those of the mesh count from.
+// Files with longitudes but without a CRS are in WGS 84, whatever the prime meridian and datum of the mesh.
 TEST(GridFormats, LongitudesWithoutACrsAreThoseOfWgs84) {
   const TemporaryFolder folder;
   for (const char* code : {"EPSG:31281", "EPSG:27572", "EPSG:4230"}) {  // from Ferro, from Paris, ED50

@@ -1,4 +1,4 @@
-// GIS layers give a mesh back as it was, wherever on the globe it lies.
+// GIS layers return a mesh unchanged, wherever on the globe it lies.
 #include <gtest/gtest.h>
 #include <ogrsf_frmts.h>
 
@@ -28,15 +28,15 @@ Vector vectorOf(const Point& lonlat) {
   return {std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)};
 }
 
-// Of the corners' vectors; in long double, since the products of near ones differ little.
+// Of the corners' vectors; in long double, because products of nearby vectors differ little.
 double determinant(const Vector& a, const Vector& b, const Vector& c) {
   const auto product = [](long double x, long double y, long double z) { return x * y * z; };
   return static_cast<double>(product(a[0], b[1], c[2]) + product(a[1], b[2], c[0]) + product(a[2], b[0], c[1]) -
                              product(a[2], b[1], c[0]) - product(a[1], b[0], c[2]) - product(a[0], b[2], c[1]));
 }
 
-// A place in the plane that touches the sphere at `centre`, seen from the sphere's middle, with a longitude from `west`
-// on. Straight lines of the plane are great circles.
+// The point of the sphere that a point of the tangent plane at `centre` shows, projected from the sphere's centre
+// (gnomonic); longitudes from `west` on. Straight lines of the plane are great circles.
 Point onGlobe(const Point& centre, const Point& plane, double west) {
   const double lon = centre.x * kDegree, lat = centre.y * kDegree;
   const Vector up = vectorOf(centre), east{-std::sin(lon), std::cos(lon), 0.0},
@@ -59,7 +59,7 @@ Grid gridOf(const TriMesh& plane, std::vector<Point> nodes) {
   return grid;
 }
 
-// A lattice with an island, anywhere, of any size up to triangles more than 60 degrees wide.
+// A lattice with an island, anywhere, with triangles from tiny to more than 60 degrees wide.
 Grid randomGrid(std::mt19937_64& random) {
   const auto uniform = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -83,7 +83,7 @@ Grid randomGrid(std::mt19937_64& random) {
   return gridOf(plane, std::move(nodes));
 }
 
-// Which loop goes round the mesh the plane says that it was made in.
+// The plane that the mesh was made in determines which loop is the outer one.
 TEST(LoopRole, OnTheGlobeAsInThePlaneThatTouchesIt) {
   std::mt19937_64 random(20261122);
   std::size_t by_area = 0;
@@ -99,7 +99,8 @@ TEST(LoopRole, OnTheGlobeAsInThePlaneThatTouchesIt) {
   EXPECT_LT(by_area, 3000u);
 }
 
-// Parallels with the mesh to their left, eastward to the north: the side with less than half the globe is inside.
+// Parallels with the mesh to the left: northwards, if the loop runs eastwards. The side with less than half of the
+// globe is inside.
 TEST(LoopRole, HalfTheGlobeIsTheMost) {
   for (const double west : {-180.0, 0.0, 170.0}) {
     for (const double latitude : {-89.9, -60.0, -0.1, 0.1, 60.0, 89.9}) {
@@ -118,7 +119,7 @@ TEST(LoopRole, HalfTheGlobeIsTheMost) {
 }
 
 TEST(LoopRole, APoleMayBeANode) {
-  // A third of the cap round the north pole, which has any longitude; the last one is turned inside out.
+  // A third of the cap around the north pole, whose longitude is arbitrary; `back` is the same loop reversed.
   for (const double pole_longitude : {0.0, 77.0, -180.0}) {
     const std::vector<Point> nodes{{0, 70}, {60, 70}, {120, 70}, {pole_longitude, 90}};
     const std::vector<std::uint32_t> around{0, 1, 2, 3}, back{3, 2, 1, 0};
@@ -127,7 +128,7 @@ TEST(LoopRole, APoleMayBeANode) {
   }
 }
 
-// In a plane degrees do not go round.
+// In a plane, longitudes do not wrap.
 TEST(LoopRole, APlaneHasNoEnds) {
   const std::vector<Point> nodes{{-179, 0}, {179, 0}, {179, 10}, {-179, 10}};
   const std::vector<std::uint32_t> loop{0, 1, 2, 3};
@@ -176,7 +177,7 @@ TEST_P(LayersOnTheGlobe, GiveBackWhatWasWritten) {
   }
 }
 
-// Two shores of a wall without width, each with nodes of its own; the same meridian as 180 and as -180.
+// The two shores of a wall without width, each with its own nodes; the same meridian as 180 and as -180.
 TEST_P(LayersOnTheGlobe, KeepNodesThatShareAPlace) {
   Grid grid;
   grid.crs = wgs84();
@@ -191,7 +192,7 @@ TEST_P(LayersOnTheGlobe, KeepNodesThatShareAPlace) {
   expectSame(readGrid(write(grid)), grid);
 }
 
-// A triangle that is turned, or without area, comes back so: nothing is made better than it is.
+// Inverted and degenerate triangles are returned unchanged, not repaired.
 TEST_P(LayersOnTheGlobe, KeepWhatIsBroken) {
   Grid grid;
   grid.crs = wgs84();
@@ -201,7 +202,7 @@ TEST_P(LayersOnTheGlobe, KeepWhatIsBroken) {
   expectSame(readGrid(write(grid)), grid);
 }
 
-// The farthest step along the lines of a layer, in degrees of longitude.
+// The largest step in longitude along the lines of a layer, degrees.
 double farthestStep(const std::string& path, const char* name) {
   registerDrivers();
   const std::unique_ptr<GDALDataset, void (*)(GDALDataset*)> dataset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR),
@@ -224,7 +225,7 @@ double farthestStep(const std::string& path, const char* name) {
   return farthest;
 }
 
-// Edges with a triangle on either side.
+// Edges between two triangles.
 std::vector<NodePair> innerEdges(const Grid& grid) {
   std::set<NodePair> sides;
   std::vector<NodePair> inner;
@@ -237,7 +238,7 @@ std::vector<NodePair> innerEdges(const Grid& grid) {
   return inner;
 }
 
-// Boundaries and lines that a map would draw across the world are cut where it ends, as triangles are.
+// Boundaries and lines that a map would draw across its whole width are cut at its ends, as triangles are.
 TEST_P(LayersOnTheGlobe, CutLinesWhereTheMapEnds) {
   std::mt19937_64 random(20261125);
   int cut = 0;
@@ -265,7 +266,7 @@ TEST_P(LayersOnTheGlobe, CutLinesWhereTheMapEnds) {
 INSTANTIATE_TEST_SUITE_P(Formats, LayersOnTheGlobe, ::testing::Values(".gpkg", ".shp", ".geojson", ".fgb"),
                          [](const auto& instance) { return std::string(instance.param).substr(1); });
 
-// Whether a map of longitudes and latitudes has to cut some of the triangles.
+// True if a map of longitudes and latitudes has to cut some of the triangles.
 bool reachesOverTheMapsEnd(const Grid& grid) {
   for (const auto& t : grid.triangles)
     for (std::size_t i = 0; i < 3; ++i) {
@@ -275,8 +276,8 @@ bool reachesOverTheMapsEnd(const Grid& grid) {
   return false;
 }
 
-// Triangles alone, as another program would write them: the same triangles by their corners' places, wound alike. Those
-// that are cut need their nodes.
+// Triangles without nodes, as other programs write them, are read back with the same corners and winding. Triangles
+// that were cut need their nodes.
 TEST(TrianglesAlone, ComeBackAlike) {
   const auto places = [](const Grid& grid) {
     std::vector<std::array<Point, 3>> all;
@@ -302,7 +303,7 @@ TEST(TrianglesAlone, ComeBackAlike) {
   }
 }
 
-// Somebody moved a corner in the layer of triangles alone: what it names is no longer meant.
+// A corner was moved in the triangle layer only, not in the node layer: its node number no longer applies.
 TEST(EditedLayers, FollowTheGeometry) {
   const TemporaryFolder folder;
   const auto put = [&](const std::string& name, const std::string& text) {
@@ -330,7 +331,7 @@ TEST(WindTriangles, FindTheWindingAnywhere) {
   }
 }
 
-// A triangle with a turned winding that is known to be meant turns its neighbours with it.
+// A triangle known to be wound clockwise on purpose determines the winding of its neighbours.
 TEST(WindTriangles, FollowWhatIsKnown) {
   const std::vector<Point> nodes{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   std::vector<std::array<std::uint32_t, 3>> triangles{{0, 2, 1}, {0, 2, 3}};
@@ -355,7 +356,7 @@ TEST(OrientationOnGround, IsThatOfTheVectors) {
   EXPECT_GT(turned, 5000);
 }
 
-// Triangles of a nanometre are told right as long as their coordinates tell them.
+// Triangles of nanometres are oriented correctly as long as their coordinates resolve them.
 TEST(OrientationOnGround, KeepsItsDigits) {
   const Crs crs = wgs84();
   const double ulp = std::ldexp(1.0, -46);  // of longitudes beyond 64

@@ -122,7 +122,7 @@ TEST_F(PolyIo, WhatIsWrittenComesBackBitForBit) {
 }
 
 TEST_F(PolyIo, LabelsBecomeHolePoints) {
-  // Two islands, a lake on one of them (a feature of its own), and a strait that islands enclose.
+  // Two islands, and a lake on one of them, which is a feature of its own.
   std::mt19937_64 random(3);
   const Ring island = starRing(random, {5, 5}, 2, 40);
   const Coastline coastline = coastlineOf(

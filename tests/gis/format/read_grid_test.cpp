@@ -1,4 +1,4 @@
-// Meshes of other programs, and what is wrong with those that cannot be read.
+// Meshes of other programs, and error messages for those that cannot be read.
 #include <gdal_priv.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -64,7 +64,7 @@ TEST_F(ReadGrid, TwoDmOfOtherPrograms) {
   EXPECT_EQ(grid.z, (std::vector<double>{1.5, 2.5, 3, 4}));
   EXPECT_EQ(grid.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
   EXPECT_EQ(grid.feature_of, (std::vector<std::uint32_t>{1, 0}));
-  // The first string is turned, the second has an edge inside that is left out, the third is the whole shore.
+  // The first string is reversed, the second has an inner edge that is dropped, the third is the whole shore.
   ASSERT_EQ(grid.boundaries.size(), 3u);
   EXPECT_EQ(grid.boundaries[0].role, BoundaryRole::Open);
   EXPECT_THAT(grid.boundaries[0].nodes, ElementsAre(0, 1));
@@ -111,7 +111,7 @@ TEST_F(ReadGrid, GmshWithDepthsAsThirdCoordinate) {
   EXPECT_EQ(readGrid(put("bay.msh", text)).z, (std::vector<double>{-5, 0, 0, 0}));
 }
 
-// Readers there are take $NodeData in the order of $Nodes.
+// Some readers expect $NodeData in the order of $Nodes.
 TEST_F(ReadGrid, GmshHasNodeDataInTheOrderOfNodes) {
   const Grid grid = testing::sampleGrid({}, {1000.0, 2000.0}, 50.0);
   for (const char* name : {"a.msh", "a_22.msh"}) {
@@ -157,8 +157,8 @@ TEST_F(ReadGrid, TriangleOfOtherPrograms) {
   const Grid grid = readGrid(put("a.1.ele", "2 3 1\n0 0 1 2 0.5\n1 0 2 3 1.5\n"));
   EXPECT_EQ(grid.nodes, (std::vector<Point>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
   EXPECT_EQ(grid.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
-  EXPECT_TRUE(grid.z.empty());           // two attributes: which would it be
-  EXPECT_TRUE(grid.features.empty());    // a triangle's attribute that is no number of a feature
+  EXPECT_TRUE(grid.z.empty());           // two attributes are ambiguous
+  EXPECT_TRUE(grid.features.empty());    // the triangles' attribute is not a feature number
   EXPECT_TRUE(grid.boundaries.empty());  // markers without a role
   EXPECT_EQ(readGrid(folder_ / "a.1.node").triangles, grid.triangles);
 }
@@ -191,7 +191,7 @@ TEST_F(ReadGrid, GisLayersOfOtherPrograms) {
               HasSubstr("no layer of polygons"));
 }
 
-// Third coordinates of corners: a node has that of all corners there, or none where they differ.
+// Third coordinates of corners: a node gets the z of all corners there, or NaN if they differ.
 TEST_F(ReadGrid, GisLayersWithHeights) {
   const std::string head = R"({"type":"FeatureCollection","features":[)";
   const auto feature = [](const std::string& ring) {
@@ -211,7 +211,7 @@ TEST_F(ReadGrid, GisLayersWithHeights) {
   EXPECT_TRUE(flat.z.empty());
 }
 
-// OGR has no ring of an empty polygon.
+// For an empty polygon, OGR has no ring.
 TEST_F(ReadGrid, EmptyPartsOfGisLayersAreRefused) {
   GDALAllRegister();
   const auto errorOfLayers = [this](const std::string& triangle, const std::string& boundary) {
@@ -243,12 +243,13 @@ TEST_F(ReadGrid, EmptyPartsOfGisLayersAreRefused) {
               AllOf(HasSubstr("layer \"boundaries\", feature 1"), HasSubstr("not a line")));
 }
 
-// A variable at the nodes of a UGRID file; attributes that are empty are left out. Its values are 1, 2, 3 and 4.
+// A variable at the nodes of a UGRID file, with values 1, 2, 3 and 4. Empty attributes are omitted.
 struct NodeVariable {
   std::string name, standard_name, positive, location = "node";
 };
 
-// A UGRID file as others write it: names of their own, from 0, transposed, depth down, quads only in the columns.
+// A UGRID file of another program: other names, indices from 0, transposed, depth positive down, and a fourth column
+// for quads, which is empty unless `quad`.
 class Ugrid {
  public:
   Ugrid(const std::string& path, bool quad, const std::vector<NodeVariable>& depths = {{"depth", "altitude", "down"}}) {
@@ -336,7 +337,7 @@ TEST_F(ReadGrid, UgridDepthsOfModels) {
   }
 }
 
-// The standard name counts before names, an altitude before a depth; what else would do is named.
+// Standard names take precedence over variable names, altitudes over depths; other candidates are named.
 TEST_F(ReadGrid, UgridWithSeveralDepths) {
   const Ugrid file(folder_ / "depths.nc", false,
                    {{"depth", "", ""}, {"h", "sea_floor_depth", ""}, {"zb", "altitude", ""}});
@@ -356,7 +357,7 @@ TEST_F(ReadGrid, NetcdfHeadersThatClaimTooMuchAreRefused) {
   EXPECT_THAT(errorIn("damaged.nc", header), AllOf(HasSubstr("damaged.nc"), HasSubstr("claims more")));
 }
 
-// Cut off anywhere, a file is refused or read short, but never crashes or hangs.
+// A file truncated anywhere is refused or read in part, but never crashes or hangs.
 TEST_F(ReadGrid, CutFilesDoNoHarm) {
   const Grid grid = testing::sampleGrid(wgs84(), {-87.5, 43.1}, 0.01, 2);
   for (const GridFormat& format : gridFormats()) {

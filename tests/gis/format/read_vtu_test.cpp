@@ -17,7 +17,7 @@ namespace {
 
 using testing::TemporaryFolder;
 
-// Two triangles in a file as other programs write it, its arrays as text.
+// Two triangles in a file of another program, with arrays as text.
 constexpr const char* kText = R"(<?xml version="1.0"?>
 <VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian">
 <UnstructuredGrid>
@@ -42,7 +42,7 @@ Grid read(const std::string& text) {
   return readVtu(folder / "a.vtu", Crs{});
 }
 
-// The file with one passage in another's place.
+// The file with `passage` replaced by `other`.
 std::string with(const std::string& passage, const std::string& other) {
   std::string text = kText;
   const std::size_t at = text.find(passage);
@@ -68,7 +68,7 @@ TEST(ReadVtu, TextWithLinesBetweenTheTriangles) {
   EXPECT_EQ(grid.area_m2, (std::vector<double>{0.5, 0.25}));  // of the triangles, not of the line
 }
 
-// The bytes 3, 5 and 8, and before them that they are three: of every type that holds them, in lines of base 64.
+// The numbers 3, 5 and 8 after their length in bytes, in every type that holds them; base64 with line breaks.
 TEST(ReadVtu, BytesInBase64OfEveryType) {
   const std::vector<std::pair<std::string, std::string>> offsets{
       {"UInt8", "AwAAAAMF\n CA=="},
@@ -84,14 +84,14 @@ TEST(ReadVtu, BytesInBase64OfEveryType) {
                                 "<DataArray type=\"" + type + "\" Name=\"offsets\" format=\"binary\">" + text));
     EXPECT_EQ(grid.triangles.size(), 2u) << type;
   }
-  // The same as appended data, of which the first four letters belong to nothing.
+  // The same as appended data; its first four characters belong to no array.
   std::string appended = with("format=\"ascii\">3 5 8</DataArray>", "format=\"appended\" offset=\"4\"/>");
   appended.replace(appended.find("</VTKFile>"), std::string::npos,
                    "<AppendedData encoding=\"base64\">_AAAADAAAAAMAAAAFAAAACAAAAA==</AppendedData></VTKFile>");
   EXPECT_EQ(read(appended).triangles.size(), 2u);
 }
 
-// A line as `writeVtu` has it: its nodes, where each line ends, of which kind it is and whether it is closed.
+// A line as `writeVtu` writes it: its nodes, the end of each line, their kinds, and whether they are closed.
 TEST(ReadVtu, LinesHaveTwoNodesAndClosedOnesThree) {
   const auto line = [](const std::string& nodes, int ends, int closed) {
     std::string fields = "<FieldData>";

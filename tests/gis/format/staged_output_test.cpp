@@ -1,4 +1,4 @@
-// An output appears whole or not at all, and never in place of another without leave.
+// An output appears complete or not at all, and replaces another only with permission.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -55,7 +55,7 @@ std::string errorOf(Act act) {
   return "no error";
 }
 
-// No file may grow past `bytes` for as long as this lives: what a full disk is, without one.
+// While this exists, no file may grow beyond `bytes`, which simulates a full disk.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) {
@@ -104,7 +104,7 @@ TEST_P(StagedFormats, CommitLeavesOnlyTheOutput) {
   for (const std::string& name : folder.names()) EXPECT_TRUE(name.starts_with("lake")) << name;
 }
 
-// Wherever the disk gets full, be it at the last byte.
+// The disk may become full anywhere, even at the last byte.
 TEST_P(StagedFormats, AFullDiskLeavesNothingAndSaysSo) {
   const TemporaryFolder folder, whole;
   const std::string name = "lake" + endingOf(GetParam());
@@ -184,7 +184,7 @@ TEST(StagedOutput, RefusesAMeshWithoutTriangles) {
   EXPECT_THAT(folder.names(), IsEmpty());
 }
 
-// The last of the files cannot come into place: the others go away again, and what was there comes back.
+// The last of the files cannot be moved into place: the others are removed, and what was there before is restored.
 TEST(StagedOutput, CommitOfSeveralFilesIsAllOrNothing) {
   const TemporaryFolder folder;
   writeWhole(folder / "lake.node", lakes());
@@ -221,7 +221,7 @@ TEST(StagedOutput, OverwritingAShapefileRemovesItsIndexes) {
                           "lake_nodes.dbf", "lake_nodes.shp", "lake_nodes.shx"));
 }
 
-// SQLite would play the log of the old file into the new one.
+// SQLite would replay the old file's log into the new one.
 TEST(StagedOutput, OverwritingAGeoPackageRemovesItsLogs) {
   const TemporaryFolder folder;
   for (const char* stale : {"lake.gpkg", "lake.gpkg-wal", "lake.gpkg-shm", "lake.gpkg-journal"})
@@ -230,7 +230,7 @@ TEST(StagedOutput, OverwritingAGeoPackageRemovesItsLogs) {
   EXPECT_THAT(folder.names(), ElementsAre("lake.gpkg"));
 }
 
-// "lake.shp" meshed to "lake.2dm": the .prj serves both.
+// "lake.shp" meshed to "lake.2dm": the .prj applies to both.
 TEST(StagedOutput, KeepsAPrjThatSaysTheSame) {
   const TemporaryFolder folder;
   const std::string esri = R"(GEOGCS["GCS_WGS_1984",DATUM["D_WGS_1984",SPHEROID["WGS_1984",6378137.0,298.257223563]],)"
@@ -288,7 +288,7 @@ TEST(StagedOutput, GeoJsonIsJsonWhateverNamesHold) {
   Grid grid = lakes();
   grid.features.front().attributes = {{"name", "a \"lake\" \\ of\x01\n\xff bytes, \xc3\xa4"}};
   writeWhole(folder / "lake.geojson", grid);
-  const auto json = nlohmann::json::parse(textOf(folder / "lake.geojson"));  // throws for what is no UTF-8
+  const auto json = nlohmann::json::parse(textOf(folder / "lake.geojson"));  // throws unless it is UTF-8
   std::set<std::string> names;
   for (const auto& feature : json["features"])
     if (feature["properties"]["name"].is_string()) names.insert(feature["properties"]["name"]);

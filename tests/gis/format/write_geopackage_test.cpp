@@ -28,8 +28,7 @@ std::string ask(const std::string& path, const std::string& sql) {
   return value;
 }
 
-// What SQLite and OGR keep of the rows beside them: how many there are, which number the next one gets, and their box,
-// with every bit.
+// What SQLite and OGR store about the rows: their count, the next number, and their bounding box, bit for bit.
 TEST(WriteGeoPackage, TheFileKnowsItsRows) {
   const TemporaryFolder folder;
   const std::string path = folder / "lakes.gpkg";
@@ -51,7 +50,7 @@ TEST(WriteGeoPackage, TheFileKnowsItsRows) {
         << layer;
 }
 
-// Names that fill more than a page of the file go by way of OGR.
+// Names larger than a page of the file are written by OGR.
 TEST(WriteGeoPackage, LongNames) {
   for (const std::size_t length : {std::size_t{1}, std::size_t{2300}, std::size_t{2500}, std::size_t{20000}}) {
     const TemporaryFolder folder;

@@ -17,7 +17,7 @@ ChainIndex indexOf(const std::vector<Ring>& rings) {
   return index;
 }
 
-// By the textbook, one edge after the other; on integer places exact.
+// Textbook point location, edge by edge; exact for integer coordinates.
 Location slowLocate(const std::vector<Ring>& rings, const Point& p) {
   bool inside = false;
   for (const Ring& ring : rings) {

@@ -29,14 +29,14 @@ ExactPoint exactCrossing(const Point& a, const Point& b, const Point& c, const P
   return {ax + share * ux, ay + share * uy};
 }
 
-// Whether no other double is nearer.
+// True if no other double is nearer.
 bool isNearest(double value, const Rational& exact) {
   const auto off = [&](double v) -> Rational { return abs(Rational(v) - exact); };
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   return off(value) <= off(std::nextafter(value, kInfinity)) && off(value) <= off(std::nextafter(value, -kInfinity));
 }
 
-// Of segments from all over a square of side `size` about `centre`; each other pair all but parallel.
+// Crossings of segments in a square of side `size` around `centre`; every other pair is nearly parallel.
 void expectNearest(const Point& centre, double size, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> place(-0.5 * size, 0.5 * size), small(-1e-9 * size, 1e-9 * size);
@@ -77,7 +77,7 @@ TEST(Crossing, OnALineAlongAnAxisLiesOnIt) {
   }
 }
 
-// The least that doubles can have between two directions.
+// The smallest angle that doubles can have between two directions.
 TEST(Crossing, LiesOnSegmentsThatAreAllButParallel) {
   constexpr double kUlp = std::numeric_limits<double>::epsilon();
   const Point a{1.0, 1.0}, b{2.0 - kUlp, 2.0 - 2 * kUlp}, c{1.0, 1.0 - 1e-15}, d{2.0 - kUlp, 2.0};

@@ -11,7 +11,7 @@ namespace {
 
 using Pairs = std::multiset<std::pair<std::uint32_t, std::uint32_t>>;
 
-// Walks of edges, some of which jump.
+// Random walks of edges, some of which jump.
 std::vector<Box> walk(std::mt19937_64& random, std::size_t count, double jumps) {
   std::uniform_real_distribution<double> step(-1, 1), chance(0, 1), anywhere(0, 20);
   std::vector<Box> boxes;

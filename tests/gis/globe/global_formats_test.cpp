@@ -1,4 +1,4 @@
-// Formats of global models: what their files say, read by nothing of ours, and what comes back.
+// Formats of global models: the contents of their files, read by independent code, and what is read back.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <netcdf.h>
@@ -27,7 +27,7 @@ using testing::TemporaryFolder;
 using testing::vectorOf;
 
 const auto kAll = [](const SpaceVector&) { return true; };
-// All but a cap round the middle of an octant.
+// All except a cap around the middle of an octant.
 const auto kSea = [](const SpaceVector& middle) { return middle[0] + middle[1] + middle[2] < 4.5; };
 
 void writeAs(const std::string& path, const Grid& grid, const std::string& format = {}) {
@@ -87,7 +87,7 @@ TEST(Fesom, FilesAreWhatItReads) {
     ASSERT_EQ(depths.size(), 1 + levels + n);
     EXPECT_EQ(depths[1], 0.0);
     for (std::size_t k = 1; k < levels; ++k) EXPECT_LT(depths[1 + k], depths[k]);
-    for (std::size_t k = 2; k + 1 < levels; ++k)  // no layer thinner than the one above
+    for (std::size_t k = 2; k + 1 < levels; ++k)  // no layer is thinner than the one above
       EXPECT_LE(depths[2 + k] - depths[1 + k], depths[1 + k] - depths[k]) << k;
     EXPECT_LE(depths[levels], -6000.0);
     for (std::size_t i = 0; i < n; ++i) EXPECT_EQ(depths[1 + levels + i], std::min(0.0, grid.z[i]));
@@ -140,7 +140,7 @@ TEST(Fesom, ReadsFilesOfOthers) {
   const TemporaryFolder folder;
   const auto put = [&](const char* name, const char* text) { std::ofstream(folder / name) << text; };
   put("nod2d.out", "       4\n 1  350.0 -3.5  1\n 2  351.0 -3.5 1\n 3  351 -2.5 1\n 4 350 -2.5 1\n");
-  put("elem2d.out", " 2\n 1 2 3 1\n 1 3 4 1\n");  // four columns, as beside quadrilaterals
+  put("elem2d.out", " 2\n 1 2 3 1\n 1 3 4 1\n");  // four columns, as in files with quadrilaterals
   put("aux3d.out", "3\n 0. 5. 10.\n 100\n 200\n -300\n 0\n");
   const Grid grid = readGrid(folder / "nod2d.out");
   EXPECT_EQ(grid.nodes, (std::vector<Point>{{350, -3.5}, {351, -3.5}, {351, -2.5}, {350, -2.5}}));
@@ -166,7 +166,7 @@ TEST(Fesom, ReadsFilesOfOthers) {
   EXPECT_EQ(readGrid(folder / "nod2d.out").notes.size(), 1u);
 }
 
-// A mesh file of JIGSAW: what stands in each section, row by row.
+// The sections of a JIGSAW mesh file, row by row.
 using Rows = std::vector<std::vector<double>>;
 std::map<std::string, Rows> sectionsIn(const std::string& path) {
   std::map<std::string, Rows> sections;
@@ -259,7 +259,7 @@ TEST(Jigsaw, PlanesComeBackBitForBit) {
   }
 }
 
-// As JIGSAW writes the meshes that it makes on a sphere, and in a plane; Gmsh has the same ending.
+// As JIGSAW writes its own meshes, on a sphere and in a plane; Gmsh files have the same ending.
 TEST(Jigsaw, MeshesOfItsOwnAreToldFromGmshs) {
   const TemporaryFolder folder;
   const auto put = [&](const std::string& name, const std::string& text) {
@@ -299,7 +299,7 @@ TEST(Jigsaw, MeshesOfItsOwnAreToldFromGmshs) {
   EXPECT_THAT(errorIn("NDIMS=3\nPOINT=3\n0;0;1;0\n5;0;0;0\n0;5;0;0\nTRIA3=1\n0;1;2;0\n"), HasSubstr("sphere"));
 }
 
-// A NetCDF file by the library alone.
+// A NetCDF file, read by the library alone.
 class Netcdf {
  public:
   explicit Netcdf(const std::string& path) { EXPECT_EQ(nc_open(path.c_str(), NC_NOWRITE, &id_), NC_NOERR) << path; }
@@ -318,7 +318,7 @@ class Netcdf {
     int variable = -1;
     return nc_inq_varid(id_, name, &variable) == NC_NOERR;
   }
-  // Row by row; the dimensions have to be those.
+  // Row by row; expects these dimensions.
   std::vector<double> values(const char* name, const std::vector<std::string>& dimensions) const {
     int variable = -1, count = 0, dims[NC_MAX_VAR_DIMS];
     EXPECT_EQ(nc_inq_varid(id_, name, &variable), NC_NOERR) << name;
@@ -403,7 +403,7 @@ TEST(Mpas, CellsAreNodesAndVerticesTheCentresOfTriangles) {
       for (std::size_t k = 0; k < 3; ++k) edges.insert(std::minmax(v[k], v[(k + 1) % 3]));
       EXPECT_NEAR(lengthOf(vertices[t]), kRadius, 1e-8);
       const double reach = distanceOf(vertices[t], cells[v[0]]);
-      EXPECT_LT(reach, 0.5 * kRadius);  // not the place opposite
+      EXPECT_LT(reach, 0.5 * kRadius);  // not the antipode
       EXPECT_NEAR(distanceOf(vertices[t], cells[v[1]]), reach, 1e-7);
       EXPECT_NEAR(distanceOf(vertices[t], cells[v[2]]), reach, 1e-7);
       EXPECT_GT(dot(cells[v[0]], cross(cells[v[1]], cells[v[2]])), 0.0);
@@ -442,7 +442,7 @@ TEST(Mpas, PlanesStayPlanesAndOpenWaterIsKept) {
   };
   EXPECT_EQ(open(grid), 1);
   EXPECT_EQ(open(got), 1);
-  // What a projection makes of the Earth is none of MPAS' planes.
+  // A projected mesh is not a plane of MPAS.
   const Grid utm = testing::sampleGrid(parseCrs("EPSG:32616"), {448123.4, 4.8e6}, 250.0);
   writeAs(folder / "utm_mpas.nc", utm);
   EXPECT_EQ(Netcdf(folder / "utm_mpas.nc").text("on_a_sphere"), "YES");
@@ -451,7 +451,7 @@ TEST(Mpas, PlanesStayPlanesAndOpenWaterIsKept) {
   GeographicLib::UTMUPS::Reverse(16, true, utm.nodes[5].x, utm.nodes[5].y, lat, lon);
   EXPECT_NEAR(back.nodes[5].x, lon, 1e-9);
   EXPECT_NEAR(back.nodes[5].y, lat, 1e-9);
-  // A UGRID file is none.
+  // A UGRID file is not an MPAS file.
   writeAs(folder / "lakes.nc", grid);
   EXPECT_EQ(readGrid(folder / "lakes.nc").title, grid.title);
   // A triangle without area has no circumcentre.
@@ -459,7 +459,7 @@ TEST(Mpas, PlanesStayPlanesAndOpenWaterIsKept) {
   EXPECT_THROW(writeAs(path, grid), OutputError);
 }
 
-// Numbers of the array that comes at an offset of the appended section.
+// The array at an offset of the appended section.
 std::vector<double> appendedDoubles(const std::string& bytes, const std::string& name) {
   const std::size_t declared = bytes.find("Name=\"" + name + '"');
   EXPECT_NE(declared, std::string::npos) << name;
@@ -492,7 +492,7 @@ TEST(VtuGlobe, PointsLieOnASphereAndComeBackAsDegrees) {
   EXPECT_TRUE(sameCrs(got.crs, grid.crs));
   ASSERT_EQ(got.boundaries.size(), 1u);
   EXPECT_EQ(got.boundaries[0].nodes, grid.boundaries[0].nodes);
-  // Without depths none are made of the points' third coordinates.
+  // Without depths, none are derived from the points' third coordinates.
   grid.z.clear();
   writeAs(path, grid);
   EXPECT_TRUE(readGrid(path).z.empty());
@@ -534,7 +534,7 @@ TEST(Ply, IsAGlobeOrAReliefInSpace) {
   EXPECT_THROW(readGrid(folder / "a.ply"), InputError);
 }
 
-// Triangles all round, over the antimeridian and at both poles, with a coast and without.
+// Triangles around the whole globe, across the antimeridian and at both poles, with and without a coast.
 TEST(AllFormats, GiveTheGlobeBack) {
   for (const bool closed : {true, false}) {
     Grid grid = closed ? octahedralGlobe(2, kAll) : octahedralGlobe(2, kSea);

@@ -57,7 +57,7 @@ TEST(ChainEdges, UsesEveryEdgeOnce) {
 
 TEST(KeepBoundaryEdges, TurnsThemAndDropsTheOthers) {
   const TriMesh mesh = lattice(2, 1, [](int, int) { return true; });  // points 0 1 2 below, 3 4 5 above
-  // Along the boundary, against it, between two triangles, no edge at all.
+  // Along the boundary, against it, between two triangles, and not an edge.
   std::vector<std::vector<NodePair>> groups{{{0, 1}, {2, 1}, {1, 4}, {0, 5}}, {{3, 0}, {3, 4}}, {}};
   keepBoundaryEdges(cornersOf(mesh), groups);
   EXPECT_THAT(groups[0], ElementsAre(NodePair{0, 1}, NodePair{1, 2}));

@@ -23,8 +23,8 @@ Coastline boxAt60North() {
   return coastline;
 }
 
-// Half a metre wide; its middle node lies 0.44 m past the box. Its smallest angle is 24.8 degrees, and 21.8 with that
-// node on the box.
+// A triangle half a metre wide; its middle node is 0.44 m outside the box. Its smallest angle is 24.8 degrees, and 21.8
+// with that node on the box.
 Grid tinyTriangleAtTheTop() {
   Grid grid;
   grid.crs = wgs84();

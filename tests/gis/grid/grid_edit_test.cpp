@@ -1,4 +1,4 @@
-// Grids with recognisable values in every array, edited and mended at random: whatever is left carries its values.
+// Grids with recognisable values in every array, edited and repaired at random: what remains keeps its values.
 #include "gis/grid/grid_edit.hpp"
 
 #include <gmock/gmock.h>
@@ -24,7 +24,7 @@ using Random = std::mt19937_64;
 
 std::size_t below(Random& random, std::size_t count) { return static_cast<std::size_t>(random() % count); }
 
-// Values by place, so that they are known between nodes too; one is told by the other wherever a node comes to lie.
+// z is a function of place, so that it is known between nodes too; size_m follows from z, wherever a node is moved.
 double zAt(const Point& p) { return -20.0 + 1e-3 * p.x + 2e-3 * p.y; }
 double sizeOfZ(double z) { return 500.0 - 4.0 * z; }
 
@@ -42,7 +42,7 @@ constexpr double kBorderX = 5000.0;
 Grid valuedGrid(Random& random, const std::function<bool(int, int)>& wanted) {
   std::uniform_real_distribution<double> shift(-120.0, 120.0);
   const TriMesh mesh = lattice(kSide, kSide, wanted, [&](int i, int j) {
-    const bool kept = i == 5 || j == 3;  // where lines run, so that they are straight
+    const bool kept = i == 5 || j == 3;  // where lines run, which must be straight
     return Point{1000.0 * i + (kept ? 0.0 : shift(random)), 1000.0 * j + (kept ? 0.0 : shift(random))};
   });
   Grid grid;
@@ -92,7 +92,7 @@ double areaOf(const Grid& grid, const GridCorners& corners) {
   return ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)) / 2.0;
 }
 
-// Splits an inner or outer edge of a triangle, with what lies on both of its sides.
+// Splits an edge of a triangle, inner or on the boundary, together with the triangles on its sides.
 void splitEdge(Grid& grid, std::uint32_t t, unsigned corner, double share) {
   const std::uint32_t a = grid.triangles[t][corner], b = grid.triangles[t][(corner + 1) % 3];
   const std::uint32_t middle = addNodeBetween(grid, a, b, share);
@@ -160,7 +160,7 @@ TEST(GridEdit, WhatIsLeftCarriesItsValues) {
     }
     std::map<std::uint32_t, std::uint32_t> first_pieces;  // by feature: pieces were shifted when appended
     for (std::size_t t = 0; t < grid.triangles.size(); ++t) {
-      // Which of the original triangles it is, or was cut from.
+      // The original triangle that it is, or was cut from.
       const auto was = static_cast<std::size_t>(std::lround(grid.area_m2[t] - 2000.0));
       ASSERT_LT(was, before.triangles.size());
       EXPECT_EQ(grid.min_angle_deg[t], 1000.0 + static_cast<double>(was));
@@ -189,7 +189,7 @@ TEST(GridEdit, ValuesOfWeirsGoWithTheirNodes) {
   Random random(3);
   Grid grid = valuedGrid(random, [](int, int) { return true; });
   grid.lines.clear();
-  // Along the southern side, the northern across; the values of a node say which it and its back node are.
+  // Along the southern side, with the northern side across; the values of a node identify it and its back node.
   Boundary weir{BoundaryRole::Land, false, {}, 24};
   for (std::uint32_t i = 0; i <= kSide; ++i) {
     const std::uint32_t back = kSide * (kSide + 1) + i;
@@ -198,7 +198,7 @@ TEST(GridEdit, ValuesOfWeirsGoWithTheirNodes) {
     weir.weir.insert(weir.weir.end(), {grid.z[i], grid.z[back]});
   }
   grid.boundaries = {weir};
-  // The corners of one square at the southern side lose all of their triangles but for those of their neighbours.
+  // Removes all triangles at node 4, which divides the weir.
   std::vector<bool> gone(grid.triangles.size(), false);
   for (std::size_t t = 0; t < gone.size(); ++t) gone[t] = std::ranges::count(grid.triangles[t], 4u) > 0;
   removeTriangles(grid, gone);
@@ -261,7 +261,7 @@ TEST(GridEdit, AClosedLineThatIsCutStaysOneLine) {
   removeTriangles(grid, gone);
   ASSERT_EQ(grid.lines.size(), 1u);
   EXPECT_FALSE(grid.lines[0].closed);
-  // One of the two triangles lay in a corner of the loop: both its edges are lost.
+  // One of the two triangles was in a corner of the loop, so both its edges are lost.
   std::vector<std::uint32_t> left(loop.begin() + 3, loop.end());
   left.insert(left.end(), {loop[0], loop[1]});
   EXPECT_EQ(grid.lines[0].nodes, left);
@@ -275,7 +275,7 @@ TEST(GridEdit, ValuesMoveWithANode) {
   moveNode(grid, 0, 1, 2, 0.5);
   EXPECT_EQ(grid.nodes[0], (Point{2.0, 2.0}));
   EXPECT_EQ(grid.z[0], -20.0);     // half the way to -30
-  EXPECT_EQ(grid.size_m[0], 1.0);  // what lies beside is unknown
+  EXPECT_EQ(grid.size_m[0], 1.0);  // the size beside it is unknown
   moveNode(grid, 2, 1, 1, 0.25);
   EXPECT_EQ(grid.nodes[2], (Point{2.0, 6.0}));
   EXPECT_EQ(grid.z[2], -35.0);
@@ -316,7 +316,7 @@ TEST(GridEdit, WhatIsNotConsistentIsABug) {
   expectRefused([](Grid& grid) { grid.lines[0].nodes = {0, 1, 2}; });
 }
 
-// Defects of all kinds that are mended by changing triangles, and nodes in which the mesh touches itself.
+// Defects of all kinds that are repaired by changing triangles, and pinched nodes.
 TEST(RepairTarget, WhatIsLeftCarriesItsValues) {
   constexpr Target kAll[] = {Target::Adcirc,  Target::Schism,  Target::Fvcom,
                              Target::Telemac, Target::Dflowfm, Target::Swan};
@@ -328,7 +328,7 @@ TEST(RepairTarget, WhatIsLeftCarriesItsValues) {
     const bool pinched = seed % 2 == 0;
     Grid grid = valuedGrid(
         random, [&](int i, int j) { return !(i == hole && j == 5) && !(pinched && i == hole + 1 && j == 6); });
-    // Nodes off the lines pushed towards edges, so that angles get large.
+    // Moves nodes off the lines towards edges, which makes angles large.
     for (int k = 0; k < 6; ++k) {
       const std::size_t node = below(random, grid.nodes.size());
       Point& p = grid.nodes[node];
@@ -339,7 +339,7 @@ TEST(RepairTarget, WhatIsLeftCarriesItsValues) {
       grid.z[node] = zAt(p);
       grid.size_m[node] = sizeOfZ(grid.z[node]);
     }
-    // Others so close to the lines that angles on these want flips of their edges.
+    // Moves others so close to lines that angles there call for flips of the lines' edges.
     for (const std::uint32_t k : {1u, 3u, 6u, 8u}) {
       const auto below_weir = 2 * (kSide + 1) + k, beside_border = k * (kSide + 1) + 4;
       if (below(random, 2) == 0) grid.nodes[below_weir].y = 2880.0;
@@ -349,9 +349,9 @@ TEST(RepairTarget, WhatIsLeftCarriesItsValues) {
         grid.size_m[node] = sizeOfZ(grid.z[node]);
       }
     }
-    // Where features meet is kept without a line, too.
+    // The border between features is kept without a line, too.
     if (below(random, 2) == 0) std::erase_if(grid.lines, [](const GridLine& line) { return line.name == "border"; });
-    // A triangle of its own, and a node of none.
+    // A separate triangle, and a node without triangles.
     const std::uint32_t lone = addNode(grid, {-900.0, 0.0});
     addNode(grid, {-900.0, 500.0});
     addNode(grid, {-1300.0, 0.0});
@@ -381,7 +381,7 @@ TEST(RepairTarget, WhatIsLeftCarriesItsValues) {
     const std::set<double> known(before.z.begin(), before.z.end());
     for (std::size_t i = 0; i < grid.nodes.size(); ++i) {
       ASSERT_NEAR(grid.size_m[i], sizeOfZ(grid.z[i]), 1e-9);
-      // By place, or a copy that was moved a little.
+      // Either a function of place, or a copy that was moved a little.
       EXPECT_TRUE(known.contains(grid.z[i]) || std::abs(grid.z[i] - zAt(grid.nodes[i])) < 1.0);
     }
     for (std::size_t t = 0; t < grid.triangles.size(); ++t) {
@@ -401,7 +401,7 @@ TEST(RepairTarget, WhatIsLeftCarriesItsValues) {
   EXPECT_GT(taken_out, 5u);
 }
 
-// Nodes that repairs make lie between those that they are made from, where longitudes jump too.
+// Nodes made by repairs are between the nodes they were made from, even if longitudes jump there.
 TEST(RepairTarget, NodesAcrossTheAntimeridian) {
   std::size_t made = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
@@ -426,7 +426,7 @@ TEST(RepairTarget, NodesAcrossTheAntimeridian) {
   EXPECT_GT(made, 10u);
 }
 
-// A model is given longitudes that go on: nothing there is to be repaired because they jump. What is, is as elsewhere.
+// Models get unwrapped longitudes, so a jump is not a defect; other defects are repaired as elsewhere.
 TEST(RepairTarget, TheAntimeridianIsNoDefect) {
   const auto repaired = [](double middle, double dent) {
     Random random(1);
@@ -453,7 +453,7 @@ TEST(RepairTarget, TheAntimeridianIsNoDefect) {
   EXPECT_GT(repaired(180.0, 850.0), 0u);
 }
 
-// A line through a node that is doubled goes on with the triangles that it runs along.
+// A line through a duplicated node continues with the triangles that it runs along.
 TEST(RepairTarget, LinesThroughADoubledNode) {
   const TriMesh mesh = lattice(
       6, 6, [](int i, int j) { return (i < 3) == (j < 3); },

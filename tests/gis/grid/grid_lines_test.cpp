@@ -1,5 +1,5 @@
-// Lines, names, regions and types of boundaries: every format gives back what it says that it holds, and what it does
-// not hold is reported.
+// Lines, names, regions and types of boundaries: every format returns what it claims to hold, and everything else is
+// reported.
 #include "gis/grid/grid_lines.hpp"
 
 #include <gmock/gmock.h>
@@ -50,7 +50,7 @@ TEST(ChainLines, LoopsAreClosed) {
 }
 
 // A lake of 6 by 6 cells with an island, in two regions and a rest; an open line and a closed one inside; types of
-// boundaries that no role says.
+// boundaries that roles do not express.
 Grid namedGrid() {
   const TriMesh mesh = lattice(
       6, 6, [](int i, int j) { return i != 4 || j != 4; },
@@ -153,7 +153,7 @@ TEST_P(NamedGrid, ComesBackAsTheFormatSays) {
   }
 }
 
-// What came through a file once comes through it again as the same bytes.
+// Writing what was read through a file gives the same bytes.
 TEST_P(NamedGrid, IsWrittenAgainAsItWasRead) {
   const GridFormat& format = GetParam();
   if (format.places == NodePlaces::Sphere) GTEST_SKIP() << "its places are rounded each time";
@@ -169,7 +169,7 @@ TEST_P(NamedGrid, IsWrittenAgainAsItWasRead) {
   }
 }
 
-// Parts go through all lines and features, which are whole again when they are read.
+// Parts cut through all lines and features, which are whole again after reading.
 TEST_P(NamedGrid, KeepsPartsWhereTheFormatDoes) {
   const GridFormat& format = GetParam();
   const Grid grid = testing::inParts(namedGrid());
@@ -203,7 +203,7 @@ std::vector<GridFormat> formatsOfGrids() {
 INSTANTIATE_TEST_SUITE_P(Formats, NamedGrid, ::testing::ValuesIn(formatsOfGrids()),
                          [](const auto& instance) { return "to_" + std::string(instance.param.name); });
 
-// A mesh without any of it has nothing to lose, whatever the format.
+// A plain mesh loses nothing in any format.
 TEST(LossesIn, NothingOfAPlainMesh) {
   Grid grid = namedGrid();
   grid.lines.clear();
@@ -213,7 +213,7 @@ TEST(LossesIn, NothingOfAPlainMesh) {
   for (const GridFormat& format : gridFormats()) EXPECT_EQ(lossesIn(grid, format, LossesOf::Grid), "") << format.name;
 }
 
-// What a run makes itself is no loss of the user's.
+// Data that a run makes itself is not a loss of the user's input.
 TEST(LossesIn, OfTheInputAlone) {
   Grid grid = namedGrid();
   grid.size_m.assign(grid.nodes.size(), 100.0);
@@ -225,7 +225,7 @@ TEST(LossesIn, OfTheInputAlone) {
   EXPECT_THAT(of_input, HasSubstr("2 weirs"));
 }
 
-// Weirs of ADCIRC: what has no room for their heights says so, and 24 without them is never written.
+// ADCIRC's weirs: formats without room for their heights report that, and type 24 is never written without heights.
 TEST(LossesIn, WeirsBetweenShores) {
   Grid grid = namedGrid();
   Boundary& weir = grid.boundaries[0];
@@ -248,7 +248,7 @@ TEST(LossesIn, WeirsBetweenShores) {
   EXPECT_TRUE(std::ranges::none_of(again.boundaries, isWeir));
 }
 
-// Node strings and physical curves of other programs that run inside the mesh are lines.
+// Node strings and physical curves of other programs are lines if they run inside the mesh.
 TEST(ReadLines, OfOtherPrograms) {
   const TemporaryFolder folder;
   std::ofstream(folder / "other.2dm") << "MESH2D\nND 1 0 0 1\nND 2 1 0 1\nND 3 1 1 1\nND 4 0 1 1\n"
@@ -277,7 +277,7 @@ TEST(ReadLines, OfOtherPrograms) {
   ASSERT_EQ(gmsh.boundaries.size(), 1u) << "what lies on the mesh's boundary is one, whatever it is called";
 }
 
-// An edge listed once each way, as for the two sides of a wall, is not a loop of two nodes.
+// An edge listed in both directions, as for the two sides of a wall, is not a loop of two nodes.
 TEST(ReadLines, ThereAndBackAreNoLoop) {
   const TemporaryFolder folder;
   std::ofstream(folder / "wall.msh") << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
@@ -298,7 +298,7 @@ TEST(ReadLines, ThereAndBackAreNoLoop) {
   EXPECT_FALSE(sms.lines[0].closed);
 }
 
-// A line that leaves the edges between triangles is cut there, and the grid says so.
+// A line that leaves the edges between triangles is cut there, and a note of the grid reports it.
 TEST(ReadLines, OffTheEdgesAreCut) {
   const TemporaryFolder folder;
   std::ofstream(folder / "cut.2dm") << "MESH2D\nND 1 0 0 1\nND 2 1 0 1\nND 3 1 1 1\nND 4 0 1 1\n"

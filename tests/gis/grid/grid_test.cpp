@@ -32,7 +32,7 @@ TEST(FindBoundaries, ALakeWithAnIsland) {
   const auto boundaries = findBoundaries(lattice(5, 5, [](int i, int j) { return i != 2 || j != 2; }));
   ASSERT_EQ(rolesOf(boundaries), (Roles{BoundaryRole::Land, BoundaryRole::Island}));
   EXPECT_EQ(boundaries[0].nodes.size(), 20u);
-  // Clockwise, the mesh to the left, from the least corner of the island on.
+  // Clockwise, with the mesh to the left, from the least corner of the island.
   EXPECT_THAT(boundaries[1].nodes, ElementsAre(2 * 6 + 2, 3 * 6 + 2, 3 * 6 + 3, 2 * 6 + 3));
   for (const Boundary& boundary : boundaries) EXPECT_TRUE(boundary.closed);
 }
@@ -48,7 +48,7 @@ TEST(FindBoundaries, ALakeOnAnIsland) {
             (Roles{BoundaryRole::Land, BoundaryRole::Island, BoundaryRole::Land}));
 }
 
-// Two lakes that share a corner are apart: no triangle's edge joins them.
+// Two lakes that share a corner are separate: no edge of a triangle joins them.
 TEST(FindBoundaries, LakesThatTouchInAVertex) {
   const auto boundaries = findBoundaries(lattice(2, 2, [](int i, int j) { return i == j; }));
   ASSERT_EQ(rolesOf(boundaries), (Roles{BoundaryRole::Land, BoundaryRole::Land}));
@@ -56,7 +56,7 @@ TEST(FindBoundaries, LakesThatTouchInAVertex) {
   EXPECT_EQ(boundaries[1].nodes.size(), 4u);
 }
 
-// Two islands that touch in a vertex are one loop that passes there twice.
+// Two islands that touch in a vertex are one loop that passes it twice.
 TEST(FindBoundaries, IslandsThatTouchInAVertex) {
   const auto wanted = [](int i, int j) { return !(i == 2 && j == 2) && !(i == 3 && j == 3); };
   const auto boundaries = findBoundaries(lattice(6, 6, wanted));
@@ -65,9 +65,9 @@ TEST(FindBoundaries, IslandsThatTouchInAVertex) {
   EXPECT_EQ(std::ranges::count(boundaries[1].nodes, 3u * 7 + 3), 2);
 }
 
-// An island that touches the shore is one loop with it, also where they touch in the loop's least vertex.
+// An island that touches the shore is one loop with it, even if they touch in the loop's least vertex.
 TEST(FindBoundaries, AnIslandThatTouchesTheShore) {
-  // A square of triangles round a square island with which it shares the corner 0.
+  // A square of triangles around a square island, which share corner 0.
   const std::vector<std::array<VertexId, 3>> corners{{0, 1, 6}, {6, 1, 5}, {5, 1, 2}, {5, 2, 3}, {5, 3, 4}, {4, 3, 0}};
   for (const double side : {1.0, -1.0}) {  // 0 is the least vertex, then the greatest
     std::vector<Point> points{{0, 0}, {4, -4}, {8, 0}, {4, 4}, {2, 1}, {3, 0}, {2, -1}};
@@ -82,7 +82,7 @@ TEST(FindBoundaries, AnIslandThatTouchesTheShore) {
   }
 }
 
-// A domain of the lattice's points, all of them input but the last `steiner`.
+// A domain with these points, all of them input except the last `steiner`.
 struct Lake {
   Coastline coastline;
   Domain domain;
@@ -146,7 +146,7 @@ TEST(MakeGrid, AreasAddUpToThePolygon) {
   }
 }
 
-// A lake across the antimeridian, its longitudes past 180 or not: Steiner points follow the input's way.
+// A lake across the antimeridian, with longitudes past 180 or not: Steiner points follow the input.
 TEST(MakeGrid, LongitudesStayNearThoseOfTheInput) {
   const std::vector<Point> past{{179.0, -17.0}, {181.0, -17.0}, {181.0, -16.0}, {179.0, -16.0}, {180.5, -16.5}};
   const Lake lake(past, kFan, 1);
@@ -170,7 +170,7 @@ TEST(MakeGrid, PartsAreConcatenatedAndUnusedPointsDropped) {
   for (std::size_t f = 0; f < 4; ++f) coastline.features[f].fid = 100 + static_cast<std::int64_t>(f);
   std::vector<Domain> domains(2);
   std::vector<TriMesh> meshes;
-  // The second part touches the first in a corner, which stays doubled; both lattices have points that nothing uses.
+  // The second part touches the first in a corner, which stays duplicated; both lattices have unused points.
   meshes.push_back(lattice(2, 2, [](int i, int j) { return i == 0 && j == 0; }));
   meshes.push_back(lattice(2, 2, [](int i, int j) { return i == 1 && j == 1; }));
   for (std::size_t p = 0; p < 2; ++p) {
@@ -191,7 +191,7 @@ TEST(MakeGrid, PartsAreConcatenatedAndUnusedPointsDropped) {
   EXPECT_THAT(grid.boundaries[1].nodes, ElementsAre(4, 5, 7, 6));
 }
 
-// Squares of a quarter of a degree from `west` eastwards, longitudes within 360 degrees from `least` on.
+// Squares of a quarter of a degree from `west` eastwards, with longitudes in the 360 degrees from `least` on.
 Grid across(
     double west, double least, const std::function<bool(int, int)>& wanted = [](int, int) { return true; }) {
   const TriMesh mesh = lattice(22, 4, wanted, [&](int i, int j) {
@@ -205,7 +205,7 @@ Grid across(
   return grid;
 }
 
-// The greatest difference of longitudes in a triangle.
+// The largest difference in longitude within a triangle.
 double widestIn(std::span<const Point> nodes, const Grid& grid) {
   double widest = 0.0;
   for (const auto& [a, b, c] : grid.triangles) {
@@ -215,9 +215,9 @@ double widestIn(std::span<const Point> nodes, const Grid& grid) {
   return widest;
 }
 
-// Longitudes go on eastwards from the western edge, which stays where it is, in data from -180, from 0 and others.
+// Longitudes increase eastwards from the western edge, which stays in place, in data from -180, from 0 and others.
 TEST(InOneTurn, GoesOnFromTheWesternEdge) {
-  const auto inTwo = [](int i, int) { return i < 18 || i > 19; };  // the second part lies east of the jump as a whole
+  const auto inTwo = [](int i, int) { return i < 18 || i > 19; };  // the second part is entirely east of the jump
   for (const auto& [west, least] : {std::pair{176.0, -180.0}, {356.0, 0.0}, {-190.0, -187.0}, {-2.0, -0.125}}) {
     for (const bool apart : {false, true}) {
       SCOPED_TRACE(west);
@@ -242,11 +242,11 @@ TEST(InOneTurn, GoesOnFromTheWesternEdge) {
 
 TEST(InOneTurn, LeavesWhatNeedNotOrCannotChange) {
   EXPECT_FALSE(inOneTurn({}, {}));
-  for (const double west : {-179.0, 5.0, 178.0}) {  // the last goes on past 180 already
+  for (const double west : {-179.0, 5.0, 178.0}) {  // the last continues past 180 already
     const Grid grid = across(west, west - 1.0);
     EXPECT_FALSE(inOneTurn(grid.nodes, grid.triangles));
   }
-  // Round a pole: as a ring, with the pole as a node, and with a triangle that holds it.
+  // Around a pole: a ring, the pole as a node, and a triangle that contains the pole.
   std::vector<Point> ring;
   for (int k = 0; k < 12; ++k) ring.push_back({-180.0 + 30.0 * k, 70.0});
   std::vector<std::array<std::uint32_t, 3>> belt, fan;
@@ -260,7 +260,7 @@ TEST(InOneTurn, LeavesWhatNeedNotOrCannotChange) {
   }
   EXPECT_FALSE(inOneTurn(nodes, belt));
   belt.erase(belt.begin() + 8, belt.begin() + 10);
-  const auto turned = inOneTurn(nodes, belt);  // with a gap it is a regional mesh again, from -30 on
+  const auto turned = inOneTurn(nodes, belt);  // with a gap, it is a regional mesh from -30 on
   ASSERT_TRUE(turned);
   for (const Point& p : *turned) EXPECT_GE(p.x, -30.0);
   ring.push_back({0.0, 90.0});
@@ -269,7 +269,7 @@ TEST(InOneTurn, LeavesWhatNeedNotOrCannotChange) {
   EXPECT_FALSE(inOneTurn(cap, std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}}));
 }
 
-// A mesh so wide that its east would lie where no reader expects a longitude begins a turn earlier.
+// A mesh so wide that its eastern end would be beyond the longitudes that readers expect begins one turn earlier.
 TEST(InOneTurn, StaysWhereLongitudesAreExpected) {
   std::vector<Point> nodes;
   std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -285,7 +285,7 @@ TEST(InOneTurn, StaysWhereLongitudesAreExpected) {
   EXPECT_EQ(turned->back().x, 280.0);
 }
 
-// Longitudes with more digits than they have past 180.
+// Longitudes with more digits than they can have past 180.
 TEST(TurnedNodes, ComeBackBitForBit) {
   Grid grid = across(60.0, 0.0);
   for (Point& p : grid.nodes) p.x = std::remainder(60.0 + 40.1 * (p.x - 60.0), 360.0);
@@ -294,7 +294,7 @@ TEST(TurnedNodes, ComeBackBitForBit) {
   const TurnedNodes turned(grid);
   ASSERT_TRUE(turned.any());
   EXPECT_LT(widestIn(grid.nodes, grid), 20.0);
-  EXPECT_EQ(turned.putBack({184.0, 1.0}), (Point{-176.0, 1.0}));  // of a new node
+  EXPECT_EQ(turned.putBack({184.0, 1.0}), (Point{-176.0, 1.0}));  // a new node
   turned.putBack(grid);
   EXPECT_EQ(grid.nodes, before);
 }

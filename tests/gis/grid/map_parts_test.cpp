@@ -1,4 +1,4 @@
-// Triangles of the globe on a map: together they cover it once, whatever lies over its end or round a pole.
+// Triangles of the globe on a map: together they cover it once, even across its ends and around poles.
 #include "gis/grid/map_parts.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ using testing::vectorOf;
 
 using Rotation = std::array<SpaceVector, 3>;
 
-// By degrees about an axis.
+// A rotation about an axis.
 Rotation turnAbout(const SpaceVector& axis, double degrees) {
   const double c = std::cos(degrees * M_PI / 180.0), s = std::sin(degrees * M_PI / 180.0);
   const auto& [x, y, z] = axis;
@@ -25,7 +25,7 @@ Rotation turnAbout(const SpaceVector& axis, double degrees) {
            {z * x * (1 - c) - y * s, z * y * (1 - c) + x * s, c + z * z * (1 - c)}}};
 }
 
-// Longitudes from `west` on.
+// Rotates a grid; longitudes are from `west` on.
 Grid turned(Grid grid, const Rotation& rotation, double west) {
   for (Point& node : grid.nodes) {
     const SpaceVector v = vectorOf(node);
@@ -47,8 +47,8 @@ double areaOf(const MapCutter::Ring& ring) {
   return twice / 2.0;
 }
 
-// Each part goes round counter-clockwise within the map, none spans half of it but along a pole, and together they are
-// as large as it is. Neighbours share straight edges, so they cannot overlap then. Returns how many are cut in two.
+// Each part is counter-clockwise and on the map, no edge spans half of it except along a pole, and the areas add up to
+// the map's. As neighbours share straight edges, they cannot overlap then. Returns the number of triangles cut in two.
 int expectCovered(const Grid& grid, double west) {
   const MapCutter cutter(grid);
   double area = 0.0;
@@ -82,7 +82,7 @@ TEST(MapCutter, ClosedGlobesCoverTheMapOnce) {
   std::mt19937_64 random(20261123);
   std::normal_distribution<double> normal;
   for (const double west : {-180.0, 0.0}) {
-    // Poles that are nodes, lie on edges, and within triangles.
+    // Poles at nodes, on edges, and inside triangles.
     expectCovered(turned(octahedralGlobe(3, all), turnAbout({0, 0, 1}, 0.0), west), west);
     expectCovered(turned(octahedralGlobe(3, all), turnAbout({0, 0, 1}, 10.0), west), west);
     expectCovered(turned(octahedralGlobe(2, all), turnAbout({0, 1, 0}, 0.1), west), west);
@@ -97,7 +97,7 @@ TEST(MapCutter, ClosedGlobesCoverTheMapOnce) {
   }
 }
 
-// An edge over the pole belongs to two triangles; its ends are half a turn apart.
+// An edge across the pole belongs to two triangles; its ends are half a turn apart.
 TEST(MapCutter, EdgesOverThePole) {
   Grid grid;
   grid.crs = wgs84();
@@ -136,7 +136,7 @@ TEST(MapCutter, LeavesAloneWhatLiesOnTheMap) {
   EXPECT_FALSE(MapCutter(grid).cutsAny());
 }
 
-// Nothing of a line goes across the map: its parts together are as long as it is.
+// No part of a line runs across the map, and together the parts are the whole line.
 TEST(MapCutter, LinesEndWhereTheMapEnds) {
   Grid grid;
   grid.crs = wgs84();
@@ -148,7 +148,7 @@ TEST(MapCutter, LinesEndWhereTheMapEnds) {
   ASSERT_EQ(parts.size(), 3u);
   EXPECT_EQ(parts[0].size(), 2u);
   EXPECT_EQ(parts[0][1].x, 180.0);
-  EXPECT_NEAR(parts[0][1].y, 5.0, 0.2);  // of the great circle
+  EXPECT_NEAR(parts[0][1].y, 5.0, 0.2);  // on the great circle
   // Along the map's end it stays on the side that it came from.
   ASSERT_EQ(parts[1].size(), 6u);
   EXPECT_EQ(parts[1][0], (Point{-180.0, parts[0][1].y}));
@@ -159,7 +159,8 @@ TEST(MapCutter, LinesEndWhereTheMapEnds) {
   EXPECT_FALSE(cutter.cutsLine(std::vector<std::uint32_t>{5, 6, 0}));
 }
 
-// A line to a pole ends there and goes on from the pole at another longitude, whether it is a node or lies on an edge.
+// A line to a pole ends there and continues from the pole at another longitude, whether the pole is a node or on an
+// edge.
 TEST(MapCutter, LinesEndAtPoles) {
   Grid grid;
   grid.crs = wgs84();

@@ -12,7 +12,7 @@ namespace {
 
 using Edge = std::array<std::uint32_t, 2>;
 
-// Triangles of any corners: edges of one, two and many of them, and nodes without any.
+// Random triangles: edges of one, two and many triangles, and nodes without triangles.
 TEST(UniqueEdges, AreThoseOfASet) {
   std::mt19937 random(11);
   for (const std::uint32_t nodes : {3u, 50u, 30000u}) {
@@ -33,7 +33,7 @@ TEST(UniqueEdges, AreThoseOfASet) {
   EXPECT_TRUE(uniqueEdges(0, {}).empty());
 }
 
-// Numbers that follow the plane, as in the files of most programs, and the shore's before all others.
+// Numbers that follow the geometry, as in the files of most programs, with the shore's before all others.
 TEST(UniqueEdges, OfAStripThatFollowsItsNumbers) {
   constexpr std::uint32_t kColumns = 20000;
   std::vector<std::array<std::uint32_t, 3>> triangles;

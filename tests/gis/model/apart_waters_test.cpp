@@ -7,7 +7,7 @@
 namespace coastmesh {
 namespace {
 
-// Squares of two triangles each, with these sides, side by side and apart. The first has an open boundary.
+// Separate squares with these sides, two triangles each, in a row. The first has an open boundary.
 Grid squares(const std::vector<double>& sides) {
   Grid grid;
   double west = 0.0;
@@ -42,7 +42,7 @@ TEST(ApartWaters, AreThoseWithoutAnOpenBoundary) {
 TEST(ApartWaters, OneWaterHangsTogetherThroughEdges) {
   EXPECT_TRUE(isOneWater(squares({2.0})));
   EXPECT_FALSE(isOneWater(squares({2.0, 1.0})));
-  // Two triangles that share a node alone.
+  // A triangle that shares only a node with the square.
   Grid pinched = squares({2.0});
   pinched.nodes.push_back({4.0, 2.0});
   pinched.nodes.push_back({3.0, 3.0});

@@ -1,4 +1,4 @@
-// What the boundary is, as said by polygons, lines and depths.
+// Boundary types from polygons, lines and depths.
 #include "gis/model/assign_boundaries.hpp"
 
 #include <gmock/gmock.h>
@@ -36,7 +36,7 @@ std::size_t edgesOfRole(const Grid& grid, BoundaryRole role) {
   return count;
 }
 
-// Every edge of the mesh's boundary in one chain, chains one after another end to end.
+// The boundaries contain every edge of the mesh's boundary exactly once.
 void expectWholeBoundary(const Grid& grid) {
   std::vector<NodePair> told, edges;
   for (const Boundary& boundary : grid.boundaries)
@@ -70,7 +70,7 @@ TEST_F(AssignBoundaries, PolygonsTellWhatLiesInThem) {
   BoundaryOptions options;
   options.files = {file};
   const BoundaryReport report = assignBoundaries(grid, options);
-  // Middles at 53.5, 54.5, 55.5, 56.5 and 52.5 (on the polygon's boundary, which may be either).
+  // Middles at 53.5, 54.5, 55.5 and 56.5; those at 52.5 and 57.5 are on the polygon's boundary, and may count or not.
   EXPECT_GE(edgesOfRole(grid, BoundaryRole::Open), 4u);
   EXPECT_LE(edgesOfRole(grid, BoundaryRole::Open), 6u);
   EXPECT_EQ(edgesOfRole(grid, BoundaryRole::River), 2u);
@@ -81,7 +81,7 @@ TEST_F(AssignBoundaries, PolygonsTellWhatLiesInThem) {
 
 TEST_F(AssignBoundaries, LinesTellWhatRunsAlongThem) {
   Grid grid = sea();
-  // Along the southern side up to half of it, not quite on it; the corner's other side is not meant.
+  // Along half of the southern side, not quite on it; the other side at the corner does not count.
   const auto file = put("types.geojson", feature("\"open\"", "LineString", "[[10,50.01],[13,49.98],[15,50]]"));
   BoundaryOptions options;
   options.files = {file};
@@ -124,10 +124,10 @@ TEST_F(AssignBoundaries, TheLastFeatureCounts) {
   std::size_t no_slip = 0;
   for (const Boundary& boundary : grid.boundaries)
     if (boundary.ibtype == 10) no_slip += edgesOf(boundary).size();
-  EXPECT_GE(no_slip, 10u);  // the north, and perhaps half an edge at either end
+  EXPECT_GE(no_slip, 10u);  // the north, and possibly an edge at either end, whose middle is on the polygon's boundary
   EXPECT_LE(no_slip, 12u);
   EXPECT_EQ(edgesOfRole(grid, BoundaryRole::Open), 40u - no_slip);
-  EXPECT_EQ(edgesOfRole(grid, BoundaryRole::Island), 4u);  // closed, though the polygon holds it
+  EXPECT_EQ(edgesOfRole(grid, BoundaryRole::Island), 4u);  // islands inside the polygon stay closed
   expectWholeBoundary(grid);
 }
 
@@ -160,7 +160,7 @@ TEST_F(AssignBoundaries, DepthOpensOuterLoopsOnly) {
 TEST_F(AssignBoundaries, ShortOnesBecomePartOfLongerOnes) {
   Grid grid = sea();
   for (const Point& node : grid.nodes) {
-    const bool shallow = node.y == 50.0 && (node.x == 14.0 || node.x == 17.0);  // cut the southern side in three
+    const bool shallow = node.y == 50.0 && (node.x == 14.0 || node.x == 17.0);  // divide the southern side in three
     grid.z.push_back(shallow || node.y > 50.0 ? -1.0 : -100.0);
   }
   BoundaryOptions options;

@@ -1,4 +1,4 @@
-// Which polygon or line an edge of the boundary gets its type from.
+// Which polygon or line determines the type of a boundary edge.
 #include "gis/model/boundary_rules.hpp"
 
 #include <gtest/gtest.h>
@@ -49,7 +49,7 @@ Kinds kindsOfTwo(const BoundaryRules& rules) {
 
 const Ring kSquare{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
 
-// Rules are searched by place: the same as looking at each of them.
+// Rules are found by a spatial search; the result is that of testing each of them.
 TEST(BoundaryRules, TheLastOfManyPolygonsCountsAndNoneOpensIslands) {
   const TemporaryFolder folder;
   std::mt19937 random(20261125);
@@ -115,7 +115,7 @@ TEST(BoundaryRules, OfLinesAndPolygonsOfAnInputTheLastCounts) {
 
 TEST(BoundaryRules, AnInputDefinesNothingUnlessItsColumnIsGiven) {
   RawLayer layer = layerOf(FeatureUse::Area);
-  addPolygon(layer, "type", "reed", kSquare);  // what a lake's column of this name may well hold
+  addPolygon(layer, "type", "reed", kSquare);  // a lake's column of this name may well contain this
   BoundaryRules rules;
   rules.addInput({layer}, "");
   EXPECT_TRUE(rules.empty());

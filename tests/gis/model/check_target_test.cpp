@@ -1,4 +1,4 @@
-// What models refuse, planted one by one in a mesh that they take; and its repair.
+// Defects that models refuse, each planted in a mesh that they accept, and their repair.
 #include "gis/model/check_target.hpp"
 
 #include <gmock/gmock.h>
@@ -79,7 +79,7 @@ TEST(CheckTarget, HangingNode) {
   for (const Target target : kAll) EXPECT_TRUE(kindsIn(grid, target).contains(TargetDefectKind::HangingNode));
 }
 
-// Its southern side runs along a parallel from 179.97 to -179.95.
+// The southern side runs along a parallel from 179.97 to -179.95.
 TEST(CheckTarget, NothingHangsOnAnEdgeAcrossTheAntimeridian) {
   Grid grid = soundGrid();
   grid.crs = wgs84();
@@ -107,7 +107,7 @@ TEST(CheckTarget, PinchedNode) {
   }
 }
 
-// A node is doubled in a round in which its triangles ask for longer edges too.
+// A node is duplicated in a round in which its triangles also need longer edges.
 TEST(CheckTarget, PinchedNodeOfTrianglesThatMissTheStep) {
   const TriMesh mesh = lattice(
       9, 9, [](int i, int j) { return ((i / 3) + (j / 3)) % 2 == 0; },
@@ -185,7 +185,7 @@ TEST(CheckTarget, SegmentsOfNodes) {
   }
 }
 
-// As files have them.
+// Counts and loops as files state them.
 TEST(CheckTarget, WhatFilesSayOfThemselves) {
   const TemporaryFolder folder;
   const auto read = [&](const std::string& edited) {
@@ -216,7 +216,7 @@ TEST(CheckTarget, WhatFilesSayOfThemselves) {
   }
 }
 
-// The corner of a square: both its edges in one triangle.
+// The corner of a square: both its edges belong to one triangle.
 Grid corner(bool both_open) {
   const TriMesh mesh = lattice(
       4, 4, [](int, int) { return true; },
@@ -258,7 +258,7 @@ TEST(CheckTarget, LoneWall) {
   }
 }
 
-// A wall of two edges has one solid node, which TELEMAC refuses between liquid ones; with three it has two.
+// A wall of two edges has a single solid node, which TELEMAC refuses between liquid ones; a wall of three has two.
 TEST(CheckTarget, OneSolidNodeBetweenOpenings) {
   for (const double length : {2000.0, 3000.0}) {
     Grid grid = soundGrid();
@@ -274,7 +274,7 @@ TEST(CheckTarget, OneSolidNodeBetweenOpenings) {
   }
 }
 
-// A fan of `cells` triangles round an inner node, in a ring of squares that ends it.
+// A fan of `cells` triangles around an inner node, surrounded by a ring of squares.
 Grid fan(int cells) {
   Grid grid;
   grid.nodes.push_back({0.0, 0.0});
@@ -315,13 +315,13 @@ TEST(CheckTarget, Valence) {
 
 TEST(CheckTarget, LargeAngle) {
   Grid grid = soundGrid();
-  // A node moved towards an edge opens an angle past 143 degrees.
+  // A node moved towards an edge makes an angle of more than 143 degrees.
   grid.nodes[30].y += 760.0;
   ASSERT_TRUE(kindsIn(grid, Target::Swan).contains(TargetDefectKind::LargeAngle));
   expectMended(grid, {Target::Swan});
 }
 
-// Models differ in whether they take differences of longitudes as they are.
+// Models differ in whether they use differences in longitude as they are.
 TEST(CheckTarget, RoundTheGlobe) {
   Grid past = soundGrid();
   past.crs = wgs84();
@@ -343,7 +343,7 @@ TEST(CheckTarget, RoundTheGlobe) {
   }
 }
 
-// Round a pole longitudes have to jump somewhere.
+// Around a pole, longitudes must jump somewhere.
 TEST(CheckTarget, RoundThePole) {
   Grid grid;
   grid.crs = wgs84();
@@ -362,14 +362,12 @@ TEST(CheckTarget, RoundThePole) {
   }
 }
 
-// At 75 degrees north, where a degree of longitude is a quarter of one
-// of latitude.
+// At 75 degrees north, where a degree of longitude is a quarter of one of latitude.
 TEST(CheckTarget, SwanMeasuresAnglesOfDegreesAsIfTheyWereAPlane) {
   Grid grid = soundGrid();
   grid.crs = wgs84();
   for (Point& p : grid.nodes) p = {p.x * 1e-5 / std::cos(75.0 * M_PI / 180.0), 75.0 + p.y * 1e-5};
-  // Equilateral on the ground; 60 degrees at the top become 2 atan(tan(30) / cos(75)) = 131.7, those of 70 become
-  // 139.4.
+  // Equilateral on the ground: 60 degrees at the top become 2 atan(tan(30) / cos(75)) = 131.7, and 70 become 139.4.
   EXPECT_EQ(kindsIn(grid, Target::Swan), Kinds{});
   grid.nodes[30].y -= 260e-5;
   EXPECT_EQ(kindsIn(grid, Target::Swan), Kinds{TargetDefectKind::LargeAngle});
@@ -382,14 +380,14 @@ TEST(CheckTarget, SwanMeasuresAnglesOfDegreesAsIfTheyWereAPlane) {
     EXPECT_LT(std::ranges::max(anglesDeg(on_ground(a), on_ground(b), on_ground(c))), 110.0);
   }
   expectMended(grid, {Target::Swan});
-  // The other way round: 150 degrees on the ground, far fewer in the file.
+  // The reverse: equilateral in degrees, with angles of 17 and 81.5 degrees on the ground.
   Grid flat = soundGrid();
   flat.crs = wgs84();
   for (Point& p : flat.nodes) p = {p.x * 1e-5, 75.0 + p.y * 1e-5};
   EXPECT_EQ(kindsIn(flat, Target::Swan), Kinds{});
 }
 
-// The corners of a rhombus: two of them have both their edges in one triangle.
+// Two of the rhombus' corners have both their edges in one triangle.
 TEST(CheckTarget, OneNeighbourIsTooFewForFesom) {
   const Grid grid = soundGrid();
   const std::vector<TargetDefect> found = checkTarget(grid, Target::Fesom);
@@ -413,26 +411,27 @@ TEST(CheckTarget, FesomsPartitionerHasRoomForSoManyTriangles) {
   expectMended(fan(33), {Target::Fesom});
 }
 
-// Latitudes are those of a sphere, whatever the ellipsoid: at 60 degrees a degree of longitude is half of one of
-// latitude. The flat triangle counts: its corners' angles add up to 180.
+// Latitudes are on a sphere, whatever the ellipsoid: at 60 degrees, a degree of longitude is half of one of latitude.
+// Angles are those of the flat triangle, which add up to 180.
 TEST(CheckTarget, MpasMeasuresAnglesOnItsSphere) {
   for (const double lon : {10.0, 179.99}) {
     for (const double off : {-1e-4, 1e-4}) {
       Grid grid;
       grid.crs = wgs84();
-      // The corner in the north opens to 90 degrees where it lies half as far from the base as that is long.
+      // On the ground, the northern corner has 90 degrees if it is half as far from the base as the base is long.
       const double half = 0.02;
       grid.nodes = {{lon - half, 60.0}, {lon + half, 60.0}, {lon, 60.0 + half * 0.5 + off}};
       if (lon + half > 180.0) grid.nodes[1].x -= 360.0;
       grid.triangles = {{0, 1, 2}};
       const bool obtuse = off < 0;
       EXPECT_EQ(kindsIn(grid, Target::Mpas).contains(TargetDefectKind::LargeAngle), obtuse) << lon << ' ' << off;
-      // Beside it, not on the other side of the Earth.
+      // The place is at the triangle, not on the other side of the Earth.
       for (const TargetDefect& defect : checkTarget(grid, Target::Mpas))
         EXPECT_NEAR(std::remainder(defect.place.x - lon, 360.0), 0.0, 0.1);
     }
   }
-  // A node at the pole: the other two far apart in longitude. An octant has 60 degrees in each corner of its chords.
+  // With a node at the pole, the others are far apart in longitude. The chords of an octant have 60 degrees in each
+  // corner.
   EXPECT_NEAR(largestSphereAngle(wgs84(), {0, 0}, {90, 0}, {123, 90}), 60.0, 1e-12);
   EXPECT_NEAR(largestSphereAngle(wgs84(), {170, 80}, {-170, 80}, {0, 90}), 80.03844190190964, 1e-9);
 }
@@ -445,15 +444,15 @@ TEST(CheckTarget, ObtuseTrianglesAreMendedForMpas) {
 }
 
 TEST(CheckTarget, SmallFlowLink) {
-  // Centres are the middles of the hypotenuses: a square's two are one.
+  // Circumcentres are the middles of the hypotenuses: those of a square's two triangles coincide.
   EXPECT_NEAR(flowLinkAcross({0, 0}, {4, 4}, {0, 4}, {4, 0}).length, 0.0, 1e-12);
-  // On one circle too, though one of the triangles is obtuse: its centre may be kept within it, or not.
+  // Cocircular, too, though one triangle is obtuse: models may keep its centre inside it, or not.
   EXPECT_NEAR(flowLinkAcross({3, 4}, {-3, 4}, {0, -5}, {0, 5}).length, 0.0, 1e-12);
   // Equilateral with sides of 2: centres 2 / sqrt(3) apart, areas sqrt(3).
   EXPECT_NEAR(flowLinkAcross({0, 0}, {2, 0}, {1, std::sqrt(3.0)}, {1, -std::sqrt(3.0)}).length,
               2.0 / std::sqrt(3.0) / std::pow(3.0, 0.25), 1e-12);
   Grid grid = soundGrid();
-  // Two triangles that share an edge get right angles there, on one circle round its middle.
+  // Gives two neighbouring triangles right angles, with their corners on a circle around the middle of the common edge.
   const auto [a, b, c] = grid.triangles[50];
   const Point middle{(grid.nodes[b].x + grid.nodes[c].x) / 2.0, (grid.nodes[b].y + grid.nodes[c].y) / 2.0};
   for (const auto& corners : grid.triangles) {
@@ -468,13 +467,13 @@ TEST(CheckTarget, SmallFlowLink) {
   expectMended(grid, {Target::Dflowfm});
   const std::size_t nodes = grid.nodes.size();
   const RepairReport report = repairForTargets(grid, std::array{Target::Dflowfm});
-  EXPECT_EQ(grid.nodes.size(), nodes);  // moved is enough
+  EXPECT_EQ(grid.nodes.size(), nodes);  // moving is enough
   EXPECT_EQ(report.repairs.front().what, "node moved");
 }
 
-// On the boundary and on lines nothing moves.
+// Nodes on the boundary and on lines do not move.
 TEST(CheckTarget, NoRepairMovesABoundaryOrALine) {
-  Grid grid = corner(false);  // squares cut in two: each diagonal is a link of no length
+  Grid grid = corner(false);  // squares cut in two: each diagonal is a flow link of length 0
   grid.lines = {{LineKind::Constraint, "dam", false, {}}};
   for (std::uint32_t node = 0; node < grid.nodes.size(); ++node)
     if (grid.nodes[node].x == 2000.0) grid.lines[0].nodes.push_back(node);
@@ -497,9 +496,9 @@ TEST(CheckTarget, NoRepairMovesABoundaryOrALine) {
 }
 
 TEST(CheckTarget, Orthogonality) {
-  // Right angles: the line between the middles of hypotenuses meets the edge squarely, or along it.
+  // In acute triangles, the line between the circumcentres is perpendicular to the edge.
   EXPECT_NEAR(flowLinkAcross({0, 0}, {2, 0}, {1, std::sqrt(3.0)}, {1, -std::sqrt(3.0)}).cosine, 0.0, 1e-12);
-  EXPECT_NEAR(flowLinkAcross({0, 0}, {4, 0}, {1, 3}, {3, -3}).cosine, 0.0, 1e-12);  // acute: always
+  EXPECT_NEAR(flowLinkAcross({0, 0}, {4, 0}, {1, 3}, {3, -3}).cosine, 0.0, 1e-12);  // acute, not equilateral
   Grid grid = soundGrid();
   grid.nodes[30].y += 760.0;
   ASSERT_TRUE(kindsIn(grid, Target::Dflowfm).contains(TargetDefectKind::NotOrthogonal));
@@ -510,7 +509,7 @@ TEST(CheckTarget, OpeningsAreUnderWater) {
   Grid grid = openGrid();
   const auto open = std::ranges::find(grid.boundaries, BoundaryRole::Open, &Boundary::role);
   ASSERT_NE(open, grid.boundaries.end());
-  // At its end, where land is near, two nodes in a row.
+  // Two consecutive nodes at the end of the opening, near land.
   const std::uint32_t first = open->nodes.at(0), second = open->nodes.at(1);
   grid.z[first] = 3.0;
   grid.z[second] = 0.5;
@@ -524,7 +523,7 @@ TEST(CheckTarget, OpeningsAreUnderWater) {
   EXPECT_EQ(kindsIn(mended, Target::Adcirc), Kinds{});
   EXPECT_LT(mended.z[first], 0.0);
   EXPECT_LT(mended.z[second], 0.0);
-  // Above the water elsewhere is land that may flood.
+  // Elsewhere, nodes above the water are land that may flood.
   grid.z[first] = grid.z[second] = -5.0;
   grid.z[40] = 3.0;
   EXPECT_EQ(kindsIn(grid, Target::Adcirc), Kinds{});
@@ -536,7 +535,7 @@ TEST(CheckTarget, Courant) {
   EXPECT_EQ(kindsIn(soundGrid(), Target::Adcirc, {100.0}), Kinds{TargetDefectKind::Courant});
   EXPECT_EQ(kindsIn(soundGrid(), Target::Schism, {100.0}), Kinds{});
   EXPECT_EQ(kindsIn(soundGrid(), Target::Schism, {20.0}), Kinds{TargetDefectKind::Courant});
-  // The worst first; SCHISM, TELEMAC and D-Flow FM run all the same.
+  // The worst first. SCHISM, TELEMAC and D-Flow FM run nevertheless, so that theirs is advice.
   for (const Target target : {Target::Adcirc, Target::Fvcom, Target::Telemac, Target::Dflowfm, Target::Schism}) {
     const bool from_below = target == Target::Schism;
     const std::vector<TargetDefect> found = checkTarget(soundGrid(), target, {from_below ? 20.0 : 100.0});
@@ -549,7 +548,7 @@ TEST(CheckTarget, Courant) {
   }
 }
 
-// Angles and areas of what was changed are measured again, features kept.
+// Angles and areas of changed triangles are measured again; features are kept.
 TEST(CheckTarget, RepairKeepsWhatTrianglesTell) {
   Grid grid = corner(true);
   grid.feature_of.assign(grid.triangles.size(), 0);
@@ -569,7 +568,7 @@ TEST(CheckTarget, RepairKeepsWhatTrianglesTell) {
   EXPECT_NEAR(area, 16e6, 1.0);
 }
 
-// What a weir joins cannot be taken apart.
+// Nodes joined by a weir cannot be separated, so meshes with weirs are not repaired.
 TEST(Targets, DefectsOfAMeshWithWeirsAreNamedAndCountsAreNone) {
   Grid grid = soundGrid();
   grid.boundaries.back().weir = {1.0, 1.0, 1.0};

@@ -68,7 +68,7 @@ TEST_F(Depth, NodesBesideTheRasterKeepWhatTheyHave) {
   const std::string file = raster("dem.tif", "EPSG:4326", {10, 40, 9.0, 53.0, 0.1}, slope);
   Grid grid = squares("EPSG:4326", {9.23, 50.07}, 0.31, 7, 5);
   for (std::size_t i = 0; i < grid.nodes.size(); ++i) grid.z.push_back(-1000.0 - static_cast<double>(i));
-  grid.z[7] = std::numeric_limits<double>::quiet_NaN();  // in the east: to be filled
+  grid.z[7] = std::numeric_limits<double>::quiet_NaN();  // in the east: must be filled
   const std::vector<double> before = grid.z;
   const DepthReport report = setDepths(grid, {.files = {file}, .keep_known = true});
   std::size_t kept = 0;
@@ -96,7 +96,7 @@ TEST_F(Depth, ZeroEverywhereIsNoDepth) {
   EXPECT_FALSE(hasDepths(grid));
 }
 
-// A value that stands for none, and the raster does not say so.
+// A value that stands for missing depths, which the raster does not declare.
 TEST_F(Depth, ThatEarthDoesNotHaveAreWarnedOf) {
   const auto warningsOf = [&](double value, bool positive_down) {
     Grid grid = squares("EPSG:4326", {10.03, 50.07}, 0.31, 7, 5);
@@ -114,8 +114,8 @@ TEST_F(Depth, ThatEarthDoesNotHaveAreWarnedOf) {
   EXPECT_EQ(warningsOf(8848.0, false), "");
 }
 
-// Three tiles of the raster, two of them with enough nodes for a reader of their own; a part of it has no value, where
-// depths are those of other nodes.
+// Three tiles of the raster, two of them with enough nodes for a separate reader; a part of the raster has no values
+// and gets the depths of other nodes.
 TEST_F(Depth, SameInAnyOrder) {
   const auto withGap = [](double x, double y) { return x > 11.0 && y > 51.0 ? kNoValue : slope(x, y); };
   const std::string file = raster("dem.tif", "EPSG:4326", {1600, 1600, 9.0, 53.0, 0.0025}, withGap);
@@ -146,7 +146,7 @@ TEST_F(Depth, SignAndWaterLevel) {
     EXPECT_NEAR(grid.z[i], -slope(grid.nodes[i].x, grid.nodes[i].y) - 2.5, 1e-9);
 }
 
-// A raster in degrees under a projected mesh: values are those of the places, not of the numbers.
+// A raster in degrees under a projected mesh: values are found by place, not by coordinates.
 TEST_F(Depth, AnyCrs) {
   Grid grid = squares("EPSG:32632", {400000.0, 5500000.0}, 5000.0, 8, 8);
   setDepths(grid, {{raster("dem.tif", "EPSG:4326", {400, 400, 7.0, 51.0, 0.01}, slope)}});
@@ -157,7 +157,7 @@ TEST_F(Depth, AnyCrs) {
   }
 }
 
-// The mean of a plane over all triangles round a node is its value at their common centre of gravity.
+// The mean of a plane over all triangles around a node is its value at their common centroid.
 TEST_F(Depth, AverageIsTheMeanOverTheTriangles) {
   Grid grid = squares("plane", {0.0, 0.0}, 16.0, 6, 5);
   const auto file = raster("dem.tif", "", {1200, 1000, -10.0, 90.0, 0.125}, slope);
@@ -175,7 +175,7 @@ TEST_F(Depth, AverageIsTheMeanOverTheTriangles) {
   for (std::size_t i = 0; i < grid.nodes.size(); ++i) EXPECT_NEAR(grid.z[i], sum[i] / area[i], 0.15) << i;
 }
 
-// Triangles by the thousand over several tiles, each of which is read by a share of its own; many lie over two.
+// Thousands of triangles over several tiles, each tile read separately; many triangles are on two tiles.
 TEST_F(Depth, AverageIsTheSameInAnyOrder) {
   const std::string file = raster("dem.tif", "", {1600, 1600, 0.0, 1600.0, 1.0}, slope);
   Grid grid = squares("plane", {100.0, 100.0}, 7.0, 200, 200), other = grid;
@@ -184,19 +184,19 @@ TEST_F(Depth, AverageIsTheSameInAnyOrder) {
   EXPECT_EQ(report.averaged, grid.nodes.size());
   EXPECT_EQ(setDepths(other, options, {}, testing::backwards).averaged, report.averaged);
   EXPECT_EQ(other.z, grid.z);
-  // Within a triangle's reach of the node.
+  // Within one triangle of the node.
   for (std::size_t i = 0; i < grid.nodes.size(); ++i)
     EXPECT_NEAR(grid.z[i], slope(grid.nodes[i].x, grid.nodes[i].y), 7.0 * 5.0);
 }
 
-// Pixels are far smaller than triangles: a wild surface averages out, where a point of it does not.
+// Pixels much smaller than triangles: a rough surface averages out, unlike its value at a point.
 TEST_F(Depth, AverageSmooths) {
   const auto wild = [](double x, double y) { return -100.0 + 60.0 * std::sin(9.7 * x) * std::sin(8.3 * y); };
   const auto file = raster("dem.tif", "", {1000, 1000, 0.0, 100.0, 0.1}, wild);
   Grid grid = squares("plane", {10.0, 10.0}, 12.0, 5, 5);
   setDepths(grid, {{file}, DepthMethod::Average});
   for (const double z : grid.z) EXPECT_NEAR(z, -100.0, 3.0);
-  // Triangles smaller than a pixel say nothing: bilinear there.
+  // Triangles smaller than a pixel have no mean: bilinear there.
   Grid fine = squares("plane", {50.0, 50.0}, 0.02, 4, 4);
   const DepthReport report = setDepths(fine, {{file}, DepthMethod::Average});
   EXPECT_EQ(report.averaged, 0u);
@@ -248,7 +248,7 @@ TEST_F(Depth, GapsAreFilledAndCounted) {
   }
 }
 
-// A hole in a bed that is a plane: its nodes are on the plane again, up to what the means are off.
+// A hole in a planar bed: filled depths are on the plane, within the error of the means.
 TEST_F(Depth, AGapIsFilledAsSmoothlyAsTheBedAroundIt) {
   const auto holed = raster("holed.tif", "EPSG:4326", {400, 400, 10.0, 52.0, 0.005}, [](double x, double y) {
     return std::hypot(x - 11.0, y - 51.0) < 0.4 ? kNoValue : slope(x, y);
@@ -285,7 +285,7 @@ TEST_F(Depth, NearestDepthsAcrossTheAntimeridian) {
   }
 }
 
-// A raster that ends a little before the mesh does needs no words.
+// A raster that ends slightly before the mesh needs no warning.
 TEST_F(Depth, AFewNodesWithoutAValueAreNotWarnedOf) {
   const auto most = raster("most.tif", "EPSG:4326", {200, 200, 10.0, 52.0, 0.01},
                            [](double x, double y) { return x > 10.1 || y > 50.1 ? -x : kNoValue; });
@@ -295,7 +295,7 @@ TEST_F(Depth, AFewNodesWithoutAValueAreNotWarnedOf) {
   EXPECT_TRUE(report.warnings.empty());
 }
 
-// Longitudes of another turn, and a raster whose last column meets its first.
+// Longitudes of another turn, and a raster whose last column adjoins its first.
 TEST_F(Depth, GoesRoundTheEarth) {
   const auto wave = [](double x, double) { return -100.0 + 50.0 * std::cos(x * M_PI / 180.0); };
   const auto world = raster("world.tif", "EPSG:4326", {720, 360, 0.0, 90.0, 0.5}, wave);
@@ -327,7 +327,7 @@ TEST_F(Depth, WarnsOfTheWrongSign) {
   EXPECT_THAT(setDepths(grid, {{depths}}).warnings[0], HasSubstr("--depth-sign"));
 }
 
-// Heights of a lake's bed are all far above the rasters' zero; depths given as heights begin at it.
+// Heights of a lake's bed are all far above the raster's zero; depths given as heights begin at zero.
 TEST_F(Depth, WarnsOfALakeAboveTheRastersZero) {
   Grid grid = squares("EPSG:4326", {10.0, 50.0}, 0.25, 8, 8);
   const auto warningsOf = [&](const char* name, double least) {

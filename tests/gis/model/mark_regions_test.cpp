@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kSide = 30;
 
-// The square from (0, 0) to (kSide, kSide), each unit of it two triangles, in feature 0.
+// The square from (0, 0) to (kSide, kSide), two triangles per unit square, in feature 0.
 TriMesh squares() {
   TriMesh mesh;
   for (int y = 0; y <= kSide; ++y)
@@ -39,7 +39,8 @@ Feature region(std::int64_t fid, const Ring& outer, std::vector<Ring> holes = {}
   return feature;
 }
 
-// One for each square, over these some that are wider or have holes: of several the first counts.
+// One for every second square, and wider ones that overlap these, one with a hole: the first that holds a triangle
+// counts.
 TEST(MarkRegions, TheFirstThatHoldsATriangleCounts) {
   Coastline coastline = coastlineOf({polygonFeature(0, square(0, 0, kSide))});
   coastline.features.push_back(region(1, square(4, 4, 6), {square(6, 6, 2)}));

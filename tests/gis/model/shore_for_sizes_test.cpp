@@ -1,4 +1,4 @@
-// Which parts of a domain's boundary are no shore for sizes, since files or depths are going to open them.
+// The parts of a domain's boundary that are not shore for sizes, because files or depths will open them.
 #include "gis/model/shore_for_sizes.hpp"
 
 #include <gtest/gtest.h>
@@ -43,7 +43,7 @@ class ShoreForSizes : public testing::SizeFiles {
     return options;
   }
 
-  // Of the shore: how much of the outer boundary and of the island is left, metres.
+  // The lengths of shore left at the outer boundary and at the island, metres.
   struct Left {
     double outer = 0.0, island = 0.0;
   };
@@ -65,7 +65,7 @@ class ShoreForSizes : public testing::SizeFiles {
 };
 
 TEST_F(ShoreForSizes, PolygonsOpenPartsOfOuterSegmentsAndNoIslands) {
-  // The western half, which cuts the southern and northern sides in the middle.
+  // The western half, which divides the southern and northern sides in the middle.
   const auto west = of("open", "Polygon", "[[[-10,-10],[5020,-10],[5020,6010],[-10,6010],[-10,-10]]]");
   const Left left = leftBy(west);
   EXPECT_NEAR(left.outer, 32000.0 - 6000.0 - 2 * 5020.0, 2 * 50.0);
@@ -95,7 +95,7 @@ TEST_F(ShoreForSizes, ShortOpeningsAreMergedAndShortShoresStay) {
   auto options = of("open", "LineString", "[[2000,0],[3000,0]]");
   options.least_length_m = 1500.0;
   EXPECT_EQ(leftBy(options).outer, 32000.0);
-  // All but a short piece of the south is open, which the grid's boundary loses; it is a shore nevertheless.
+  // All but a short piece of the south is open. The grid's boundary loses that piece; here it stays a shore.
   options =
       of("open", "Polygon",
          "[[[-10,-10],[4500,-10],[4500,100],[5500,100],[5500,-10],[10010,-10],[10010,6010],[-10,6010],[-10,-10]]]");
@@ -105,7 +105,7 @@ TEST_F(ShoreForSizes, ShortOpeningsAreMergedAndShortShoresStay) {
 
 TEST_F(ShoreForSizes, DepthsOpenOuterBoundariesThatAreDeep) {
   DepthOptions depths;
-  // Deeper by 1 m each 100 m eastwards; nothing is known in the south east.
+  // Deeper by 1 m every 100 m eastwards; unknown in the south-east.
   depths.files = {raster("depths.tif", 120, 80, {-1000, 100, 0, 7000, 0, -100}, 0,
                          [](double x, double y) { return x > 7000.0 && y < 1000.0 ? -9999.0 : -x / 100.0; })};
   BoundaryOptions options;
@@ -126,7 +126,7 @@ TEST_F(ShoreForSizes, GraphsWithoutLabelsToo) {
   EXPECT_EQ(shore->segments.size(), 4u);  // the island's
 }
 
-// The boundary in pieces as long as elements is opened as that of a mesh with these elements.
+// A boundary in pieces as long as elements is opened like that of a mesh with these elements.
 TEST_F(ShoreForSizes, ItIsWhatTheGridsBoundaryBecomes) {
   Domain fine = planeDomain({});
   const auto side = [&](Point from, Point to, int count) {

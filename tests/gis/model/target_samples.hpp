@@ -33,7 +33,7 @@ inline Grid soundGrid() {
   return grid;
 }
 
-// The southern side open.
+// The sound grid with an open southern side.
 inline Grid openGrid() {
   Grid grid = soundGrid();
   const auto loops = boundaryLoops(grid);
@@ -51,7 +51,7 @@ inline std::set<TargetDefectKind> kindsIn(const Grid& grid, Target target, const
 
 using Kinds = std::set<TargetDefectKind>;
 
-// Mended, the grid has no defect for any of the targets, covers the same area but for `lost`, and each repair is
+// After repair, the grid has no defect for any of the targets and covers the same area except `lost`; repairs are
 // reported.
 inline void expectMended(Grid grid, std::vector<Target> targets, double lost = 0.0) {
   const auto area = [](const Grid& of) {

@@ -1,4 +1,4 @@
-// The time step that a grid leaves to a model, by geodesics; and floors of sizes that hold it once they are graded.
+// The time step that a grid allows a model, by geodesics; and floors of sizes that still hold after grading.
 #include "gis/model/time_step.hpp"
 
 #include <gdal.h>
@@ -19,7 +19,7 @@ namespace {
 
 using testing::lattice;
 
-// Squares of a tenth of a degree at a latitude, cut into triangles, 40 m deep but for one node.
+// Squares of a tenth of a degree at `latitude`, cut into triangles, 40 m deep except one node.
 Grid gridAt(double latitude) {
   const TriMesh mesh = lattice(
       6, 4, [](int, int) { return true; },
@@ -85,10 +85,10 @@ TEST(TimeStep, WhatFallsShortIsListedWorstFirstWithItsCause) {
   ASSERT_FALSE(found.empty());
   EXPECT_TRUE(std::ranges::is_sorted(found, {}, &ShortStep::step_s));
   EXPECT_NEAR(found.front().step_s, least, 1e-9 * least);
-  // A larger Courant number leaves room for a longer step.
+  // A larger Courant number allows a longer step.
   EXPECT_TRUE(stepsBelow(grid, 1.5 * least, 1.6).empty());
 
-  // Sides along parallels are the shorter ones; those of the outermost rows are shore.
+  // The edges along parallels are the shorter ones; those of the outermost rows are shore.
   const double parallel = geodesicBetween(grid.nodes[0], grid.nodes[1]);
   const std::vector<ShortEdge> edges = edgesBelow(grid, 1.0001 * parallel);
   ASSERT_EQ(edges.size(), 5u * 6u);
@@ -106,7 +106,7 @@ TEST(TimeStep, AnEdgeFromShoreToShoreIsNarrow) {
   EXPECT_EQ(std::ranges::count(edges, ShortCause::Shore, &ShortEdge::cause), 8);
 }
 
-// Beside a cliff of 2000 m the shelf's sizes have to grow towards it before it comes.
+// Beside a cliff of 2000 m, sizes on the shelf must grow before the cliff is reached.
 TEST(TimeStep, SizesGrowTowardsDeepWaterAsFarAsGradingNeeds) {
   GDALAllRegister();
   const testing::TemporaryFolder folder;

@@ -1,4 +1,4 @@
-// Sheets over one another, planted in meshes without any.
+// Overlapping sheets, planted in meshes without overlaps.
 #include "gis/model/triangle_overlaps.hpp"
 
 #include <gmock/gmock.h>
@@ -54,7 +54,7 @@ TEST(TriangleOverlaps, NoneWhereSheetsAreBesideOneAnother) {
   for (const Crs& crs : {Crs{}, wgs84()}) {
     Grid grid = squares({10.0, 50.0}, 0.25, crs);
     EXPECT_THAT(overlapsIn(grid), IsEmpty());
-    appendGrid(grid, squares({11.0, 50.1}, 0.25, crs));  // touches it along a side, with nodes of its own
+    appendGrid(grid, squares({11.0, 50.1}, 0.25, crs));  // adjoins a side, with nodes of its own
     EXPECT_THAT(overlapsIn(grid), IsEmpty());
   }
 }
@@ -63,7 +63,7 @@ TEST(TriangleOverlaps, SheetsOverOneAnother) {
   for (const Crs& crs : {Crs{}, wgs84()}) {
     Grid grid = squares({10.0, 50.0}, 0.25, crs);
     appendGrid(grid, squares({10.6, 50.6}, 0.25, crs));
-    // Squares 2 and 3 of both directions of the one, 0 and 1 of the other.
+    // Squares 2 and 3 in both directions of one, 0 and 1 of the other.
     const std::vector<TriangleOverlap> found = overlapsIn(grid);
     EXPECT_THAT(found, ::testing::Not(IsEmpty()));
     for (const auto& [t, other] : found) {
@@ -73,7 +73,7 @@ TEST(TriangleOverlaps, SheetsOverOneAnother) {
   }
 }
 
-// The second lies wholly within the first, so that no sides cross.
+// The second is entirely inside the first, so no sides cross.
 TEST(TriangleOverlaps, ASheetWithinAnother) {
   for (const Crs& crs : {Crs{}, wgs84()}) {
     Grid grid = squares({10.0, 50.0}, 1.0, crs);
@@ -102,13 +102,13 @@ TEST(TriangleOverlaps, ACopyOfATriangle) {
 TEST(TriangleOverlaps, AcrossTheAntimeridian) {
   Grid grid = squares({179.3, -17.0}, 0.25, wgs84());
   EXPECT_THAT(overlapsIn(grid), IsEmpty());
-  Grid past180 = squares({10.0, -17.0}, 0.25, wgs84());  // the same place, with longitudes counted on
+  Grid past180 = squares({10.0, -17.0}, 0.25, wgs84());  // the same place, with longitudes past 180
   for (Point& p : past180.nodes) p.x += 169.4;
   appendGrid(grid, std::move(past180));
   EXPECT_THAT(overlapsIn(grid), ::testing::Not(IsEmpty()));
 }
 
-// Sectors round a pole; a second set of them turned by half a sector.
+// Sectors around a pole; a second set is rotated by half a sector.
 TEST(TriangleOverlaps, RoundAPole) {
   for (const bool corner_at_pole : {true, false}) {
     const auto addCap = [corner_at_pole](Grid& grid, double west) {
@@ -132,7 +132,7 @@ TEST(TriangleOverlaps, RoundAPole) {
   }
 }
 
-// A band that goes round more than once: each triangle is right beside its neighbours.
+// A band that winds around more than once, where each triangle is correctly beside its neighbours.
 TEST(TriangleOverlaps, ABandThatWindsOverItself) {
   const auto band = [](double turns) {
     Grid grid;
@@ -158,7 +158,7 @@ TEST(NodeMeets, HangingAndRepeatedNodes) {
   EXPECT_THAT(repeatedNodes(grid), IsEmpty());
   Grid beside = squares({4.0, 0.5}, 1.0);
   appendGrid(grid, std::move(beside));
-  // Four of either side along x = 4 lie on edges of the other.
+  // Four nodes on either side, along x = 4, are on edges of the other.
   EXPECT_THAT(hangingIn(grid), ElementsAre(9, 14, 19, 24, 25, 30, 35, 40));
   grid.nodes[49] = grid.nodes[0];
   EXPECT_THAT(repeatedNodes(grid), ElementsAre(49));

@@ -30,7 +30,7 @@ Projection fit(const Ring& ring, const Crs& crs = wgs84()) {
 
 double wrapped(double degrees) { return std::remainder(degrees, 360.0); }
 
-// Forward and inverse; scale and conformality against geodesics.
+// Tests forward and inverse, and scale and conformality against geodesics.
 void expectFaithful(const Projection& projection, const Point& lonlat) {
   SCOPED_TRACE(projection.description() + " at " + std::to_string(lonlat.x) + ", " + std::to_string(lonlat.y));
   const Point plane = projection.forward(lonlat);
@@ -93,7 +93,7 @@ INSTANTIATE_TEST_SUITE_P(Extents, FittedTo,
                                            Case{100, 120, -2, 2, "Lambert"},                 // Mercator, in effect
                                            Case{130, 150, -45, -40, "Lambert"},              // southern
                                            Case{170, 190, 50, 55, "Lambert"},                // Aleutians, past 180
-                                           Case{-190, -170, 50, 55, "Lambert"},              // and the other way
+                                           Case{-190, -170, 50, 55, "Lambert"},              // the same, from -180
                                            Case{4, 9, 52, 55, "oblique stereographic"},      // a roundish bay
                                            Case{0.001, 0.0016, 50, 50.0004, "oblique stereographic"},  // a pond
                                            Case{-80, -10, 0, 65, "oblique stereographic"},             // North Atlantic
@@ -123,7 +123,7 @@ TEST(Fitted, BothSidesOfTheAntimeridianMeet) {
 }
 
 TEST(Fitted, TheWholeOceanIsSeenFromTheOtherSideOfItsLargestLand) {
-  // All of the globe but a cap around 90°E 45°N and a smaller one about the south pole.
+  // The whole globe except a cap around 90°E 45°N and a smaller one around the south pole.
   Ring ocean = graticuleRing(-180, 180, -80, 90);
   Ring land;
   for (int i = 0; i < 72; ++i) {
@@ -144,7 +144,7 @@ TEST(Fitted, TheWholeOceanIsSeenFromTheOtherSideOfItsLargestLand) {
   }
 }
 
-// Land that is there twice is land all the same.
+// Duplicate land is land all the same.
 TEST(Fitted, LandMayBeThereTwice) {
   Ring land;
   for (int i = 0; i < 72; ++i) {
@@ -258,11 +258,11 @@ TEST(ToCrs, FeetAndDegreesAreUnitsToo) {
   const Projection feet = Projection::to(wgs84(), parseCrs("EPSG:2263"));  // New York, US survey feet
   EXPECT_NEAR(feet.scaleAt(feet.forward({-74, 40.5})), 3937.0 / 1200, 1e-3);
   const Projection degrees = Projection::to(parseCrs("EPSG:32631"), wgs84());
-  EXPECT_NEAR(1 / degrees.scaleAt({3, 0}), 110946, 100);  // metres a degree, between longitude and latitude
+  EXPECT_NEAR(1 / degrees.scaleAt({3, 0}), 110946, 100);  // metres per degree, between longitude and latitude
 }
 
 TEST(ToCrs, PointsComeBackToWhereTheyWereInEqualAreaPlanesToo) {
-  // Around, by azimuth and by cone; PROJ alone is a tenth of a millimetre off in the first.
+  // Azimuthal, cylindrical and conic; PROJ alone is a tenth of a millimetre off in the first.
   const Crs utm = parseCrs("EPSG:32631");
   for (const char* const plane : {"EPSG:3035", "EPSG:3857", "ESRI:102013", "ESRI:54034"}) {
     SCOPED_TRACE(plane);

@@ -15,7 +15,7 @@ namespace {
 struct Case {
   const char* name;
   double west, east, south, north;
-  bool all;  // of the squares are tabulated
+  bool all;  // true if all squares are tabulated
 };
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
@@ -28,7 +28,7 @@ class SmoothTableOf : public ::testing::TestWithParam<Case> {
   }
 };
 
-// Of a degree: some hundredths of a micrometre.
+// Degrees; some hundredths of a micrometre.
 constexpr double kNear = 5e-13;
 
 TEST_P(SmoothTableOf, PlacesAreTheProjectionsOwn) {
@@ -73,7 +73,7 @@ TEST(SmoothTable, OfFewPointsIsTheProjection) {
   EXPECT_EQ(table.at(points[1]), projection.inverse(points[1]));
 }
 
-// A step, a corner and what is not finite are no polynomials.
+// Steps, corners and values that are not finite are not polynomials.
 TEST(SmoothTable, LeavesOutWhatIsNotSmooth) {
   const auto map = [](const Point& x) {
     if (x.x > 3.1) return Point{x.x < 4.0 ? std::sqrt(3.99 - x.x) : x.x, std::abs(x.y - 2.3)};

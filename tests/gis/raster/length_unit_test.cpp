@@ -41,7 +41,7 @@ TEST(LengthUnit, OthersAreNone) {
     EXPECT_EQ(metresInUnit(name), std::nullopt) << name;
 }
 
-// Three pixels of whole numbers with a scale, an offset and a value for none.
+// Three pixels of integers with a scale, an offset and a no-data value.
 std::string writeUnits(const std::string& path, const char* unit, const char* crs = nullptr) {
   GDALAllRegister();
   GDALDataset* const dataset =
@@ -75,7 +75,7 @@ TEST(LengthUnit, ValuesOfRastersAreInMetres) {
   EXPECT_DOUBLE_EQ(values[0], -5000.0);
   EXPECT_TRUE(std::isnan(values[1]));
   EXPECT_DOUBLE_EQ(values[2], 12000.0);
-  // Of which only the CRS tells the unit.
+  // Only the CRS states the unit.
   const RasterBand heights(writeUnits(folder / "feet.tif", "", "EPSG:4326+6360"));
   EXPECT_THAT(heights.geometry().notes, ElementsAre(HasSubstr("US survey foot")));
   EXPECT_NEAR(heights.read({0, 0, 1, 1}).front(), -5.0 * 1200.0 / 3937.0, 1e-9);

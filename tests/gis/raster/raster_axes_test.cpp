@@ -1,4 +1,4 @@
-// Where the pixels of netCDF files lie, by the axes that these have.
+// The positions of pixels in netCDF files, from the files' axes.
 #include "gis/raster/raster_axes.hpp"
 
 #include <gmock/gmock.h>
@@ -37,7 +37,7 @@ NetcdfAxis latitudes(std::vector<double> places) { return {"lat", "degrees_north
 
 RasterAxis axisOf(const NetcdfAxis& axis) { return {axis.name, axis.units, "", axis.places}; }
 
-// As far apart as columns of `step` degrees are on the ground there, as Mercator's are.
+// Spaced on the ground like columns of `step` degrees there, as in Mercator's projection.
 std::vector<double> mercatorLatitudes(double first, double step, int count) {
   const double start = std::asinh(std::tan(first * std::numbers::pi / 180.0));
   std::vector<double> places;
@@ -51,7 +51,7 @@ double sloping(double lat, double lon) { return -1000.0 - 50.0 * lat + 3.0 * lon
 
 class RasterAxesTest : public ::testing::Test {
  protected:
-  // The depth report of a grid of such nodes; its z is in `grid_`.
+  // The depth report of a grid with these nodes; its z is in `grid_`.
   DepthReport depthsAt(const std::string& path, const std::string& crs, const std::vector<Point>& places) {
     grid_ = {};
     grid_.crs = parseCrs(crs);
@@ -78,7 +78,7 @@ class RasterAxesTest : public ::testing::Test {
   Grid grid_;
 };
 
-// GDAL takes latitudes for even as soon as their steps are nearly alike; here that would be off by 11 rows of 120.
+// GDAL treats latitudes as even if their steps are nearly equal; here that would be off by 11 rows of 120.
 TEST_F(RasterAxesTest, DepthsOfUnevenLatitudesAreWhereTheAxisSays) {
   const std::string rising = folder_ / "rising.nc", falling = folder_ / "falling.nc";
   std::vector<double> lats = mercatorLatitudes(17.0, 0.2, 120);
@@ -92,7 +92,7 @@ TEST_F(RasterAxesTest, DepthsOfUnevenLatitudesAreWhereTheAxisSays) {
   ASSERT_NE(readRasterGeometry(rising).uneven_rows, nullptr);
 }
 
-// Only the first, middle and last steps of these are alike.
+// Only the first, middle and last steps are equal.
 TEST_F(RasterAxesTest, UnevenBetweenEvenEnds) {
   std::vector<double> lats = evenly(30.0, 0.1, 41), lons = evenly(-10.0, 0.1, 61);
   for (int i = 8; i < 14; ++i) lats[static_cast<std::size_t>(i)] += 0.05 * std::sin(std::numbers::pi * (i - 7) / 7.0);
@@ -138,7 +138,7 @@ TEST_F(RasterAxesTest, SizesOfUnevenLatitudesAreWhereTheAxisSays) {
   }
 }
 
-// Tiles of sizes end where pixels have grown by a tenth, and where those of an even raster end.
+// Tiles of sizes end where pixels have grown by a tenth, and where tiles of an even raster end.
 TEST_F(RasterAxesTest, TilesHavePixelsOfOneSize) {
   const NetcdfAxis axis = latitudes(mercatorLatitudes(0.0, 0.1, 700));
   const std::vector<int> cuts = UnevenAxis::from(axisOf(axis), -1.0, "f.nc")->cuts(256);
@@ -155,7 +155,7 @@ TEST_F(RasterAxesTest, TilesHavePixelsOfOneSize) {
   }
 }
 
-// Rounded to single precision, or to four decimals, an axis is as even as before: nothing of such rasters changes.
+// An axis rounded to single precision or to four decimals counts as even, as before: such rasters do not change.
 TEST_F(RasterAxesTest, RoundedAxesAreEven) {
   NetcdfAxis lats = latitudes(evenly(-89.9979166, 1.0 / 240.0, 2000)),
              lons = longitudes(evenly(170.0, 1.0 / 240.0, 2100));
@@ -167,7 +167,7 @@ TEST_F(RasterAxesTest, RoundedAxesAreEven) {
       EXPECT_EQ(UnevenAxis::from(axisOf(*axis), -1.0, "f.nc"), nullptr);
     }
   }
-  NetcdfAxis fine = longitudes(evenly(-149.0, 1.0 / 32400.0, 500));  // finer than single precision by half
+  NetcdfAxis fine = longitudes(evenly(-149.0, 1.0 / 32400.0, 500));  // steps of two ulps in single precision
   for (double& place : fine.places) place = static_cast<double>(static_cast<float>(place));
   EXPECT_EQ(UnevenAxis::from(axisOf(fine), 1.0, "f.nc"), nullptr);
   std::vector<double> over = evenly(175.0, 0.25, 41);
@@ -199,7 +199,7 @@ TEST_F(RasterAxesTest, AxesWithoutAGeotransformAreNamed) {
               ::testing::AllOf(HasSubstr("curvilinear"), HasSubstr("gdalwarp -t_srs EPSG:4326")));
 }
 
-// A VRT keeps neither axes nor units of its files, and has their pixels evenly.
+// A VRT keeps neither axes nor units of its files, and spaces their pixels evenly.
 TEST_F(RasterAxesTest, VirtualRastersOfUnevenFilesAreRefused) {
   const std::string uneven = folder_ / "uneven.nc", even = folder_ / "even.nc", vrt = folder_ / "all.vrt";
   writeNetcdfRaster(uneven, latitudes(mercatorLatitudes(17.0, 0.2, 20)), longitudes(evenly(-99.0, 0.2, 20)), sloping);
@@ -226,7 +226,7 @@ TEST_F(RasterAxesTest, LatitudesAlongColumnsAreRefused) {
   EXPECT_THAT(refusalOf(path), ::testing::AllOf(HasSubstr("turned.nc"), HasSubstr("ncpdq -a lat,lon")));
 }
 
-// Without a CRS the axes' units say that they are in degrees, whatever the mesh is in.
+// Without a CRS, axes whose units are degrees are longitudes and latitudes, whatever the CRS of the mesh.
 TEST_F(RasterAxesTest, AxesInDegreesAreLongitudesAndLatitudes) {
   const std::string path = folder_ / "degrees.nc";
   writeNetcdfRaster(path, latitudes(evenly(58.0, 0.1, 80)), longitudes(evenly(5.0, 0.1, 80)), sloping);
@@ -235,7 +235,7 @@ TEST_F(RasterAxesTest, AxesInDegreesAreLongitudesAndLatitudes) {
   EXPECT_THAT(report.notes, ElementsAre(::testing::AllOf(HasSubstr("degrees.nc"), HasSubstr("EPSG:4326"))));
   EXPECT_THAT(report.warnings, IsEmpty());
   EXPECT_TRUE(readRasterGeometry(path).crs.geographic);
-  // Those that do not say it are in the mesh's CRS, as before.
+  // Other axes are in the mesh's CRS, as before.
   const std::string metres = folder_ / "metres.nc";
   writeNetcdfRaster(metres, {"y", "m", evenly(6640000.0, 1000.0, 30)}, {"x", "m", evenly(490000.0, 1000.0, 30)},
                     [](double, double) { return -5.0; });

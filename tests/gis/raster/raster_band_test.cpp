@@ -1,4 +1,4 @@
-// Depths and sizes from one raster: what is missing for the one is missing for the other, however the file says it.
+// Depths and sizes from one raster: the same pixels are missing for both, however the file marks them.
 #include "gis/raster/raster_band.hpp"
 
 #include <gdal_priv.h>
@@ -23,7 +23,7 @@ using testing::TemporaryFolder;
 
 constexpr int kSide = 12;
 constexpr double kNoData = -9999.0;
-constexpr double kScale = 0.01, kOffset = 10.0;  // of the raster of whole numbers
+constexpr double kScale = 0.01, kOffset = 10.0;  // of the raster of integers
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // Sizes of half a pixel and less, so that none of them is lost among its neighbours.
@@ -33,7 +33,7 @@ bool isNoData(int column, int row) { return (column + row) % 5 == 0; }
 
 enum class Told { NoData, NotANumber, MaskOfRaster, MaskFile, Alpha, AlphaOfFloats, MaskAndNoData };
 
-// kSide by kSide pixels of one unit from (0, 0); `told` says how hidden pixels are.
+// kSide by kSide pixels of one unit from (0, 0); `told` is how hidden pixels are marked.
 void writeMasked(const std::string& path, Told told) {
   GDALAllRegister();
   GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("GTiff");
@@ -60,7 +60,7 @@ void writeMasked(const std::string& path, Told told) {
     for (int column = 0; column < kSide; ++column) {
       const bool hidden = isHidden(column, row);
       double value = valueOf(column, row);
-      if (told == Told::Alpha) value = (value + kOffset) / kScale;  // as a whole number
+      if (told == Told::Alpha) value = (value + kOffset) / kScale;  // as an integer
       if (told == Told::NoData && hidden) value = kNoData;
       if (told == Told::NotANumber && hidden) value = kNaN;
       if (told == Told::MaskAndNoData && isNoData(column, row)) value = kNoData;
@@ -76,7 +76,7 @@ void writeMasked(const std::string& path, Told told) {
   GDALClose(dataset);
 }
 
-// Sizes are the values, positive; nothing is wanted where there is none.
+// Sizes are the values with reversed sign; where there is no value, no size is wanted.
 TileRule valuesAsSizes() {
   return {
       0.0, [](const RasterTile& tile, std::span<float> sizes) {
@@ -116,7 +116,7 @@ TEST(RasterBand, WhatIsMissingIsMissingForDepthsAndSizes) {
     SCOPED_TRACE(static_cast<int>(told));
     const std::string path = folder / ("masked" + std::to_string(static_cast<int>(told)) + ".tif");
     writeMasked(path, told);
-    // What sizes are made from; between centres they are bilinear.
+    // The pixels that sizes are made from; between centres, sizes are bilinear.
     std::vector<bool> missing_for_sizes;
     TileRule rule = valuesAsSizes();
     rule.sizes = [&, inner = rule.sizes](const RasterTile& tile, std::span<float> sizes) {
@@ -144,7 +144,7 @@ TEST(RasterBand, WhatIsMissingIsMissingForDepthsAndSizes) {
   }
 }
 
-// Degrees a pixel that are rounded: the columns go round the Earth all the same.
+// The width of a pixel in degrees is rounded; columns go around the Earth nevertheless.
 TEST(RasterBand, GoesRoundTheEarthForDepthsAndSizes) {
   const TemporaryFolder folder;
   const std::string path = folder / "world.tif";
@@ -185,7 +185,7 @@ TEST(RasterBand, GoesRoundTheEarthForDepthsAndSizes) {
   EXPECT_EQ(west_of_first, -1.4F);
 }
 
-// A grid of 200 rows whose text ends after 120: the last rows are refused, at once.
+// A grid of 200 rows whose text ends after 120: the missing rows are refused at once.
 TEST(RasterBand, ATextThatEndsTooEarlyIsRefusedWhereverItIsRead) {
   const TemporaryFolder folder;
   const std::string path = folder / "short.asc";

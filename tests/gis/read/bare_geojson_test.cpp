@@ -51,11 +51,11 @@ TEST(BareGeojson, ReadsAGeometryThatStandsAlone) {
   EXPECT_EQ(parts->polygons.size(), 1u);
 }
 
-// Whatever way JSON has to write a number or a string.
+// All forms of numbers and strings that JSON has.
 TEST(BareGeojson, ReadsNumbersAndStringsAsJsonHasThem) {
   for (const std::string name :
        {"", R"("name": "caf\u00e9",)", "\"name\": \"caf\303\251\",", R"("a": [true, false, null, -0],)"}) {
-    // The last ones are for the parser that knows all of JSON, as are letters other than ASCII's.
+    // The last ones are left to the full JSON parser, and so are non-ASCII letters.
     for (const std::string last :
          {"[0e5,123456789.123456789012]", "[1e-400,123456789.123456789012]",
           "[0,123456789.12345678901200000000000000000000000000000000000000000000000000000000000]"}) {

@@ -1,4 +1,4 @@
-// Files of `coastmesh clean` that somebody edited or that are damaged.
+// Files of `coastmesh clean` that were edited or damaged.
 #include <gdal_priv.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -50,7 +50,7 @@ class CleanedFile : public ::testing::Test {
     EXPECT_EQ(to->CreateFeature(&row), OGRERR_NONE);
   }
 
-  // A triangle, three edges of which the last has a point more. Numbers count from 1.
+  // A triangle of three edges; the last has an additional point. Numbers count from 1.
   void addLake(int number) {
     const std::string id = std::to_string(number), x = std::to_string(number), above = std::to_string(number + 0.5);
     addRow(kFeatureLayer, "", {{"id", id}, {"fid_of_feature", id}, {"source", "lakes"}});

@@ -21,7 +21,7 @@ std::string oddOf(const std::string& text) {
   return odd.value_or("nothing");
 }
 
-// A feature before, with members that are named as what is looked for, and one behind.
+// A feature between two others; the first has members with the names that are searched for.
 std::string among(const std::string& geometry, const std::string& id = "") {
   return R"({"type":"FeatureCollection","id":9,"crs":{"geometry":[1],"features":[2]},"features":[
     {"type":"Feature","id":"text","properties":{"coordinates":["a"],"geometry":"b","id":5,"type":"c"},
@@ -83,7 +83,7 @@ TEST(OddGeojson, FindsNothingWhereAllIsWell) {
   EXPECT_EQ(oddOf(R"({"type":"FeatureCollection","features":[]})"), "nothing");
 }
 
-// What is no JSON, or none of this kind, is left to others to refuse.
+// Text that is not JSON, or not GeoJSON, is left for others to refuse.
 TEST(OddGeojson, SaysNothingOfWhatIsNoGeojson) {
   for (const char* const text : {"", "{", "[1]", "7", R"({"type":"FeatureCollection","features":[{"geometry":)",
                                  R"({"type":"Topology","objects":{"a":{"arcs":[[0]]}},"arcs":[[[0]]]})"}) {

@@ -39,7 +39,7 @@ class ReadCoastline : public ::testing::Test {
     std::ofstream(path(name), std::ios::binary) << text;
     return path(name);
   }
-  // A GeoJSON of the geometries given, each a feature with a name.
+  // Writes a GeoJSON file of these geometries, each as a feature with a name.
   std::string geojson(const std::string& name, const std::vector<std::string>& geometries) const {
     std::string text = R"({"type":"FeatureCollection","features":[)";
     for (std::size_t i = 0; i < geometries.size(); ++i) {
@@ -48,7 +48,7 @@ class ReadCoastline : public ::testing::Test {
     }
     return write(name, text + "]}");
   }
-  // A layer made by OGR from WKT; empty text is a null geometry.
+  // Writes a layer from WKT with OGR; empty text is a null geometry.
   std::string layer(const std::string& name, const char* driver, const char* crs, const std::vector<std::string>& wkt,
                     const char* layer_name = "coast", bool append = false) const {
     GDALDriver* const found = GetGDALDriverManager()->GetDriverByName(driver);
@@ -139,7 +139,7 @@ TEST_F(ReadCoastline, SkipsAndCountsWhatIsNoShore) {
   EXPECT_EQ(report_.skipped_points, 3u);
 }
 
-// OGR would leave a hole, a polygon or all of a feature out, and not say so.
+// OGR would silently omit a hole, a polygon or a whole feature.
 TEST_F(ReadCoastline, RefusesPartsOfGeojsonThatAreNoGeometry) {
   const std::string hole =
       R"({"type":"Polygon","coordinates":[[[0,0],[9,0],[9,9],[0,0]],[[2,1],[3,null],[3,2],[2,1]]]})";
@@ -156,7 +156,7 @@ TEST_F(ReadCoastline, RefusesPartsOfGeojsonThatAreNoGeometry) {
   }
 }
 
-// GDAL opens no file that is a bare geometry with something else than numbers in it.
+// GDAL does not open a bare geometry with anything but numbers in it.
 TEST_F(ReadCoastline, NamesThePlaceInABareGeometry) {
   const std::string bare = R"({"type":"Polygon","coordinates":[[[0,0],[9,0],["x",9],[0,0]]]})";
   expectRefused(
@@ -173,7 +173,7 @@ TEST_F(ReadCoastline, RefusesTextsThatAreNoWkt) {
     expectRefused({write("odd.csv", "wkt" + rest)}, {"odd.csv, feature 2: its wkt is not a geometry (" + odd + ")"});
     expectRefused({write("odd.csv", "_WKTcoast" + rest)}, {"feature 2: its _WKTcoast is not a geometry (" + odd + ")"});
   }
-  // Nothing at all is no geometry, as anywhere.
+  // An empty text is an empty geometry, as elsewhere.
   EXPECT_EQ(read(write("empty.csv", "WKT,name\n" + square + ",a\n,b\n\"POLYGON EMPTY\",c\n")).features.size(), 1u);
   EXPECT_EQ(report_.skipped_empty, 2u);
 }
@@ -244,17 +244,17 @@ TEST_F(ReadCoastline, BringsAllToTheCrsOfTheFirst) {
 }
 
 TEST_F(ReadCoastline, WithoutACrs) {
-  // Degrees by the look of it: taken for WGS 84, and said so.
+  // Looks like degrees: taken as WGS 84, with a warning.
   const std::string degrees = layer("degrees.shp", "ESRI Shapefile", nullptr, {"POLYGON((0 0,0 1,1 1,0 0))"});
   EXPECT_EQ(read(degrees).crs.authority, "EPSG:4326");
   ASSERT_EQ(report_.warnings.size(), 1u);
   EXPECT_NE(report_.warnings[0].find("degrees.shp"), std::string::npos);
   EXPECT_NE(report_.warnings[0].find("WGS 84"), std::string::npos);
-  // Metres: a plane, and said so.
+  // Metres: a plane, with a warning.
   const std::string metres = layer("metres.shp", "ESRI Shapefile", nullptr, {"POLYGON((0 0,0 1000,1000 1000,0 0))"});
   EXPECT_TRUE(read(metres).crs.isPlane());
   EXPECT_EQ(report_.warnings.size(), 1u);
-  // After a source that has one: the same.
+  // After a source with a CRS: the same CRS, with a warning.
   const std::string utm = layer("utm.gpkg", "GPKG", "EPSG:32631", {"POLYGON((5 5,6 5,6 6,5 5))"});
   EXPECT_EQ(read({utm, metres}).features[1].polygons[0].outer.size(), 3u);
   ASSERT_EQ(report_.warnings.size(), 2u);
@@ -301,7 +301,7 @@ TEST_F(ReadCoastline, RefusesInOneSentenceAndKeepsGdalQuiet) {
 }
 
 TEST_F(ReadCoastline, LargeObjectsAreReadWhateverTheirSize) {
-  // Past the size at which GDAL refuses a GeoJSON object unless told otherwise, scaled down by its own option.
+  // Beyond the size at which GDAL refuses a GeoJSON object by default, reduced here by GDAL's own option.
   CPLSetThreadLocalConfigOption("OGR_GEOJSON_MAX_OBJ_SIZE", "0.001");
   std::string ring = "[";
   for (int i = 0; i < 2000; ++i) {
@@ -347,7 +347,7 @@ TEST_F(ReadCoastline, FeaturesByAttribute) {
   EXPECT_EQ(kept.features[1].polygons[0].outer[0].x, 6);
   EXPECT_EQ(report.filtered, 1u);
   EXPECT_THROW(readCoastline({{file}}, {{}, "depth > 5"}, report), InputError);  // no such field
-  EXPECT_THROW(readCoastline({{file}}, {{}, "name <"}, report), InputError);     // no SQL
+  EXPECT_THROW(readCoastline({{file}}, {{}, "name <"}, report), InputError);     // not SQL
   EXPECT_THROW(readCoastline({{file}}, {{}, "name = 'none'"}, report), InputError);
 }
 
@@ -374,7 +374,7 @@ TEST_F(ReadCoastline, Archives) {
   EXPECT_THROW(readCoastline({path("two.zip")}, report), InputError);
 }
 
-// A .dbf of an old program, which does not say its encoding.
+// A .dbf of an old program, which does not state its encoding.
 TEST_F(ReadCoastline, TextsWithoutAnEncodingBecomeUtf8) {
   GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("ESRI Shapefile");
   {
@@ -453,12 +453,12 @@ TEST_F(ReadCoastline, LayersOfArchives) {
     EXPECT_THAT(several, HasSubstr("--layer"));
     EXPECT_THAT(none, HasSubstr("'rivers'"));
   }
-  // Only their paths tell them apart.
+  // Only their paths distinguish them.
   EXPECT_THAT(errorOf(path("twice.zip"), {"lakes"}), HasSubstr("coast/lakes.shp"));
   EXPECT_EQ(count(path("twice.zip") + "/coast/lakes.shp", {}), 2u);
 }
 
-// Sources of other uses keep their lines apart from the coast's, and points where they are wanted.
+// Sources of other uses keep their lines separate from the coast's, and keep their points.
 TEST_F(ReadCoastline, SourcesOfOtherUses) {
   const std::string coast = geojson("coast.geojson", {squareAt(0)});
   const std::string wharf = geojson("wharf.geojson", {R"({"type":"LineString","coordinates":[[0,0],[0.5,0.5]]})",

@@ -1,4 +1,4 @@
-// What an edit is said to change, against defects counted in the whole mesh before and after it.
+// The predicted effect of an edit, against the defects of the whole mesh before and after it.
 #include "gis/repair/repair_score.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ namespace {
 
 using testing::lattice;
 
-// A lattice whose nodes are moved so far that many triangles and edges are as models refuse them.
+// A lattice with nodes moved so far that models refuse many of its triangles and edges.
 Grid shakenGrid(unsigned seed, const Crs& crs) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> shake(-0.38, 0.38);
@@ -82,7 +82,7 @@ Grid edited(Grid grid, const GridLinks& links, const PatchEdit& edit) {
   return grid;
 }
 
-// Kinds that flips and splits are to mend; triangles too few or too many round a node count one by one.
+// Kinds that flips and splits repair; triangles too few or too many around a node count one by one.
 int defectsOf(const Grid& grid, Target target) {
   int count = 0;
   for (const TargetDefect& defect : checkTarget(grid, target)) {
@@ -146,7 +146,7 @@ void expectTrueScores(Target target, const Crs& crs) {
   EXPECT_GT(collapsed, 100);
 }
 
-// Depths of 10 to 90 m, with which some triangles miss a step of 35 s.
+// Depths of 10 to 90 m, so that some triangles miss a step of 35 s.
 constexpr double kStep = 35.0;
 Grid shakenSea(unsigned seed, const Crs& crs) {
   Grid grid = shakenGrid(seed, crs);
@@ -158,7 +158,7 @@ Grid shakenSea(unsigned seed, const Crs& crs) {
   return grid;
 }
 
-// Calls `use(view, patch, node)` for inner nodes of shaken seas and the patches round their triangles.
+// Calls `use(view, patch, node)` for inner nodes of shaken seas and the patches around their triangles.
 void forEachInnerNode(std::span<const Target> targets, const Crs& crs, auto&& use) {
   for (unsigned seed = 0; seed < 12; ++seed) {
     const Grid grid = shakenSea(seed, crs);
@@ -183,7 +183,7 @@ std::vector<PatchEdit> movesOf(const RepairView& view, std::uint32_t node) {
 
 constexpr std::array<std::array<Target, 1>, 3> kTargetsOfScores{{{Target::Fvcom}, {Target::Swan}, {Target::Dflowfm}}};
 
-// A score is given exactly where it reaches the bar, however soon it is clear that it does not.
+// A score is returned if and only if it reaches the bar, however early that is excluded.
 TEST(RepairScore, AboveABarIsTheScoreThatReachesIt) {
   for (const auto& targets : kTargetsOfScores) {
     for (const Crs& crs : {Crs{}, wgs84()}) {
@@ -233,7 +233,7 @@ TEST(RepairScore, NoMoveMendsWhereNoneMay) {
         }
       });
       EXPECT_GT(mended, 10);
-      // Centres of triangles beside a node may come apart by any move.
+      // Any move may separate the centres of triangles beside a node.
       if (targets[0] != Target::Dflowfm) {
         EXPECT_GT(hopeless, 10);
       }
@@ -241,7 +241,7 @@ TEST(RepairScore, NoMoveMendsWhereNoneMay) {
   }
 }
 
-// Depths that are read anew between two calls, as they are for nodes that repairs moved.
+// Depths change between two calls, as they do for nodes that repairs moved.
 TEST(RepairScore, MemoryOfTheLastRepairsChangesNoResult) {
   const RepairOptions options{.time_step_s = kStep};
   std::size_t first = 0, second = 0, stuck = 0;
@@ -262,7 +262,7 @@ TEST(RepairScore, MemoryOfTheLastRepairsChangesNoResult) {
     EXPECT_EQ(knowing.nodes, other.nodes);
     EXPECT_EQ(knowing.triangles, other.triangles);
     EXPECT_EQ(knowing.z, other.z);
-    // The shore is as it was, and said so.
+    // The boundaries still cover the shore, and nothing else.
     for (const TargetDefect& defect : checkTarget(knowing, Target::Adcirc))
       EXPECT_TRUE(defect.kind != TargetDefectKind::NoBoundary && defect.kind != TargetDefectKind::StrayBoundary)
           << toString(defect.kind);

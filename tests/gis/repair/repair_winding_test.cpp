@@ -24,7 +24,7 @@ TEST(RepairWinding, Clockwise) {
   expectMended(grid, {Target::Adcirc, Target::Swan});
 }
 
-// One triangle is listed against its neighbours, which lie beside it.
+// One triangle is listed clockwise, but lies beside its neighbours.
 TEST(RepairWinding, ATriangleListedClockwise) {
   Grid grid = soundGrid();
   std::swap(grid.triangles[40][0], grid.triangles[40][1]);
@@ -35,8 +35,7 @@ std::uint32_t nodeAt(const Grid& grid, const Point& place) {
   return static_cast<std::uint32_t>(std::ranges::find(grid.nodes, place) - grid.nodes.begin());
 }
 
-// An inner node dragged over its neighbours, by little or by much: turning what is clockwise would leave sheets over
-// one another.
+// An inner node dragged across its neighbours, a little or far: reversing the clockwise triangles would leave overlaps.
 TEST(RepairWinding, AFoldIsUndoneByAMoveOfTheNode) {
   for (const Point& drag : {Point{1600.0, 300.0}, Point{2300.0, 400.0}, Point{-900.0, -900.0}, Point{9000.0, 0.0}}) {
     Grid grid = soundGrid();
@@ -56,7 +55,7 @@ TEST(RepairWinding, AFoldIsUndoneByAMoveOfTheNode) {
   }
 }
 
-// The shore holds its nodes.
+// Nodes of the shore do not move.
 TEST(RepairWinding, AFoldOfTheShoreIsLeft) {
   Grid grid = soundGrid();
   const std::uint32_t node = nodeAt(grid, {4000.0, 0.0});
@@ -80,7 +79,7 @@ TEST(RepairWinding, SheetsOverOneAnotherAreLeft) {
   EXPECT_EQ(report.left.back().second.kind, TargetDefectKind::Overlap);
 }
 
-// Listed twice or three times, whichever way round: once in the end, and none of its area lost.
+// Listed two or three times, in either direction: one copy remains, and no area is lost.
 TEST(RepairWinding, CopiesOfATriangleGo) {
   for (const bool turned : {false, true}) {
     Grid grid = soundGrid();

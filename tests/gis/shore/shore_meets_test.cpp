@@ -42,7 +42,7 @@ double toShore(const Domain& domain, const Point& p) {
   return std::sqrt(least);
 }
 
-// How far the southern quay has moved at most, between 0 and `from` and between `to` and 4000.
+// The largest distance by which the southern quay has moved, between 0 and `from` and between `to` and 4000.
 double moved(const Domain& domain, double from, double to) {
   double most = 0.0;
   for (double x = 0.0; x <= 4000.0; x += 10.0)
@@ -105,7 +105,7 @@ TEST(MeetPoints, AQuayRecedesFromWhatIsFartherOffOnlyBesideIt) {
   EXPECT_LT(moved(follow.domain, gauge.x - 2.0 * kSize, gauge.x + 2.0 * kSize), 1e-6);
 }
 
-// Joined to the quay it would leave it at an angle of 8 degrees.
+// If it met the quay, it would leave it at an angle of 8 degrees.
 TEST(MeetPoints, ALineAlmostAlongAQuayStaysInTheWaterAndChangesNothingElsewhere) {
   const Follow follow({{2030, 5}, {2400, 60}}, true);
   EXPECT_GT(toShore(follow.domain, turned({2030, 5})), 0.3 * kSize);

@@ -14,7 +14,7 @@
 namespace coastmesh {
 namespace {
 
-// Water between a straight shore and one with a headland that comes as near to it as `width`, where sizes are 1.
+// Water between a straight shore and a headland at a distance of `width`, where sizes are 1.
 ShoreChains headland(double width) {
   ShoreGraph graph;
   const auto add = [&](double x, double y) {
@@ -59,7 +59,7 @@ TEST(ShorePieces, WhatIsFineAtAGlanceIsAsWanted) {
     graph.pslg.points.push_back(p);
     graph.source.push_back(kNone);
   };
-  // Two shores that wind, one to three elements apart, and places in the water between them.
+  // Two winding shores, one to three elements apart, and points in the water between them.
   constexpr VertexId kCount = 400;
   for (VertexId i = 0; i < kCount; ++i) add({1.0 * i, off(random)});
   for (VertexId i = kCount; i > 0; --i) add({1.0 * i - 1.0, 1.5 + 0.005 * i + off(random)});
@@ -83,7 +83,7 @@ TEST(ShorePieces, WhatIsFineAtAGlanceIsAsWanted) {
 }
 
 TEST(MendShores, DoesNotDependOnThreads) {
-  constexpr VertexId kCount = 20000;  // several stretches of them
+  constexpr VertexId kCount = 20000;  // enough for several stretches
   const auto mended = [](const ItemLoop& loop) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> off(0.0, 1.0);

@@ -25,7 +25,7 @@ void addShore(Pslg& pslg, const std::vector<Point>& ring) {
   }
 }
 
-// The way from a to b without b, in so many steps, each off it by up to `off`.
+// Adds the way from a to b, without b, in `steps` steps, each displaced sideways by up to `off`.
 void addWay(std::vector<Point>& ring, const Point& a, const Point& b, int steps, double off, std::mt19937& random) {
   std::uniform_real_distribution<double> by(-off, off);
   const Point across = 1.0 / distance(a, b) * Point{a.y - b.y, b.x - a.x};
@@ -93,14 +93,14 @@ TEST(ThinShores, DoesNotDependOnThreads) {
   addShore(pslg, ring);
   const Thinned one = thin(pslg), other = thin(pslg, false, testing::backwards);
   EXPECT_LT(one.pslg.points.size(), ring.size() / 2);
-  EXPECT_GT(one.pslg.points.size(), 5000U);  // several stretches of runs
+  EXPECT_GT(one.pslg.points.size(), 5000U);  // enough for several stretches
   EXPECT_EQ(one.pslg.points, other.pslg.points);
 }
 
 TEST(ThinShores, LinesAcrossThinLandKeepApart) {
   std::mt19937 random(2);
   for (const double width : {0.02, 0.05, 0.2}) {
-    // A sea on either side of a wall.
+    // Water on both sides of a wall.
     std::vector<Point> low, high;
     addWay(low, {0, 0}, {8, 0}, 8, 0.0, random);
     low.push_back({8, 0});
@@ -145,20 +145,20 @@ TEST(ThinShores, SmallIslandsGoUnlessSomethingLiesInThem) {
   EXPECT_EQ(thin(pslg).dropped, 1u);
   EXPECT_NEAR(thin(pslg).dropped_area, 0.25, 1e-12);
   EXPECT_EQ(thin(pslg).pslg.segments.size(), 8u);
-  // A pond.
+  // A pond on the small island.
   addShore(pslg, {{5.1, 5.1}, {5.4, 5.1}, {5.4, 5.4}, {5.1, 5.4}});
   EXPECT_EQ(thin(pslg).dropped, 0u);
   EXPECT_EQ(thin(pslg).pslg.segments.size(), 16u);
 }
 
-// Rings with long thin arms that wind round each other.
+// Rings with long thin arms that wind around each other.
 TEST(ThinShores, NothingCrossesOrChangesSides) {
   for (unsigned seed = 0; seed < 40; ++seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> share(0.0, 1.0);
     Pslg pslg;
     addShore(pslg, {{-30, -30}, {30, -30}, {30, 30}, {-30, 30}});
-    // Two spirals of land between one another, clockwise round their land: thin, or with little water between them.
+    // Two interleaved spirals of land, clockwise: thin land, or thin water between them.
     const double apart = 0.35 * std::numbers::pi, thin_part = 0.01 + 0.2 * share(random) * share(random);
     const double arm = seed % 2 == 0 ? thin_part : apart - thin_part;
     const double step = 0.02 + 0.2 * share(random), wiggle = share(random);

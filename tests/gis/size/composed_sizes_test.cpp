@@ -25,7 +25,7 @@ using testing::sizesIn;
 double one(const Point&) { return 1.0; }
 
 TEST(ChannelLines, FindTheWidthOfAChannel) {
-  // Long sides without vertices: the width has to be found between them.
+  // Long sides without vertices: the width must be found between them.
   const std::vector<SizedLine> lines = channelLines(rectangle(100.0, 2.0), 4.0, 0.2, 0.01, 100.0, one).lines;
   ASSERT_GT(lines.size(), 50u);
   double first = 100.0, last = 0.0;
@@ -38,7 +38,7 @@ TEST(ChannelLines, FindTheWidthOfAChannel) {
   EXPECT_GT(last, 97.0);
 }
 
-// A millionth of the extent across, along all of its length; the circles begin with the extent.
+// As narrow as 5e-8 of the extent, along the whole length; the circles start as large as the extent.
 TEST(ChannelLines, AreFoundHoweverNarrow) {
   for (const double width : {1.0, 0.1, 0.01}) {
     const double length = 1e4 * width < 2000.0 ? 2000.0 : 1e4 * width;
@@ -46,7 +46,7 @@ TEST(ChannelLines, AreFoundHoweverNarrow) {
     pslg.points.insert(pslg.points.end(), {{2e5, -1e5}, {2e5 + 1, -1e5}, {2e5, 1 - 1e5}});  // another water, far away
     pslg.segments.insert(pslg.segments.end(), {{4, 5, 0, 0, kOutside}, {5, 6, 0, 0, kOutside}, {6, 4, 0, 0, kOutside}});
     const ChannelLines found = channelLines(pslg, 4.0, 0.2, 1e-4, 1e6, one);
-    std::array<int, 2> tenths{};  // bits: of the length, along either shore
+    std::array<int, 2> tenths{};  // bits: tenths of the length, along either shore
     for (const SizedLine& line : found.lines)
       if (std::abs(line.size_m - width / 4.0) < 1e-6 * width)
         tenths[line.a.y > 0.5 * width] |= 1 << static_cast<int>(10.0 * line.a.x / length);
@@ -54,7 +54,7 @@ TEST(ChannelLines, AreFoundHoweverNarrow) {
   }
 }
 
-// Edges of half a metre on 200 square metres, two triangles of a quarter of sqrt(3) of their square a vertex.
+// Edges of half a metre on 200 square metres; two triangles per vertex, each sqrt(3) / 4 times the square of an edge.
 TEST(ChannelLines, StopWhereTheyAskForMoreThanIsAllowed) {
   const Pslg channel = rectangle(100.0, 2.0);
   const ChannelLines all = channelLines(channel, 4.0, 0.2, 0.01, 100.0, one);
@@ -71,7 +71,7 @@ TEST(ChannelLines, StopWhereTheyAskForMoreThanIsAllowed) {
 }
 
 TEST(ChannelLines, BendsOfOneShoreAreNone) {
-  // A sea with a toothed shore, its teeth blunt: wide everywhere.
+  // A sea with a shore of blunt teeth: wide everywhere.
   Pslg pslg;
   for (int i = 0; i <= 40; ++i) pslg.points.push_back({static_cast<double>(i), i % 2 == 0 ? 0.0 : 0.3});
   pslg.points.push_back({40.0, 60.0});
@@ -81,7 +81,7 @@ TEST(ChannelLines, BendsOfOneShoreAreNone) {
   for (const SizedLine& line : channelLines(pslg, 1.0, 0.2, 0.01, 100.0, one).lines) EXPECT_GT(line.size_m, 5.0);
 }
 
-// Two triangles of land, in an ocean, whose points are 1 apart; `angle` at the points, in degrees.
+// Two triangles of land in an ocean, with tips 1 apart; `angle` at the tips, degrees.
 Pslg twoCapes(double angle) {
   const double half = 20.0 * std::tan(toRadians(0.5 * angle));
   Pslg pslg;
@@ -93,7 +93,7 @@ Pslg twoCapes(double angle) {
   return pslg;
 }
 
-// Their sides lead away from the strait at once: no circle that touches a side is as narrow.
+// Their sides recede from the strait at once: no circle that touches a side is as narrow.
 TEST(ChannelLines, TwoCapesAreAsFarApartAsTheirPoints) {
   for (const double angle : {1.0, 40.0, 90.0, 120.0, 160.0}) {
     double least = kInfinity;
@@ -132,7 +132,7 @@ TEST(ComposedSizes, RoughOnesAreOffByATenthAndSmaller) {
   SizeOptions options;
   options.shore_m = 100.0;
   options.shore_rate = 0.2;
-  options.channel_elements = 0.01;  // asks for nothing here, but that is known of a map alone
+  options.channel_elements = 0.01;  // needs nothing here, but only a map shows that
   const Domain domain = planeDomain(rectangle(10000.0, 6000.0));
   const auto made = [&](SizeAccuracy accuracy) {
     return makeSizeFunction(options, {}, domain, kInfinity, inOrder, accuracy).function;
@@ -176,7 +176,7 @@ TEST(ComposedSizes, RoughOnesByTheShoreAloneAreExactAndNoMap) {
     EXPECT_LE(sizes.function->least(), wanted);
     EXPECT_GE(sizes.function->most(), wanted);
   }
-  // Where the shore may ask for more than there is room for a map finds out, which is made or refused.
+  // If the shore may need more vertices than allowed, a map decides, and is made or refused.
   EXPECT_NE(dynamic_cast<const SizeTree*>(made(1000.0).function.get()), nullptr);
   EXPECT_THROW(made(100.0), TooManyVertices);
   options.channel_elements = 2.0;
@@ -199,7 +199,7 @@ TEST(ComposedSizes, ChannelsHaveTheirElementsAcross) {
   EXPECT_GT(size->most(), 0.1);
 }
 
-// As asked for: in metres, along geodesics. Far from the middle of such a plane the scale is not 1, and changes.
+// As requested: in metres, along geodesics. Far from the centre of such a plane, the scale is not 1 and varies.
 TEST(ComposedSizes, GradedOnTheGround) {
   for (const double rate : {0.05, 0.2, 1.0}) {
     Coastline coast;

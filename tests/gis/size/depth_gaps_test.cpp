@@ -54,7 +54,7 @@ TEST_F(Gaps, TheTimeStepHoldsInThem) {
   const Domain domain = planeDomain(rectangle(20000.0, 12000.0));
   const auto full = sizesIn(stepping(depths("full.tif", false)), domain);
   const auto gap = sizesIn(stepping(depths("gap.tif")), domain);
-  // A tenth more where depths are not quite known.
+  // Sizes are about a tenth larger where depths are uncertain.
   for (const Point& p : places()) EXPECT_NEAR(gap->at(p) / full->at(p), 1.05, 0.12) << p.x << ", " << p.y;
   SizeOptions without = stepping(file("gap.tif"));
   without.gaps = GapFill::None;
@@ -74,7 +74,7 @@ TEST_F(Gaps, WavesAndBandsFollowFromWhatIsAround) {
     options.bathymetry = {depths("gap.tif")};
     const auto gap = sizesIn(options, domain);
     for (const Point& p : places()) {
-      // The band's end is known to within an element or so, from where sizes grow.
+      // The end of the band, from which sizes grow, is known to within about an element.
       EXPECT_NEAR(gap->at(p), full->at(p), waves ? 0.1 * full->at(p) : 240.0) << p.x << ", " << p.y;
     }
   }
@@ -91,7 +91,7 @@ TEST_F(Gaps, WhatASecondRasterCoversIsNone) {
   EXPECT_TRUE(inGap(filled.place.x, filled.place.y));
 }
 
-// No depth where there is no water.
+// Land needs no depths.
 TEST_F(Gaps, LandWithoutDepthsChangesNothing) {
   Pslg pslg = rectangle(20000.0, 12000.0);
   for (const Point& p : {Point{5000, 2000}, {5000, 10000}, {15000, 10000}, {15000, 2000}}) pslg.points.push_back(p);
@@ -106,7 +106,7 @@ TEST_F(Gaps, LandWithoutDepthsChangesNothing) {
   for (const Point& p : places()) EXPECT_EQ(sizes.function->at(p), other->at(p));
 }
 
-// A field with depths in a part of the plane alone: the size of a step of one second.
+// A field with depths in a part of the plane: the size for a step of one second.
 class KnownIn final : public SizeField {
  public:
   explicit KnownIn(std::function<double(const Point&)> depth) : depth_(std::move(depth)) {}
@@ -117,7 +117,7 @@ class KnownIn final : public SizeField {
       sizes[i] = std::isnan(depth) ? kInfinity : longWaveSpeed(depth);
     }
   }
-  // By places all over the box: exact enough for regions with straight edges.
+  // Samples the whole box, which is exact enough for regions with straight edges.
   void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const override {
     constexpr int kPlaces = 32;
     for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -157,7 +157,7 @@ TEST(DepthGaps, AMembraneIsEvenBetweenEvenEdges) {
   for (double x = 2100; x < 8000; x += 77)
     for (double y = 50; y < 10000; y += 777) EXPECT_NEAR(gaps->at({x, y}), 100.0 + 0.05 * x, 6.0) << x << ", " << y;
   EXPECT_NEAR(gaps->least(), 200.0, 6.0);
-  // Within bounds, for boxes of any size.
+  // Bounds hold for boxes of any size.
   std::mt19937_64 random(9);
   for (int i = 0; i < 2000; ++i) {
     const auto uniform = [&] { return static_cast<double>(random() % 100003) / 100003.0; };
@@ -180,7 +180,7 @@ TEST(DepthGaps, TheNearestIsHalfAndHalf) {
   EXPECT_NEAR(gaps->at({5500, 5000}), 500.0, 1e-9);
 }
 
-// Two basins without depths, parted by land but for the known south: none takes depths through it.
+// Two basins without depths, separated by land except in the known south: neither takes depths through land.
 TEST(DepthGaps, LandPartsThem) {
   Pslg pslg;
   pslg.points = {{0, 0},       {10000, 0},   {10000, 10000}, {5500, 10000},

@@ -34,7 +34,7 @@ TEST(DomainMask, NothingOfTheDomainIsMissed) {
   for (int i = 0; i < 100000; ++i) {
     const SizeBox box{{uniform(random, -1.1, 1.2), uniform(random, -1.2, 1.1)},
                       std::exp(uniform(random, std::log(1e-4), std::log(0.3)))};
-    // Round the box there is a circle, and one in it.
+    // Compares with the circle around the box and the circle inside it.
     const double r = std::sqrt(squaredLength(box.centre)), reach = std::sqrt(2.0) * box.half;
     if (r - box.half < 0.999 && r + box.half > 0.501) {
       EXPECT_TRUE(mask.meets(box)) << box.centre.x << ", " << box.centre.y << ": " << box.half;

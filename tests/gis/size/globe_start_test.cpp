@@ -14,7 +14,7 @@
 namespace coastmesh {
 namespace {
 
-// A whole globe with these rings as features of their own.
+// A whole globe with these rings as separate features.
 Domain wholeGlobe(const std::vector<Ring>& rings, const std::vector<Point>& points = {}) {
   Coastline coastline;
   coastline.crs = wgs84();
@@ -56,7 +56,7 @@ TEST(WholeGlobe, BothSidesOfACoastAreRegions) {
 }
 
 TEST(WholeGlobe, ThePlaceBeyondThePlaneMayLieInAFeature) {
-  // All but a hole: the place lies in the hole or, beside it, in the feature.
+  // All except a hole: the point beyond the plane is in the hole or, otherwise, in the feature.
   Coastline coastline;
   coastline.crs = wgs84();
   coastline.features.emplace_back().polygons.push_back(

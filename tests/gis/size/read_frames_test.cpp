@@ -1,4 +1,4 @@
-// Rasters read by several readers: what comes of it is what one reads, and none reads what is another's.
+// Rasters read by several readers: the result is that of one reader, and each reads only its own parts.
 #include "gis/size/read_frames.hpp"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ struct Piece {
   PixelRect from, to;
 };
 
-// A VRT of pieces of one file, which goes round the Earth.
+// A VRT of pieces of one file, around the whole Earth.
 std::string mosaicFile(const TemporaryFolder& folder, const std::vector<Piece>& pieces) {
   const std::string path = folder / "whole.tif", vrt = folder / "pieces.vrt";
   testing::writeRaster(path, "EPSG:4326", {kColumns, kRows, -180.0, 90.0, 360.0 / kColumns}, [](double x, double y) {
@@ -73,7 +73,7 @@ bool holds(const PixelRect& all, const PixelRect& part) {
   return std::tuple(both.x, both.y, both.width, both.height) == std::tuple(part.x, part.y, part.width, part.height);
 }
 
-// Three in this process, to whom parts go in turn; looks whether each is asked for what is its own alone.
+// Three readers in this process, which own the parts in turn; checks that each reads only its own.
 struct ThreeReaders {
   explicit ThreeReaders(const RasterGeometry& raster) : geometry(raster), cuts(partsOf(raster)) {
     readers.pixels.ownersOf = [](std::span<const RasterPart> parts) {
@@ -143,7 +143,7 @@ TEST(ReadFrames, SeveralReadersGiveWhatOneDoes) {
     depths.depths.wave_elements = 60.0;
     depths.depths.slope_elements = 20.0;
     const SizeRule step{SizeRule::Kind::Step, depths.depths, 10.0, 0.6};
-    for (const double filter_m : {0.0, 3.0}) {  // of a plane whose unit is a degree
+    for (const double filter_m : {0.0, 3.0}) {  // in a plane whose unit is a degree
       depths.depths.slope_filter_m = filter_m;
       const std::vector<SizeRule> rules{depths, step};
       ThreeReaders three(raster);
@@ -162,7 +162,7 @@ TEST(ReadFrames, DepthsOfNodesAreTheSame) {
   grid.crs = parseCrs("EPSG:4326");
   for (int k = 0; k < 20000; ++k)
     grid.nodes.push_back({-181.0 + 362.0 * std::fmod(k * 0.6180339887, 1.0), -90.0 + 180.0 * k / 20000.0});
-  // Between the pieces, and at either end of the raster.
+  // Between the pieces, and at both ends of the raster.
   for (const double column : {0.0, 0.2, 500.0, 999.7, 1500.2, kColumns - 0.3})
     for (const double row : {0.1, 499.9, 500.3, kRows - 0.2})
       grid.nodes.push_back({-180.0 + column * 360.0 / kColumns, 90.0 - row * 360.0 / kColumns});

@@ -1,4 +1,4 @@
-// Sizes for seas that have no shore, or hardly any.
+// Sizes for seas with little or no shore.
 #include "gis/size/size_choice.hpp"
 
 #include <gmock/gmock.h>
@@ -51,7 +51,7 @@ TEST(SizeChoice, AnIsletIsNotMeshedToTheGrain) {
   const SizeOptions chosen = chosenFor(domain);
   EXPECT_GE(chosen.shore_m, 1.0);
   EXPECT_LT(chosen.shore_m, 100.0);
-  EXPECT_LT(chosen.most_m, kSide / 20.0);  // the sea has the others
+  EXPECT_LT(chosen.most_m, kSide / 20.0);  // the other vertices are in the open sea
   EXPECT_GT(chosen.most_m, kSide / 200.0);
 }
 

@@ -19,11 +19,11 @@ using testing::planeDomain;
 using testing::rectangle;
 using testing::SizeFiles;
 
-// What is asked for is found before it is made, on few cells: none of these may take more than a second or so of any
-// machine, which a test cannot tell; that they do not run out of memory it can.
+// Demand is found before sizes are made, on few cells. None of these tests should take more than about a second, which
+// a test cannot check; it can check that memory suffices.
 class Demand : public SizeFiles {
  protected:
-  // 100 km by 50 km, a lake of 80 km by 30 km in it.
+  // A lake of 80 km by 30 km in an area of 100 km by 50 km.
   const Domain domain_ = planeDomain([] {
     Pslg pslg = rectangle(80e3, 30e3);
     for (Point& p : pslg.points) p = p + Point{10e3, 10e3};
@@ -60,7 +60,7 @@ TEST_F(Demand, OfOnePixel) {
   }
   options.rasters = {pixels(1e-38)};
   refused(options, 1e9);
-  // What it asks for with a bound it gets: nothing is refused that there is room for.
+  // With a lower bound it gets what it needs: nothing is refused that fits.
   options.least_m = 100.0;
   const DomainSizes sizes = makeSizeFunction(options, readSizeInputs(options, {}), domain_, 2e4, inOrder);
   EXPECT_GT(sizes.demand.vertices, 2500.0);
@@ -103,7 +103,7 @@ TEST_F(Demand, OfExtremes) {
   }
 }
 
-// A place that is so small that nothing can be told apart there asks for few vertices all the same.
+// A place too small for coordinates to resolve needs few vertices all the same.
 TEST_F(Demand, SizesBelowWhatCoordinatesTellApartAreRefused) {
   std::ofstream(file("p.geojson"))
       << R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{"size":1e-300},
@@ -122,7 +122,7 @@ TEST_F(Demand, IsTheIntegralOverTheDomain) {
   options.shore_rate = 0.1;
   options.most_m = 1500.0;
   const DomainSizes sizes = makeSizeFunction(options, readSizeInputs(options, {}), domain_, kInfinity, inOrder);
-  // By the midpoint rule on squares of 20 m.
+  // Midpoint rule on squares of 20 m.
   double sum = 0.0;
   for (double x = 10e3 + 10.0; x < 90e3; x += 20.0)
     for (double y = 10e3 + 10.0; y < 40e3; y += 20.0) {
@@ -132,7 +132,7 @@ TEST_F(Demand, IsTheIntegralOverTheDomain) {
   EXPECT_NEAR(sizes.demand.vertices / sum, 1.0, 0.1);
 }
 
-// A graph that says with its holes what is inside.
+// A graph whose holes determine what is inside.
 TEST_F(Demand, OfAnUnlabelledGraph) {
   Pslg pslg = rectangle(10.0, 10.0);
   const Pslg island = rectangle(8.0, 8.0);

@@ -39,7 +39,7 @@ TEST(DistanceField, IsTheLeastOverAllLines) {
   const auto naive = [&](const Point& x) {
     double least = kInfinity;
     for (const SizedLine& l : lines) {
-      // By steps along the line, in place of the foot of a perpendicular.
+      // By steps along the line, instead of the foot of a perpendicular.
       double nearest = std::min(distance(x, l.a), distance(x, l.b));
       for (int k = 1; k < 200; ++k) nearest = std::min(nearest, distance(x, l.a + (k / 200.0) * (l.b - l.a)));
       least = std::min(least, l.size_m + l.rate * nearest / 2.0);
@@ -55,7 +55,7 @@ TEST(DistanceField, IsTheLeastOverAllLines) {
   }
 }
 
-// Where all lines are alike squares of distances are compared, in another way.
+// If all lines have the same size and rate, other code compares squared distances.
 TEST(DistanceField, FindsTheNearestOfLinesThatAreAlike) {
   std::mt19937_64 random(6);
   for (const std::size_t count : {1u, 7u, 8u, 9u, 500u}) {

@@ -42,7 +42,7 @@ TEST(Wavelength, HoldsTheDispersionRelation) {
       EXPECT_NEAR(9.81 * k * std::tanh(k * depth) / (w * w), 1.0, 1e-9) << period << " s, " << depth << " m";
     }
   }
-  // The long wave of the tide: T sqrt(g d).
+  // The long-wave limit, for the tide: T sqrt(g d).
   EXPECT_NEAR(wavelengthOf(44712.0, 100.0) / (44712.0 * std::sqrt(9.81 * 100.0)), 1.0, 1e-4);
 }
 
@@ -63,7 +63,7 @@ TEST_F(SizeFiles, ACoarseRasterIsBilinear) {
   for (double x = 0.6; x < 19.4; x += 0.1) EXPECT_NEAR(size->at({x, 5.2}) / f(x, 5.2), 1.0, 0.02) << x;
 }
 
-// What it is measured by is then the shore alone, wherever that asks for less.
+// Accuracy then depends on the shore alone, wherever the shore wants smaller sizes.
 TEST_F(SizeFiles, ARasterThatDecidesNowhereChangesNothing) {
   SizeOptions options;
   options.shore_m = 0.05;
@@ -88,7 +88,7 @@ TEST_F(SizeFiles, ASpotOfOnePixelIsNotMissed) {
   EXPECT_NEAR(size->at({14.005, 4.005}), 0.2, 0.04);
 }
 
-// Against many places of each box, boxes from a hundredth of a pixel to several.
+// Against many points of each box; boxes from a hundredth of a pixel to several pixels.
 TEST_F(SizeFiles, BoundsOfARasterHoldAndAreTight) {
   std::mt19937_64 random(11);
   std::vector<float> values(20 * 10);
@@ -196,7 +196,7 @@ TEST_F(SizeFiles, DepthsInAnotherCrsAskForWavelengths) {
 }
 
 TEST_F(SizeFiles, SlopesBandsAndTheTimeStep) {
-  // 100 m deep in the west, falling by 5 in 100 from x = 5000 on.
+  // 100 m deep in the west, with a slope of 5 % from x = 5000 on.
   const auto depth = [](double x, double) { return 100.0 + 0.05 * std::max(0.0, x - 5000.0); };
   const std::string depths = raster("d.tif", 400, 200, {0.0, 50.0, 0.0, 10000.0, 0.0, -50.0}, 0, depth);
   const Domain domain = planeDomain(rectangle(20000.0, 10000.0));
@@ -242,7 +242,7 @@ TEST_F(SizeFiles, BumpsShorterThanTheFilterDoNotCount) {
   EXPECT_GT(sizesIn(options, domain)->at({10000.0, 5000.0}), 1500.0);
 }
 
-// Pixels twice as high as wide, and a ripple along one axis or the other: a filter evens it out alike.
+// Pixels twice as high as wide, and a ripple along either axis: the filter smooths both equally.
 TEST_F(SizeFiles, TheSlopeFilterIsAsLongAlongBothAxes) {
   std::array<double, 2> sizes;
   for (const bool along_x : {true, false}) {
@@ -297,7 +297,7 @@ TEST_F(SizeFiles, FeaturesWithoutSizesAreRefused) {
   EXPECT_THROW(readSizedFeatures(file("g.geojson"), {}, 0.2), InputError);
 }
 
-// As those of other options.
+// Like those of other options.
 TEST_F(SizeFiles, FeaturesWithSizesAreReadFromArchivesAndLayers) {
   const auto layer = [](GDALDataset& dataset, const char* name, const char* field) {
     OGRLayer* const made = dataset.CreateLayer(name, nullptr, wkbPoint, nullptr);
@@ -349,7 +349,7 @@ TEST_F(SizeFiles, FeaturesWithSizesThatCannotBeReadToTheirEndAreRefused) {
               ::testing::ThrowsMessage<InputError>(HasSubstr("p.gpkg: cannot be read to its end")));
 }
 
-// OGR itself takes the number that a text begins with, whatever unit follows.
+// OGR itself takes the leading number of a text, whatever unit follows.
 TEST_F(SizeFiles, SizesAsTextsAreNumbersOrRefused) {
   const auto sizes = [this](const std::string& text) {
     std::ofstream(file("t.geojson")) << R"({"type": "FeatureCollection", "features": [

@@ -47,8 +47,8 @@ Ring circle(const Point& centre, double radius_m, int corners) {
   return ring;
 }
 
-// All of the Earth is sea but for a continent and some islands: seen away from the continent, the plane is up to 26
-// times as large as the Earth.
+// The whole Earth is sea except a continent and some islands. In the plane, whose centre is opposite the continent,
+// lengths are up to 26 times those on the Earth.
 class OceanPlanet : public ::testing::Test {
  protected:
   static constexpr double kContinent = 2.5e6;  // metres from its middle to its shore
@@ -78,7 +78,7 @@ class OceanPlanet : public ::testing::Test {
       }
       for (VertexId i = 0; i < count; ++i)
         twice += cross(domain.pslg.points[first + i], domain.pslg.points[first + (i + 1) % count]);
-      // The continent is the outside: the sea lies within its ring, and outside those of islands.
+      // The continent is the outside: the sea is inside its ring, and outside the islands' rings.
       const bool outer = ring.size() == 72, inside_left = (twice > 0.0) == outer;
       for (VertexId i = 0; i < count; ++i)
         domain.pslg.segments.push_back(
@@ -89,7 +89,7 @@ class OceanPlanet : public ::testing::Test {
     return domain;
   }
 
-  // Evenly on the Earth, without the continent.
+  // Uniform on the Earth, outside the continent.
   Point randomPlace(std::mt19937_64& random) const {
     while (true) {
       const Point p{uniform(random, -180.0, 180.0), toDegrees(std::asin(uniform(random, -1.0, 1.0)))};
@@ -107,8 +107,8 @@ TEST_F(OceanPlanet, IsWhatTheseTestsNeed) {
   EXPECT_NEAR(projection_.scaleAt(projection_.forward({-90.0, -45.0})), 1.0, 0.01);
 }
 
-// Against geodesics to a hundred places a line, over all of the Earth: for lines alike and unlike, with and without a
-// most.
+// Against geodesics to a hundred points per line, over the whole Earth: for lines with equal and different sizes, with
+// and without a maximum.
 TEST_F(OceanPlanet, DistancesAreThoseOnTheGround) {
   std::mt19937_64 random(5);
   for (const bool alike : {true, false}) {
@@ -169,7 +169,7 @@ TEST_F(OceanPlanet, OneSizeIsThatOnTheGround) {
     const Point place = projection_.forward(randomPlace(random));
     EXPECT_NEAR(sizes.function->at(place) / projection_.measureAt(place), 2e5, 1000.0);
   }
-  // The Earth without caps: 2 pi R² (1 - cos) each, which chords to the rims' corners hardly change.
+  // The Earth without caps of 2 pi R² (1 - cos) each; chords to the corners of the rims hardly change that.
   const double radius = 6371007.2;
   const auto cap = [&](double metres) {
     return 2.0 * std::numbers::pi * radius * radius * (1.0 - std::cos(metres / radius));
@@ -205,7 +205,7 @@ TEST_F(OceanPlanet, SizesGrowFromTheShoreAsOnTheGround) {
   EXPECT_GE(most, 0.12);
 }
 
-// As many degrees of the ground here as there.
+// A channel 30 km wide at several distances from the centre of the projection.
 TEST_F(OceanPlanet, ChannelsAreAsWideAsOnTheGround) {
   for (const double degrees : {2.0, 60.0, 120.0, 150.0}) {
     const Point from = away({-90.0, -45.0}, 120.0, 111e3 * degrees);
@@ -232,7 +232,7 @@ TEST_F(OceanPlanet, ChannelsAreAsWideAsOnTheGround) {
   }
 }
 
-// 100 km high within 100 km of each top, 1 km elsewhere.
+// Floors of 100 km within 100 km of each top, and of 1 km elsewhere.
 class Plateaus final : public SizeField {
  public:
   Plateaus(std::vector<Point> tops, Surface surface) : tops_(std::move(tops)), surface_(surface) {}
@@ -257,7 +257,7 @@ class Plateaus final : public SizeField {
   Surface surface_;
 };
 
-// Islands of high floors: each falls with the distance on the ground, wherever it lies.
+// Areas of high floors: each floor falls with the distance on the ground, wherever it is.
 TEST_F(OceanPlanet, FloorsFallWithTheDistanceOnTheGround) {
   const Domain sea = domain();
   const std::vector<Point> tops = {{-60.0, -30.0}, {120.0, 12.0}, {30.0, 60.0}};
@@ -315,7 +315,7 @@ TEST_F(OceanPlanet, ChosenSizesAreAShareOfTheEarth) {
 TEST_F(OceanPlanet, NodesSizesAreMetres) {
   const Domain sea = domain();
   const TriMesh mesh = constrainedDelaunay(sea.pslg);
-  // Of one size; and too steep ones, brought down along edges by their length on the ground.
+  // A constant size; and sizes that are too steep, which are reduced along edges by their length on the ground.
   const auto measure = [&](VertexId v) { return projection_.measureAt(mesh.points[v]); };
   for (const double s : nodeSizes(mesh, ConstantSize(1e5), 0.2, measure, surface_)) EXPECT_NEAR(s, 1e5, 500.0);
   class Steep final : public SizeFunction {
@@ -338,7 +338,7 @@ TEST_F(OceanPlanet, NodesSizesAreMetres) {
   }
 }
 
-// The shores of a planet with corners every 80 km follow sizes of 300 km, on either side of it.
+// Shores with corners every 80 to 220 km follow sizes of 300 km, wherever they are.
 TEST_F(OceanPlanet, ShoresFollowSizesOfTheGround) {
   Domain sea = domain();
   const Coastline coastline = coastlineOf({polygonFeature(1, circle(middle_, kContinent, 72))}, wgs84());

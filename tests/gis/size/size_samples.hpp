@@ -37,7 +37,7 @@ inline std::unique_ptr<SizeFunction> sizesIn(const SizeOptions& options, const D
   return makeSizeFunction(options, readSizeInputs(options, crs), domain, kInfinity, inOrder).function;
 }
 
-// Files of a test, in a folder of its own.
+// Files of a test, in a separate folder.
 class SizeFiles : public ::testing::Test {
  protected:
   void SetUp() override {

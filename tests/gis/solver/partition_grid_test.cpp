@@ -23,7 +23,7 @@ namespace {
 using coastmesh::testing::sampleGrid;
 using ::testing::HasSubstr;
 
-// Two lakes of 2 x 40 x 40 triangles less an island each.
+// Two lakes of 2 x 40 x 40 triangles each, the first less an island.
 Grid lakes(int cells = 40) { return sampleGrid(Crs{}, {0.0, 0.0}, 10.0, cells); }
 
 std::set<std::pair<std::size_t, std::size_t>> edgesOf(const MeshGraph& graph) {
@@ -73,7 +73,7 @@ TEST(MeshGraph, JoinsNodesOfATriangleAndAcrossWeirs) {
   for (std::size_t n = 0; n < graph.size(); ++n) EXPECT_EQ(graph.weights[n], std::max(1, degrees[n])) << n;
 }
 
-// Edges between parts and the work of the parts, counted from the mesh itself.
+// Edge cuts and the work of the parts, counted from the mesh itself.
 TEST(PartitionGrid, FiguresAreThoseOfTheMesh) {
   Grid grid = lakes();
   const PartitionReport report = partitionGrid(grid, {16, true, true});
