@@ -1,9 +1,9 @@
-# Tests that are scripts: that the checks fail where they must, and that an installed coastmesh can be used by others.
+# Self-tests of the checks, and tests of packages and releases.
 add_test(NAME scripts.check-rooms COMMAND ${PROJECT_SOURCE_DIR}/scripts/check-rooms --self-test)
 add_test(NAME scripts.draw-rooms COMMAND ${PROJECT_SOURCE_DIR}/scripts/draw-rooms --check)
 add_test(NAME scripts.check-words COMMAND ${PROJECT_SOURCE_DIR}/scripts/check-words --self-test)
 add_test(NAME scripts.check-format COMMAND ${PROJECT_SOURCE_DIR}/scripts/check-format --self-test)
-# Compiling a consumer with sanitizers would only test the same again.
+# With sanitizers, compiling a consumer would test nothing new.
 if(NOT COASTMESH_SANITIZE)
   add_test(NAME package.consumer COMMAND ${CMAKE_COMMAND}
     -DBUILD_DIR=${PROJECT_BINARY_DIR} -DSOURCE_DIR=${PROJECT_SOURCE_DIR} -DGENERATOR=${CMAKE_GENERATOR}
@@ -17,7 +17,7 @@ if(NOT COASTMESH_SANITIZE)
   # Both install the same build.
   set_tests_properties(package.deb PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 120 RESOURCE_LOCK install)
   set_tests_properties(package.consumer PROPERTIES RESOURCE_LOCK install)
-  # What has to agree in a release, and reports against their schema.
+  # Consistency of a release, reports against their schema, recipes and the Debian source package.
   foreach(about release report_schema recipes source)
     add_test(NAME package.${about} COMMAND ${COASTMESH_PYTHON} ${PROJECT_SOURCE_DIR}/tests/package/${about}_test.py
       $<TARGET_FILE:coastmesh>)

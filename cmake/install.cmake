@@ -1,9 +1,9 @@
-# Installs the program, a static library and the headers of each part, and the package that find_package(coastmesh)
-# reads. Each part is an export of its own, so that who asks for core alone needs no GDAL.
+# Installs the program, a static library and the headers of each part, and the package for find_package(coastmesh). Each
+# part is an export of its own, so that users of core alone need no GDAL.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# The interface of each part; what these headers include is installed with them, all else is the part's own affair.
+# The public headers of each part. The headers that they include are installed too; all others are internal.
 set(core_headers core/delaunay core/quality core/refine/check core/refine/refine)
 set(gis_headers gis/clean/clean gis/coast/frame gis/format/grid_io gis/format/poly_io gis/read/read_coastline)
 set(parallel_headers parallel/mesh_regions parallel/workers)
@@ -35,7 +35,7 @@ while(due_headers)
     endif()
   endforeach()
 endwhile()
-# What reference.cmake documents.
+# reference.cmake documents these headers.
 set(installed_headers ${known_headers})
 list(SORT installed_headers)
 install(TARGETS coastmesh EXPORT coastmesh-program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})

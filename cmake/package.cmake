@@ -2,7 +2,7 @@
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME coastmesh)
 set(CPACK_PACKAGE_VENDOR "the coastmesh authors")
-# dpkg asks for a maintainer, not for an address: there is none that somebody reads.
+# dpkg requires a maintainer, but no address; there is none that anybody reads.
 set(CPACK_PACKAGE_CONTACT "the coastmesh authors")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "triangle meshes from coastlines and lakes, for ocean and lake models")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
@@ -24,7 +24,7 @@ set(CPACK_DEBIAN_PACKAGE_DEPENDS
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "fonts-dejavu-core")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS
   "qgis (>= 3.22), libgdal-dev, libgeographiclib-dev, libnetcdf-dev, libscotch-dev, libtbb-dev, libcgal-dev")
-# Modules are compiled where they are installed, and their compiled twins go with them.
+# postinst compiles the Python modules, and prerm removes the compiled files.
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA
   ${PROJECT_SOURCE_DIR}/cmake/debian/postinst ${PROJECT_SOURCE_DIR}/cmake/debian/prerm)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)

@@ -1,4 +1,4 @@
-"""A headless Chromium that draws in software, spoken to by its devtools protocol."""
+"""A headless Chromium with software rendering, controlled through its DevTools protocol."""
 import base64
 import json
 import os
@@ -64,7 +64,7 @@ class Browser:
         return int(lines[0]) if len(lines) > 1 else None
 
     def wait(self, condition, what):
-        """The first true answer of `condition`."""
+        """Waits for `condition` and returns its first true result."""
         end = time.monotonic() + DEADLINE_S
         while time.monotonic() < end:
             answer = condition()
@@ -101,7 +101,7 @@ class Browser:
         self.call("Page.navigate", url="file://" + os.path.abspath(path))
 
     def screenshot(self, path=None):
-        """The window as it is seen, PNG."""
+        """Returns the window's content as PNG."""
         png = base64.b64decode(self.call("Page.captureScreenshot", format="png")["data"])
         if path:
             with open(path, "wb") as file:
@@ -129,7 +129,7 @@ class Browser:
         self.call("Input.dispatchKeyEvent", type="keyUp", key=key, windowsVirtualKeyCode=code, modifiers=modifiers)
 
     def complaints(self):
-        """What the page said of errors and warnings, and whatever it asked the network for."""
+        """Returns the page's errors and warnings, and its requests to the network."""
         found = []
         for event in self.events:
             told = event.get("params", {})

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""How fast a page is in a headless Chromium that draws in software: seconds to the first picture, and frames a second while it is
-moved about. On a machine with other work, seconds of the processor tell more than those of the clock.
+"""Measures a page's speed in a headless Chromium with software rendering: seconds to the first picture, and frames per
+second while it moves. On a busy machine, CPU time is more meaningful than elapsed time.
 
 usage: measure.py PAGE.html [SCREENSHOT.png]
 """
@@ -31,7 +31,7 @@ MOVE = """new Promise(done => {
 
 
 class Processor:
-    """Seconds that the browser's processes have worked."""
+    """CPU seconds of the browser's processes."""
 
     def __init__(self, opened):
         version = json.load(urllib.request.urlopen(f"http://127.0.0.1:{opened.port}/json/version", timeout=60))

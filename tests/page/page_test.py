@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""The page that `coastmesh plot -o mesh.html` writes, in a headless Chromium that draws in software: what it shows, by the colours
-of its pixels, and what it says, against the mesh's file as this test reads it. Keeps pictures of it. 77: no Chromium here.
+"""Tests the page that `coastmesh plot -o mesh.html` writes, in a headless Chromium with software rendering: compares
+colours of pixels and texts with the mesh file, as this test reads it. Saves screenshots in PICTURES. Exit code 77:
+Chromium or a Python module is missing.
 
 usage: page_test.py PROGRAM DATA PICTURES
 """
@@ -28,7 +29,7 @@ gdal.UseExceptions()
 
 
 def write_grid(path, across, up, seed):
-    """A jittered lattice of four by 2.4 degrees as a fort.14, its west open; depths grow to the east."""
+    """Writes a jittered lattice of 4 by 2.4 degrees as fort.14, open in the west, with depths growing to the east."""
     chance = random.Random(seed)
     step = 4.0 / across
     with open(path, "w", encoding="utf-8") as file:
@@ -58,7 +59,7 @@ def write_grid(path, across, up, seed):
 
 
 def read_grid(path):
-    """Nodes (x, y, depth) and triangles (from 0), as the file has them."""
+    """Returns the file's nodes (x, y, depth) and triangles (nodes counted from 0)."""
     with open(path, encoding="utf-8") as file:
         rows = file.read().split("\n")
     triangles, nodes = map(int, rows[1].split()[:2])
@@ -68,7 +69,7 @@ def read_grid(path):
 
 
 def angles_of(points):
-    """Degrees, of triangles as an array of (triangle, corner, axis)."""
+    """Returns degrees, for triangles as an array of (triangle, corner, axis)."""
     angles = []
     for c in range(3):
         u, v = points[:, (c + 1) % 3] - points[:, c], points[:, (c + 2) % 3] - points[:, c]
@@ -136,31 +137,31 @@ class Page(unittest.TestCase):
         return self.browser.evaluate(f"document.querySelector({json.dumps(selector)})?.innerText ?? ''")
 
     def settled(self):
-        """Once all is drawn as it is to be, the pixels of the window."""
+        """Waits until drawing is complete and returns the pixels of the window."""
         self.browser.wait(lambda: self.browser.evaluate("page.frame === null && !page.moved && page.drawing.fits(page.drawing.front, page.view)"),
                           "the picture to rest")
-        # A screenshot shows the frame after that.
+        # Wait for the frame after that, which the screenshot shows.
         self.browser.evaluate("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
         return pixels_of(self.browser.screenshot())
 
     def window(self):
-        """Pixels of the map, which the panel leaves."""
+        """Returns the width and height of the map, which is beside the panel."""
         return self.browser.evaluate("(() => { const box = document.getElementById('picture').getBoundingClientRect(); return [box.width, box.height]; })()")
 
     def on_screen(self, points, zoom=1.0, moved=(0.0, 0.0)):
-        """Where places of the plane are drawn where all of the mesh is shown, then zoomed and moved."""
+        """Returns the screen positions of points, with the whole mesh fitted to the map, then zoomed and moved."""
         width, height = self.window()
         scale = 0.95 * min(width / 4.0, height / 2.4) * zoom
         points = numpy.asarray(points)
         return numpy.stack([width / 2 + (points[..., 0] + 3.0) * scale + moved[0], height / 2 - (points[..., 1] - 44.2) * scale + moved[1]], axis=-1)
 
     def plain(self):
-        """Neither edges nor boundaries."""
+        """Switches edges and boundaries off."""
         self.browser.key("e")
         self.browser.key("b")
 
     def expect_colors(self, pixels, shares, screen, palette, name, tolerance=3, least=100):
-        """That pixels at `screen` have the colours of the palette at `shares`, of those that lie in the map."""
+        """Checks that pixels at `screen` that are on the map have the colours of the palette at `shares`."""
         width, height = self.window()
         colors = numpy.array(palette)[numpy.rint(numpy.clip(shares, 0, 1) * (len(palette) - 1)).astype(int)]
         checked = 0
@@ -416,7 +417,7 @@ class Page(unittest.TestCase):
         for x, y in ((0, 0), (0.9, 0), (-0.9, 0), (0, 0.9), (0.6, -0.6)):
             seen = before[height // 2 - int(y * radius), width // 2 + int(x * radius)]
             self.assertLess(abs(seen - water).max(), 4, (x, y))
-        self.assertGreater(before[height // 2 - radius + 5, width // 2 - radius + 5].min(), 250)  # beside it
+        self.assertGreater(before[height // 2 - radius + 5, width // 2 - radius + 5].min(), 250)  # outside the globe
         self.browser.mouse("mouseMoved", width / 2, height / 2)
         self.browser.wait(lambda: self.text("#pointer") != "", "a place under the mouse")
         lon, lat = map(float, self.text("#pointer").split(", "))
@@ -467,7 +468,7 @@ class Page(unittest.TestCase):
         self.browser.open(broken)
         self.browser.wait(lambda: self.browser.evaluate("document.documentElement?.dataset.failed !== undefined"), "an error")
         self.assertIn("cut short or changed", self.said())
-        self.browser.events.clear()  # as it should
+        self.browser.events.clear()  # the error is expected
 
     def test_without_webgl_it_says_what_to_do(self):
         with browser.Browser(WIDTH, HEIGHT, webgl=False) as other:

@@ -1,6 +1,6 @@
-// What triangles are coloured by: a number each, its place on a scale, and how many there are of each size.
+// Colours of triangles: a value per triangle, its position on a scale, and a histogram of the values.
 
-const SHADES = 251;  // of each scale; the palette's last places are for what is on none
+const SHADES = 251;  // per scale; the palette's last entries belong to none
 const WATER = 251, UNKNOWN = 252, BAD = 253;
 const BINS = 60;
 
@@ -40,11 +40,11 @@ function kindName(mesh, color, kind) {
   const { facts } = mesh;
   if (color === "feature") return facts.features[kind] ?? String(kind);
   if (color === "region" && facts.regions) return kind === 0 ? "none" : facts.regions[kind - 1];
-  if (color === "region" || color === "piece") return `${color} ${kind + 1}`;  // as files count pieces
+  if (color === "region" || color === "piece") return `${color} ${kind + 1}`;  // files count pieces from 1
   return color + " " + kind;
 }
 
-// One a triangle, NaN where unknown: degrees, metres, seconds.
+// Returns a value per triangle, NaN if unknown: degrees, metres, seconds, or the number of a kind.
 async function valuesOf(mesh, color) {
   const { corners, arrays } = mesh, count = corners.length / 3;
   if (KINDS.includes(color)) return kindsOf(mesh, color);
@@ -76,20 +76,20 @@ function shapeValue(mesh, color, t, z) {
     return deepest > 0 ? Math.min(...lengths) / Math.sqrt(mesh.facts.gravity * deepest) : NaN;
   }
   const area = areaOfEdges(mesh, lengths);
-  // The edge of an equilateral triangle of that area.
+  // The edge of an equilateral triangle of the same area.
   if (color === "size") return Math.sqrt(area * 4 / Math.sqrt(3));
   const squares = lengths[0] ** 2 + lengths[1] ** 2 + lengths[2] ** 2;
   return squares > 0 ? 4 * Math.sqrt(3) * area / squares : 0;
 }
 
-// Where values lie on the scale: from 0 at `low` to 1 at `high`.
+// Returns the scale of values, from 0 at `low` to 1 at `high`, logarithmic if `log`; for kinds only the palette.
 function scaleOf(mesh, color, values) {
   if (KINDS.includes(color)) return { kinds: true, palette: "kinds" };
   if (color === "angle") return { low: 0, high: 60, log: false, palette: "ramp" };
   if (color === "quality") return { low: mesh.facts.least_quality, high: 1, log: false, palette: "ramp" };
   const known = values.filter(Number.isFinite).sort();
   const log = color !== "depth";
-  // The few smallest would take up half of the scale.
+  // The smallest 2 % are clipped, because they would take up half of the scale.
   const low = known[color === "size" ? Math.floor(known.length / 50) : 0], high = known[known.length - 1];
   return { low, high, log, palette: color === "depth" ? "depth" : "ramp" };
 }
@@ -99,7 +99,7 @@ function shareOf(scale, value) {
   return (at(value) - at(scale.low)) / Math.max(1e-12, at(scale.high) - at(scale.low));
 }
 
-// A byte a triangle, as it is drawn: its place in the palette.
+// Returns a palette index for each triangle, one byte each, in drawing order.
 function shadesOf(mesh, coloring, least_angle, angles) {
   const { order, count } = mesh.triangles, shades = new Uint8Array(count), { values, scale } = coloring;
   for (let i = 0; i < count; ++i) {
@@ -115,9 +115,9 @@ function shadesOf(mesh, coloring, least_angle, angles) {
   return shades;
 }
 
-// How many triangles there are between bounds; `unknown` of them lie nowhere.
+// Returns the number of triangles per bin of values; `unknown` counts triangles without a value.
 function histogramOf(mesh, color, values, scale) {
-  if (!values) return { bins: [], unknown: values ? 0 : mesh.corners.length / 3 };
+  if (!values) return { bins: [], unknown: mesh.corners.length / 3 };
   if (scale.kinds) {
     let most = 0;
     for (const kind of values) most = Math.max(most, kind);
@@ -153,7 +153,7 @@ async function colorBy(mesh, color) {
   return { color, values, scale, histogram: histogramOf(mesh, color, values, scale) };
 }
 
-// 256 colours of four bytes.
+// Returns 256 colours of four bytes (RGBA).
 function paletteOf(facts, scale, theme) {
   const bytes = new Uint8Array(1024).fill(255);
   const put = (at, color) => bytes.set(color, 4 * at);

@@ -1,5 +1,5 @@
 "use strict";
-// What the page holds, as apps/plot/page_arrays.hpp packs it.
+// Unpacks the page's data; apps/plot/page_arrays.hpp describes the format.
 
 function readFacts() {
   const element = document.getElementById("facts");
@@ -19,7 +19,7 @@ async function inflated(bytes) {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-// One number of differences of 0, 1, -1, 2, ... after another, each as the bytes of four planes.
+// Sums up differences, zigzag-coded (0, -1, 1, -2, ... as 0, 1, 2, 3, ...), each in the bytes of four planes.
 function integersOf(planes, count) {
   const values = new Int32Array(count);
   let value = 0;
@@ -42,7 +42,7 @@ function numbersOf(planes, count, Numbers) {
   return values;
 }
 
-// Arrays by name, unpacked when they are first asked for; the text that held them goes.
+// Arrays by name, unpacked on first use; their text is then removed from the page.
 class PageArrays {
   constructor(facts) {
     this.described = new Map(facts.arrays.map(array => [array.name, array]));

@@ -1,8 +1,9 @@
-// Triangles of a few pixels, which graphics hardware is slow at, and software in its place much slower: two bytes a
-// pixel, the shade of the triangle that its middle lies in, and how much of it edges cover, as TRIANGLE_PIXEL has it.
+// Rasterises triangles of a few pixels, which graphics hardware draws slowly and software renderers much more slowly:
+// two bytes per pixel, the shade of the triangle that contains the pixel's centre, and the share that edges cover, as
+// in TRIANGLE_PIXEL.
 
 const NO_DOT = 255;
-const DOT_REACH = 0.1;  // pixels beyond its edges: graphics hardware rounds corners, and would leave cracks beside
+const DOT_REACH = 0.1;  // pixels beyond its edges: hardware rounds corners, which would leave cracks beside them
 
 class DotPicture {
   constructor(triangles, shades, projection, chunks, width, height, ratio) {
@@ -11,7 +12,7 @@ class DotPicture {
     if (chunks.length > 0) this.pixels = new Uint8Array(2 * width * height).fill(NO_DOT);
   }
 
-  // Draws for about that time; true once all is drawn.
+  // Draws for about that time. Returns true once all chunks are drawn.
   draw(milliseconds) {
     for (const end = performance.now() + milliseconds; this.next < this.chunks.length && performance.now() < end;)
       this.drawChunk(this.chunks[this.next++]);
@@ -21,7 +22,7 @@ class DotPicture {
   drawChunk({ first, last }) {
     const { triangles: { vertices, dims }, shades, projection: { middle, rows, off }, pixels, width, height, ratio } = this;
     const [mx, my, mz] = middle, [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]] = rows;
-    // Pixels are numbered by their middles: the first lies half a pixel in.
+    // Pixel indices refer to centres, half a pixel from the window's edge for the first.
     const [ox, oy, oz] = [off[0] + width / 2 - 0.5, off[1] + height / 2 - 0.5, off[2]];
     const x = [0, 0, 0], y = [0, 0, 0];
     for (let i = first, at = 3 * dims * first; i < last; ++i) {
@@ -36,7 +37,7 @@ class DotPicture {
       const [ax, bx, cx] = x, [ay, by, cy] = y;
       const left = Math.max(0, Math.ceil(Math.min(ax, bx, cx))), right = Math.min(width - 1, Math.floor(Math.max(ax, bx, cx)));
       const low = Math.max(0, Math.ceil(Math.min(ay, by, cy))), high = Math.min(height - 1, Math.floor(Math.max(ay, by, cy)));
-      // Of each edge, opposite the corner of that name: how far off it pixels are, growing along u and v.
+      // Per edge, named after the opposite corner: its length, and how a pixel's distance from it grows along u and v.
       const la = Math.hypot(cx - bx, cy - by), lb = Math.hypot(ax - cx, ay - cy), lc = Math.hypot(bx - ax, by - ay);
       const area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax);
       if (area === 0) continue;
@@ -64,7 +65,7 @@ class DotPicture {
   }
 }
 
-// How much of a pixel a line covers that is `away` from its middle and twice `half` wide.
+// Returns the share of a pixel covered by a line `away` pixels from its centre and twice `half` wide.
 function inkAt(away, half) {
   return Math.max(0, Math.min(1, Math.min(away + 0.5, half) - Math.max(away - 0.5, -half)));
 }

@@ -1,11 +1,11 @@
-// Draws with WebGL 2. The mesh is drawn into a picture larger than the window, some chunks a frame where that takes
-// long, and the picture is moved about meanwhile: so moving is smooth however long it takes to draw.
+// Draws with WebGL 2. The mesh is drawn into a picture larger than the window, a few chunks per frame if that takes
+// long, and meanwhile the last picture is moved, so that motion is smooth however long drawing takes.
 
-const PICTURE_MARGIN = 0.25;  // of the window, at each side
-const SHADES_WIDTH = 4096;    // of the texture that has a byte a triangle
-const DOT_SIZE = 8;           // pixels of the page: chunks of smaller triangles are drawn by `DotPicture`
-const DOTS_MS = 10;           // a frame, at that
-const OVERVIEW = 1024;        // pixels of the longer side of the picture of all of the mesh
+const PICTURE_MARGIN = 0.25;  // share of the window, on each side
+const SHADES_WIDTH = 4096;    // of the texture with one byte per triangle
+const DOT_SIZE = 8;           // CSS pixels; `DotPicture` draws chunks of smaller triangles
+const DOTS_MS = 10;           // per frame, for `DotPicture`
+const OVERVIEW = 1024;        // pixels, longer side of the picture of the whole mesh
 
 const PLACED = `#version 300 es
 precision highp float;
@@ -34,7 +34,7 @@ void main() {
   color = texelFetch(palette, ivec2(int(shade), 0), 0).rgb;
 }`;
 
-// Edges are as wide as in pictures; a triangle of a few pixels gets a tint in their place.
+// Edges are as wide as in image files; triangles of a few pixels get a tint instead.
 const TRIANGLE_PIXEL = `#version 300 es
 precision highp float;
 in vec3 share;
@@ -90,7 +90,7 @@ void main() {
   pixel = vec4(color, 1.0) * cover;
 }`;
 
-// What `DotPicture` holds: shades, and ink of edges.
+// Draws a `DotPicture`: shades, and the coverage of edges.
 const DOTS_PIXEL = `#version 300 es
 precision highp float;
 precision highp int;
@@ -111,7 +111,7 @@ layout(location = 0) in ivec3 place;
 layout(location = 1) in float extent;
 uniform float scale;
 void main() {
-  // Larger triangles are seen without.
+  // Larger triangles are visible without a ring.
   gl_Position = extent * scale > 8.0 * ratio ? vec4(2.0, 2.0, 2.0, 1.0) : clipOf(screenOf(place));
   gl_PointSize = 12.0 * ratio;
 }`;
@@ -129,7 +129,7 @@ void main() {
 const WINDOW_VERTEX = `#version 300 es
 void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0); }`;
 
-// Moves a picture to where it belongs now: turned with the globe, shifted and scaled.
+// Transforms a picture to the current view: turned with the globe, shifted and scaled.
 const WINDOW_PIXEL = `#version 300 es
 precision highp float;
 precision highp int;
@@ -166,7 +166,7 @@ void main() {
   pixel = vec4(mix(beyond, color, inside), 1.0);
 }`;
 
-// The same for the usual case, at a third of the cost: only shifted, and all of the window in the picture.
+// The same for the usual case, at a third of the cost: the picture is only shifted, and covers the window.
 const SHIFTED_PIXEL = `#version 300 es
 precision highp float;
 precision highp int;
@@ -211,8 +211,8 @@ class Drawing {
     this.line_arrays = [];
     this.bad = { count: 0 };
     this.front = this.back = this.overview = this.job = null;
-    this.style = 0;        // number of the looks in force: pictures of older ones are drawn anew
-    this.batch = Infinity; // chunks a frame
+    this.style = 0;        // version of the appearance: pictures of older versions are redrawn
+    this.batch = Infinity; // chunks per frame
   }
 
   texture(format, width, height) {
@@ -244,7 +244,8 @@ class Drawing {
   addLines(items) {
     const { gl } = this, array = gl.createVertexArray(), dims = this.mesh.places.length;
     gl.bindVertexArray(array);
-    // Every end of the two triangles that an edge is drawn as has all of it: instances are slow in software.
+    // Each of the six vertices of the two triangles that draw an edge stores the whole edge, because instancing is slow
+    // in software.
     const whole = new Int32Array(12 * dims * items.count), extents = new Float32Array(6 * items.count);
     for (let i = 0; i < 6 * items.count; ++i) {
       const edge = Math.floor(i / 6);
@@ -278,7 +279,7 @@ class Drawing {
     gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, 256, 1, gl.RGBA, gl.UNSIGNED_BYTE, palette);
     ++this.style;
   }
-  // Rings about places, of which whole numbers are given, where what reaches as far as `extents` is small.
+  // Rings around `places` (integers), drawn only while the triangles, of size `extents`, are small on screen.
   setRings(places, extents) {
     const { gl } = this;
     this.bad = { count: extents.length, array: this.arrayOf(places) };
@@ -327,7 +328,7 @@ class Drawing {
     }
     this.back ??= this.target(width, height);
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.back.frame);
-    // On the globe the ground ends at the horizon, which `compose` knows.
+    // On the globe, `compose` draws the ground, which ends at the horizon.
     gl.clearColor(...(view.onGlobe ? [0, 0, 0, 0] : [...this.looks.theme.land.map(byte => byte / 255), 1]));
     gl.clear(gl.COLOR_BUFFER_BIT);
     const drawn = view.copy(), projection = projectionOf(drawn);
@@ -339,14 +340,14 @@ class Drawing {
     };
   }
 
-  // Whether the job's picture would still be of use.
+  // Returns whether the job's picture would still be useful.
   serves(job, view) {
     if (job.style !== this.style || job.view.width !== view.width || job.view.height !== view.height) return false;
     const ratio = view.scale / job.view.scale;
     const [x, y] = this.shiftOf(job.view, view);
     return ratio > 0.5 && ratio < 2 && Math.abs(x) < view.width && Math.abs(y) < view.height;
   }
-  // Where the middle of `view` lies in a picture of `drawn`, pixels from its middle.
+  // Returns the position of the centre of `view` in a picture of `drawn`, in pixels from the picture's centre.
   shiftOf(drawn, view) {
     if (view.onGlobe) return globeScreen(drawn, globeBasis(view)[2]);
     return drawn.middle.map((share, k) => (view.middle[k] - share) * drawn.scale);
@@ -359,7 +360,7 @@ class Drawing {
     return Math.abs(x) <= view.width / 8 && Math.abs(y) <= view.height / 8;
   }
 
-  // Goes on drawing; true where a new picture is ready, or more is to be done.
+  // Continues drawing. Returns true if a new picture is ready or drawing is not finished.
   step(view, now) {
     if (this.job && !this.serves(this.job, view)) {
       this.gl.deleteSync(this.job.fence);
@@ -488,7 +489,7 @@ class Drawing {
     this.takeOverview();
   }
 
-  // Keeps a small picture of all of the mesh, to show where the large one does not reach.
+  // Keeps a small picture of the whole mesh for parts of the window that the large one does not cover.
   takeOverview() {
     const { gl, front, mesh } = this, { view } = front;
     const reach = view.onGlobe ? [1, 1] : mesh.facts.view.half;
@@ -503,7 +504,7 @@ class Drawing {
     gl.blitFramebuffer(0, 0, front.width, front.height, 0, 0, width, height, gl.COLOR_BUFFER_BIT, gl.LINEAR);
   }
 
-  // True where it could be done so.
+  // Composes the window by a mere shift of the picture; returns false if that is impossible.
   composeShifted(view) {
     const { gl, front, shifted: used } = this;
     if (view.onGlobe || front?.view.scale !== view.scale) return false;
@@ -520,7 +521,7 @@ class Drawing {
     return true;
   }
 
-  // How a picture of `drawn` is moved to become one of `view`.
+  // Returns the transformation from pixels of `view` to pixels of a picture of `drawn`.
   moveOf(drawn, view) {
     const ratio = drawn.scale / view.scale;
     const shift = this.shiftOf(drawn, view).slice(0, 2);
@@ -533,7 +534,7 @@ class Drawing {
     };
   }
 
-  // The window, of the pictures that there are.
+  // Composes the window from the available pictures.
   compose(view) {
     const { gl, window: used } = this, { theme } = this.looks;
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);

@@ -1,6 +1,6 @@
-// Puts it together: events, frames, and what is said where something is missing.
+// The page: events, frames, and messages about missing features.
 
-const KEY_STEP = 80;  // pixels of the page that an arrow key moves
+const KEY_STEP = 80;  // CSS pixels per press of an arrow key
 
 class Page {
   async open() {
@@ -14,7 +14,7 @@ class Page {
     this.edges = this.facts.edges;
     this.lines = true;
     this.picked = null;
-    this.motion = [0, 0];  // pixels still to go, right and up
+    this.motion = [0, 0];  // pixels still to move, right and up
     this.pointers = new Map();
     this.mesh = await loadMesh(this.facts, this.arrays);
     await loadLines(this.mesh);
@@ -133,7 +133,7 @@ class Page {
     else document.documentElement.dataset.drawn = this.drawing.style;
   }
 
-  // Pixels of the page from the top left, of a place in whole numbers.
+  // Returns CSS pixels from the top left, and the height towards the eye, of a place in integers.
   pagePlace(projection, place) {
     const [x, y, towards] = screenOf(projection, place), ratio = devicePixelRatio;
     return [(x + this.view.width / 2) / ratio, (this.view.height / 2 - y) / ratio, towards];
@@ -161,7 +161,7 @@ class Page {
 
   placeScale() {
     const { facts, view } = this;
-    let pixels;  // of the page, a metre
+    let pixels;  // per metre: of the device, then CSS pixels
     if (view.onGlobe) {
       pixels = view.scale / facts.ellipsoid[0];
     } else {
@@ -173,7 +173,7 @@ class Page {
     byId("scale-bar").style.width = `${(length * pixels).toFixed(1)}px`;
     byId("scale-text").textContent = lengthText(this.mesh, length);
   }
-  // Plane length over true length in the middle of the window.
+  // Returns the ratio of plane length to true length at the window's centre.
   planeScale() {
     const { scales, half } = this.facts.view;
     if (!scales) return 1;
@@ -206,7 +206,8 @@ class Page {
     this.showPlace(picked);
   }
 
-  // Of what colours show, or angles: the hundred smallest, one after another; of depths the shallowest.
+  // Goes to the next of the hundred triangles with the smallest values of the present colouring (for depth, the
+  // shallowest), or with the smallest angles if they are coloured by nothing or by kinds.
   async nextWorst() {
     if (!this.worst) {
       const { color, scale } = this.coloring, shape = !scale || scale.kinds;
@@ -306,7 +307,7 @@ class Page {
     this.canvas.classList.add("moving");
     this.pointers.set(event.pointerId, at);
     const ratio = devicePixelRatio, [other] = others;
-    const share = other ? 0.5 : 1;  // two fingers move it half each
+    const share = other ? 0.5 : 1;  // each of two fingers moves it by half
     this.view.panPixels((before[0] - at[0]) * ratio * share, (at[1] - before[1]) * ratio * share);
     if (other) {
       const far = place => Math.max(10, Math.hypot(place[0] - other[0], place[1] - other[1]));

@@ -1,13 +1,11 @@
-// The mesh as it is drawn: triangles near one another lie near one another in memory, in chunks that are skipped as a
-// whole where they are out of view. Places are whole numbers, WHOLE for half the longer side of what is shown, or for
-// the globe's radius.
+// The mesh in drawing order: triangles that are close in space are close in memory, in chunks that are skipped if out
+// of view. Places are integers; WHOLE is half the longer side of the plane, or the globe's radius.
 
 const WHOLE = 2 ** 30 - 1;
 const CHUNK = 4096;
 
-// The order along a Z-shaped curve, and the chunks of it: middle and radius of a circle or sphere about each, and the
-// mean radius of what is in it.
-// `middles`: Float32Array, `dims` shares from -1 to 1 an item.
+// Returns the order along a Z-order curve and its chunks, each with the centre and radius of a bounding circle or
+// sphere and the mean radius of its items. `middles`: Float32Array, `dims` shares from -1 to 1 per item.
 function inChunks(count, dims, middles, radiusOf) {
   const codes = new Uint32Array(count), steps = dims === 2 ? 65535 : 1023;
   const spread = dims === 2 ? spreadTwo : spreadThree;
@@ -73,7 +71,7 @@ function sortedByCode(codes) {
   return order;
 }
 
-// Items of `corners` nodes each, drawn from `vertices`: `dims` whole numbers a corner, in the chunks' order.
+// Prepares items of `corners` nodes each for drawing; `vertices` has `dims` integers per corner, in the chunks' order.
 function drawnItems(nodes, corners, places) {
   const dims = places.length, count = nodes.length / corners;
   const middles = new Float32Array(dims * count), radii = new Float32Array(count);
@@ -101,7 +99,7 @@ function drawnItems(nodes, corners, places) {
   return { count, dims, order, chunks, vertices };
 }
 
-// How far the shore that each edge belongs to reaches, as a share: an island of a few pixels is drawn with a thin line.
+// Returns the extent of the shore that each edge belongs to, as a share: islands of a few pixels get thin lines.
 function extentsOf(nodes, places) {
   const parent = new Map();
   const rootOf = node => {
@@ -145,7 +143,7 @@ async function loadLines(mesh) {
   }
 }
 
-// Metres from the Earth's middle, three a node; for a plane without a place on Earth its coordinates and 0.
+// Returns geocentric coordinates in metres, three per node; for a plane without a place on Earth its coordinates and 0.
 async function spacePlaces(mesh) {
   if (mesh.space) return mesh.space;
   const { facts, arrays } = mesh, count = facts.nodes, space = new Float64Array(3 * count);
@@ -166,7 +164,7 @@ async function spacePlaces(mesh) {
   return mesh.space = space;
 }
 
-// Length of an edge along the ground, metres: the arc over the chord between its nodes.
+// Returns the length of an edge along the ground in metres: the arc over the chord between its nodes.
 function edgeLength(mesh, a, b) {
   const space = mesh.space;
   const chord = Math.hypot(space[3 * a] - space[3 * b], space[3 * a + 1] - space[3 * b + 1],
@@ -176,7 +174,8 @@ function edgeLength(mesh, a, b) {
   return 2 * radius * Math.asin(Math.min(1, chord / 2 / radius));
 }
 
-// Square metres, of edges along the ground (Kahan's form of Heron's formula, and the first term of the sphere's).
+// Returns square metres, from edge lengths along the ground: Kahan's form of Heron's formula, and the first correction
+// term for the sphere.
 function areaOfEdges(mesh, lengths) {
   const [c, b, a] = [...lengths].sort((x, y) => x - y);
   const flat = Math.sqrt(Math.max(0, (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c)))) / 4;
@@ -190,7 +189,7 @@ function edgeLengths(mesh, t) {
   return [edgeLength(mesh, b, c), edgeLength(mesh, c, a), edgeLength(mesh, a, b)];
 }
 
-// Degrees, at the three corners, as the triangle lies in the plane, or flat through its corners on the globe.
+// Returns degrees at the three corners: in the plane, or on the globe of the flat triangle through them.
 function anglesOf(mesh, t) {
   const corners = [0, 1, 2].map(c => mesh.places.map(axis => axis[mesh.corners[3 * t + c]]));
   return corners.map((at, c) => {

@@ -1,4 +1,4 @@
-// What stands beside the map: colours and their histogram, what is picked, and its numbers.
+// The panel beside the map: colours and their histogram, and the numbers of the picked triangle or node.
 
 const THEMES = {
   light: {
@@ -29,7 +29,7 @@ const LINE_NAMES = {
   constraint: "line", weir: "weir", "region border": "border of regions",
 };
 
-// Islands are told apart from land where there is an open boundary.
+// Islands differ from land only if there is an open boundary.
 function themeOf(name, facts) {
   const theme = THEMES[name];
   if (facts.lines.some(({ kind }) => kind === "open")) return theme;
@@ -87,7 +87,7 @@ function showLegend(mesh, { color, scale }) {
   byId("high").textContent = valueText(mesh, color, scale.high);
 }
 
-// `log`: whether bars are as high as the logarithms of their counts.
+// `log`: whether the heights of bars are logarithmic.
 function showHistogram(mesh, { color, scale, histogram }, log) {
   const svg = byId("histogram"), text = byId("histogram-text"), { facts } = mesh;
   svg.replaceChildren();
@@ -125,7 +125,7 @@ function tableOf(rows) {
   return element("table", {}, ...rows.map(([name, text]) => element("tr", {}, element("td", { textContent: name }), element("td", { textContent: text }))));
 }
 
-// `go`: what buttons with the number of a node or a triangle do.
+// `go`: called by the buttons for a node's or a triangle's number.
 async function showPicked(mesh, picked, go) {
   const section = byId("picked");
   if (!picked) return section.replaceChildren();

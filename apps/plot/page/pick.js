@@ -1,8 +1,9 @@
-// Finds what lies at a place of the window, in double precision, and reads its numbers.
+// Finds the triangle or node at a position of the window, in double precision, and its numbers.
 
-const NODE_REACH = 7;  // pixels of the page from which a node is picked, where its triangles are larger than this
+const NODE_REACH = 7;  // CSS pixels within which a node is picked, if the triangle there is over three times as large
 
-// The triangle at a place, and the node next to it; null where there is none within reach.
+// Returns the triangle at a position, null if none, and the nearest node within `reach`, null if none or if the
+// triangle is too small.
 function pickAt(mesh, view, right, up, reach) {
   const projection = projectionOf(view), { chunks, vertices, order, dims } = mesh.triangles;
   const x = [0, 0, 0], y = [0, 0, 0], z = [0, 0, 0];
@@ -37,7 +38,7 @@ function pickAt(mesh, view, right, up, reach) {
   return { triangle, node: node !== null && (!triangle || triangle.side > 3 * reach) ? node : null };
 }
 
-// Longitude and latitude, or x and y, in a triangle at `shares` of its corners; null where the page has none.
+// Returns longitude and latitude, or x and y for a plane, in a triangle at `shares` of its corners.
 async function placeIn(mesh, t, shares) {
   const names = mesh.facts.coordinates === "plane" ? ["x", "y"] : ["lon", "lat"];
   const [first, second] = [await mesh.arrays.get(names[0]), await mesh.arrays.get(names[1])];
@@ -52,7 +53,7 @@ async function placeIn(mesh, t, shares) {
   return [names[0] === "lon" ? x - 360 * Math.round(x / 360) : x, y];
 }
 
-// Rows of a name and a text each.
+// Returns rows of a name and a text, and the triangles around the node.
 async function numbersOfNode(mesh, node) {
   const { facts, arrays, corners } = mesh, rows = [];
   if (arrays.has("lon")) {
@@ -72,7 +73,7 @@ async function numbersOfNode(mesh, node) {
   return { rows, around };
 }
 
-async function numbersOfTriangle(mesh, t, coloring) {
+async function numbersOfTriangle(mesh, t) {
   const { facts, arrays, corners } = mesh, rows = [];
   await spacePlaces(mesh);
   const lengths = edgeLengths(mesh, t), angles = anglesOf(mesh, t);
@@ -88,10 +89,10 @@ async function numbersOfTriangle(mesh, t, coloring) {
   }
   for (const kind of KINDS)
     if (facts.colors.includes(kind)) rows.push([COLOR_NAMES[kind], kindName(mesh, kind, (await kindsOf(mesh, kind))[t])]);
-  return { rows, nodes: [...corners.subarray(3 * t, 3 * t + 3)], coloring };
+  return { rows, nodes: [...corners.subarray(3 * t, 3 * t + 3)] };
 }
 
-// Where a triangle or a node is, as a share of the unit, and how far it reaches.
+// Returns the centre of a triangle or a node and the radius of its surroundings, as shares of the unit.
 function whereIs(mesh, picked) {
   const nodes = picked.kind === "node" ? [picked.number] : [...mesh.corners.subarray(3 * picked.number, 3 * picked.number + 3)];
   const middle = mesh.places.map(axis => nodes.reduce((sum, node) => sum + axis[node], 0) / nodes.length / WHOLE);

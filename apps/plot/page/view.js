@@ -1,7 +1,7 @@
-// What is seen: where the middle of the window lies, and how many pixels (of the screen's own) the unit takes, which is
-// half the longer side of the plane, or the globe's radius. Screen coordinates: right and up from the window's middle.
+// The view: the position at the window's centre, and the scale in device pixels per unit, which is half the longer side
+// of the plane or the globe's radius. Screen coordinates: right and up from the window's centre.
 
-const CLOSEST = 2 ** 28, FURTHEST = 0.25;  // zoom: pixels a unit, and of the whole in the window
+const CLOSEST = 2 ** 28, FURTHEST = 0.25;  // limits of the scale: pixels per unit, and relative to the fitting scale
 
 class View {
   constructor(facts) {
@@ -11,7 +11,7 @@ class View {
     this.width = this.height = 1;  // pixels
     this.fit();
   }
-  // Plane: x and y as shares of the unit; globe: longitude and latitude.
+  // Shows the whole mesh. `middle`: x and y as shares of the unit, or longitude and latitude in degrees.
   fit() {
     this.middle = [...this.home];
     this.scale = this.fittingScale();
@@ -44,7 +44,7 @@ class View {
     this.middle = this.onGlobe ? [x - 360 * Math.round(x / 360), within(y, 90)]
                                : [within(x, this.half[0]), within(y, this.half[1])];
   }
-  // Zooms so that what is at `right`, `up` stays there.
+  // Zooms about the screen position `right`, `up`.
   zoom(factor, right = 0, up = 0) {
     const least = FURTHEST * this.fittingScale();
     const scale = Math.min(CLOSEST, Math.max(least, this.scale * factor));
@@ -63,7 +63,7 @@ class View {
     }
     this.fitted = false;
   }
-  // Shows a place of `radius` around it.
+  // Shows `place` with `radius` around it, in shares of the unit.
   show(place, radius) {
     if (this.onGlobe) {
       const [x, y, z] = place;
@@ -85,12 +85,12 @@ function globeBasis({ middle: [lon, lat] }) {
 }
 function dotOf(a, b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-// On screen, and the height towards the eye: none is seen below 0.
+// Returns screen coordinates and the height towards the eye, which is negative behind the horizon.
 function globeScreen(view, place) {
   const [right, up, eye] = globeBasis(view);
   return [dotOf(place, right) * view.scale, dotOf(place, up) * view.scale, dotOf(place, eye)];
 }
-// The unit vector at a place on screen, null beside the globe.
+// Returns the unit vector at a screen position, null outside the globe.
 function globePlace(view, right, up) {
   const x = right / view.scale, y = up / view.scale, square = x * x + y * y;
   if (square >= 1) return null;
@@ -98,8 +98,8 @@ function globePlace(view, right, up) {
   return [0, 1, 2].map(k => x * basis[0][k] + y * basis[1][k] + z * basis[2][k]);
 }
 
-// What turns places, whole numbers less `middle`, into pixels: two rows, or three on the globe, the third of which
-// tells from the horizon on how far towards the eye. The differences are whole too, so nothing is lost far zoomed in.
+// Returns the map from places, as integers less `middle`, to pixels. The third row gives the height towards the eye: 0
+// at the horizon of the globe, 1 in a plane. The differences are integers too, so nothing is lost at any zoom.
 function projectionOf(view) {
   const scale = view.scale / WHOLE;
   if (!view.onGlobe) {
@@ -116,12 +116,12 @@ function projectionOf(view) {
   };
 }
 
-// Pixels of a place given in whole numbers.
+// Returns the pixels of a place in integers, and its height towards the eye.
 function screenOf({ middle, rows, off }, place) {
   return rows.map((row, i) => off[i] + place.reduce((sum, value, k) => sum + row[k] * (value - middle[k]), 0));
 }
 
-// Whether a chunk may be seen in a window of `width` by `height` pixels about the view's middle.
+// Returns whether a chunk may be visible in a window of `width` by `height` pixels about the view's centre.
 function seesChunk(projection, view, chunk, width, height) {
   const [x, y, towards] = screenOf(projection, chunk.middle.map(share => share * WHOLE));
   const radius = chunk.radius * view.scale + 4;

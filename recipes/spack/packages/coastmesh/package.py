@@ -1,5 +1,5 @@
-"""For Spack, as a repository of one package: see recipes/README.md. There is no address to fetch sources from: `spack develop`
-says where the clone is."""
+"""Spack recipe, in a repository of one package: see recipes/README.md. There is no address to fetch sources from, so
+`spack develop` names the clone."""
 from spack_repo.builtin.build_systems.cmake import CMakePackage
 
 from spack.package import *
@@ -40,7 +40,7 @@ class Coastmesh(CMakePackage):
 
     def cmake_args(self):
         args = [self.define("COASTMESH_TESTS", False)]
-        # Without it CMake takes the system's Python, and makes a module for that.
+        # Otherwise CMake builds the module for the system's Python.
         if self.spec.satisfies("+python"):
             args += [self.define("COASTMESH_PYTHON", self.spec["python"].command.path),
                      self.define("Python3_EXECUTABLE", self.spec["python"].command.path)]
