@@ -114,7 +114,7 @@ class WaterFinder {
   // it should have separated water from land. A line that ends at another coast is a pier.
   void refuseGaps() const {
     const std::size_t n = vertices_.plane.size();
-    std::vector<std::uint32_t> degree(n, 0), lines(n, 0);
+    std::vector<std::uint32_t> degree(n, 0);
     std::vector<char> on_frame(n, 0);
     std::vector<std::array<std::uint32_t, 2>> at(n, {kNone, kNone});
     for (std::uint32_t e = 0; e < coast_.edges.size(); ++e) {

@@ -1,19 +1,12 @@
 #include "gis/coast/feature_names.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 
+#include "gis/lower_case.hpp"
+
 namespace coastmesh {
-namespace {
-
-std::string lowerCase(std::string text) {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
-}  // namespace
 
 std::string_view nameOf(const std::vector<std::pair<std::string, std::string>>& attributes) {
   for (const bool exactly : {true, false}) {

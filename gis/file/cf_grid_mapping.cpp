@@ -2,6 +2,7 @@
 
 #include <ogr_srs_api.h>
 
+#include <cmath>
 #include <string_view>
 
 #include "gis/crs/ogr_support.hpp"
@@ -44,9 +45,7 @@ const std::vector<Method>& methods() {
         {SRS_PP_LATITUDE_OF_CENTER, "latitude_of_projection_origin"}}},
       {SRS_PT_POLAR_STEREOGRAPHIC,
        "polar_stereographic",
-       {{SRS_PP_CENTRAL_MERIDIAN, "straight_vertical_longitude_from_pole"},
-        {SRS_PP_LATITUDE_OF_ORIGIN, "standard_parallel"},
-        {SRS_PP_SCALE_FACTOR, "scale_factor_at_projection_origin"}}},
+       {{SRS_PP_CENTRAL_MERIDIAN, "straight_vertical_longitude_from_pole"}}},  // and `addPole`
       {SRS_PT_OBLIQUE_STEREOGRAPHIC,
        "stereographic",
        {{SRS_PP_CENTRAL_MERIDIAN, "longitude_of_projection_origin"},
@@ -54,6 +53,18 @@ const std::vector<Method>& methods() {
         {SRS_PP_SCALE_FACTOR, "scale_factor_at_projection_origin"}}},
   };
   return known;
+}
+
+// CF has the pole, and either the scale there or the parallel that is true to scale; OGR has a latitude that is one or
+// the other.
+void addPole(const OGRSpatialReference& srs, CfGridMapping& mapping) {
+  constexpr double kPole = 90.0;
+  const double latitude = srs.GetNormProjParm(SRS_PP_LATITUDE_OF_ORIGIN, 0.0);
+  mapping.parameters.emplace_back("latitude_of_projection_origin", std::copysign(kPole, latitude));
+  if (std::abs(latitude) == kPole)
+    mapping.parameters.emplace_back("scale_factor_at_projection_origin", srs.GetNormProjParm(SRS_PP_SCALE_FACTOR, 1.0));
+  else
+    mapping.parameters.emplace_back("standard_parallel", latitude);
 }
 
 }  // namespace
@@ -73,6 +84,7 @@ CfGridMapping cfGridMapping(const Crs& crs) {
       if (name == nullptr || std::string_view(name) != method.ogr) continue;
       mapping.name = method.cf;
       for (const Parameter& parameter : method.parameters) add(parameter);
+      if (method.ogr == std::string_view(SRS_PT_POLAR_STEREOGRAPHIC)) addPole(srs, mapping);
       for (const Parameter& parameter : kFalseOrigin) add(parameter);
     }
   }

@@ -183,6 +183,7 @@ void widenPassages(ShoreTriangles& triangles, const ShoreSizes& sizes, const std
       passage.length_m += (wet[i + 1].way - wet[i].way) / scale;
       passage.width_m = std::max(passage.width_m, elements * wet[i].size / scale);
       passage.place = wet[i].at;
+      passage.water = water;
     }
     for (const LandOnLine& land : landsOn(samples)) {
       if (samples[land.first].beyond || land.length < kDug * samples[land.middle].size) continue;
@@ -219,7 +220,7 @@ void widenPassages(ShoreTriangles& triangles, const ShoreSizes& sizes, const std
     gained[triangles.mesh.regions[t]] += 0.5 * cross(b - a, c - a) / scale / scale;
   }
   for (std::size_t i = widened_before; i < effects.widened.size(); ++i)
-    edit(EditKind::WidenedPassage, effects.widened[i].place, pieces.front().water);
+    edit(EditKind::WidenedPassage, effects.widened[i].place, effects.widened[i].water);
   settleShores(triangles, sizes.wanted);
 }
 

@@ -49,8 +49,9 @@ class LineZone {
 
 // A passage along which land was removed.
 struct WidenedPassage {
-  std::size_t line = 0;  // of the guides' passages
-  Point place{};
+  std::size_t line = 0;   // of the guides' passages
+  Point place{};          // on the last of the parts that were widened
+  RegionId water = 0;     // there
   double length_m = 0.0;  // of the parts that were widened
   double width_m = 0.0;   // the largest width made
   double dug_m = 0.0;     // the longest way through land, if at least an element

@@ -16,9 +16,9 @@ void settleShores(ShoreTriangles& triangles, const SizeFunction& size);
 // The graph of what `settleShores` would make.
 ShoreGraph settledGraph(ShoreTriangles&& triangles, const SizeFunction& size);
 
-// A triangle that contains x; kNone if x is outside the triangulation. Walks from `near`, and searches all triangles if
+// A triangle that contains x; kNone if x is outside the triangulation. Walks from `from`, and searches all triangles if
 // that takes too long.
-TriId locateIn(const ShoreTriangles& triangles, const Point& x, TriId near);
+TriId locateIn(const ShoreTriangles& triangles, const Point& x, TriId from);
 
 // Inserts helpers and makes the triangulation Delaunay. Skips points on a segment, at a vertex or outside.
 void insertPoints(ShoreTriangles& triangles, const std::vector<Point>& points, const SizeFunction& size);

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "gis/file/output_files.hpp"
+#include "gis/format/grid_formats.hpp"
 #include "gis/format/grid_io.hpp"
+#include "gis/lower_case.hpp"
 
 namespace coastmesh {
 namespace {
@@ -20,12 +22,11 @@ const std::vector<std::vector<std::string_view>> kSets = {{".shp", ".shx", ".dbf
 constexpr std::array<std::string_view, 8> kInPlace = {".prj", ".qpj", ".tfw", ".wld", ".hdr", ".gfs", ".xsd", ".clr"};
 constexpr std::array<std::string_view, 6> kAfter = {".aux.xml", ".ovr", ".msk", ".qpj", "-wal", "-journal"};
 
-const GridFormat* formatOf(const std::string& path) {
-  for (const GridFormat& format : gridFormats()) {
-    for (const std::string_view ending : format.endings)
-      if (path.ends_with(ending)) return &format;
-  }
-  return nullptr;
+std::string upperCase(std::string_view text) {
+  std::string upper(text);
+  std::ranges::transform(upper, upper.begin(),
+                         [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
+  return upper;
 }
 
 }  // namespace
@@ -38,14 +39,19 @@ std::vector<std::string> companionsOf(const std::string& path) {
       all.push_back(entry->path().string());
     return all;
   }
-  const auto add = [&](std::string_view ending) { all.push_back(fs::path(path).replace_extension(ending).string()); };
+  const std::string own = fs::path(path).extension().string(), lower = lowerCase(own);
+  const auto add = [&](std::string_view ending) {
+    all.push_back(fs::path(path).replace_extension(ending).string());
+    // LAKE.SHP has its LAKE.DBF.
+    if (own != lower) all.push_back(fs::path(path).replace_extension(upperCase(ending)).string());
+  };
   std::ranges::for_each(kInPlace, add);
   for (const auto& set : kSets) {
-    if (std::ranges::count(set, fs::path(path).extension().string()) > 0) std::ranges::for_each(set, add);
+    if (std::ranges::count(set, lower) > 0) std::ranges::for_each(set, add);
   }
   for (const std::string_view ending : kAfter) all.push_back(path + std::string(ending));
   // A .poly may have its vertices in a .node.
-  const GridFormat* format = path.ends_with(".poly") ? &gridFormatFor(".node") : formatOf(path);
+  const GridFormat* format = lower == ".poly" ? &gridFormatFor(".node") : formatByEnding(path);
   if (format != nullptr) {
     const OutputFiles files = filesOf(*format, path);
     all.insert(all.end(), files.targets.begin(), files.targets.end());

@@ -154,7 +154,8 @@ void readElements(TextReader& file, std::uint64_t count, const NodeNumbers& numb
   bool in_order = true;
   for (std::uint64_t t = 0; t < count; ++t) {
     file.needLine();
-    in_order = in_order && file.integer() == static_cast<std::int64_t>(t) + 1;
+    const std::int64_t id = file.integer();
+    in_order = in_order && id == static_cast<std::int64_t>(t) + 1;
     if (const std::int64_t corners = file.integer(); corners != 3)
       file.fail("an element of " + std::to_string(corners) + forCount(corners, " node", " nodes") +
                 "; only meshes of triangles can be read");

@@ -87,8 +87,6 @@ void writeFvcom(const Grid& grid, const std::string& path, const ItemLoop& loop)
   writePrjBeside(fileOfSet(path, "grd"), grid.crs);
 }
 
-namespace {
-
 // "Node Number = 12".
 std::uint64_t readCount(TextReader& file, std::string_view what) {
   file.needLine();
@@ -152,8 +150,6 @@ std::vector<bool> readOpenNodes(const std::string& path, const Grid& grid) {
   }
   return is_open;
 }
-
-}  // namespace
 
 // Reads the set; only the first file is required. Throws InputError.
 Grid readFvcom(const std::string& path, const Crs& unsaid) {

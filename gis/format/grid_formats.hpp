@@ -63,4 +63,7 @@ OutputFiles layerFiles(const std::string& path);     // one file each for triang
 
 const FormatFunctions& functionsOf(const GridFormat& format);
 
+// The format with the longest ending that fits, case-insensitive: "_22.msh" before ".msh". Null if there is none.
+const GridFormat* formatByEnding(const std::string& path);
+
 }  // namespace coastmesh

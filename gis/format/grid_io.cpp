@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cctype>
 #include <filesystem>
 
 #include "gis/crs/geodesy.hpp"
@@ -15,6 +14,7 @@
 #include "gis/format/read_ugrid.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/grid_lines.hpp"
+#include "gis/lower_case.hpp"
 
 namespace coastmesh {
 namespace {
@@ -28,29 +28,9 @@ const std::vector<FormatRecord>& records() {
   return known;
 }
 
-std::string inSmallLetters(std::string text) {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
-// The format with the longest ending that fits: "_22.msh" before ".msh".
-const GridFormat* formatByEnding(const std::string& path) {
-  const std::string lower = inSmallLetters(path);
-  const GridFormat* found = nullptr;
-  std::size_t longest = 0;
-  for (const GridFormat& format : gridFormats()) {
-    for (const std::string_view ending : format.endings) {
-      if (ending.size() <= longest || !lower.ends_with(ending)) continue;
-      found = &format;
-      longest = ending.size();
-    }
-  }
-  return found;
-}
-
 // Formats with the ending of `path` that are recognised by content.
 std::vector<const GridFormat*> formatsToldByContent(const std::string& path) {
-  const std::string ending = inSmallLetters(std::filesystem::path(path).extension().string());
+  const std::string ending = lowerCase(std::filesystem::path(path).extension().string());
   std::vector<const GridFormat*> told;
   for (const GridFormat& format : gridFormats()) {
     const auto isOf = [&](std::string_view known) { return !ending.empty() && known.ends_with(ending); };
@@ -97,6 +77,20 @@ const std::vector<GridFormat>& gridFormats() {
     return all;
   }();
   return formats;
+}
+
+const GridFormat* formatByEnding(const std::string& path) {
+  const std::string lower = lowerCase(path);
+  const GridFormat* found = nullptr;
+  std::size_t longest = 0;
+  for (const GridFormat& format : gridFormats()) {
+    for (const std::string_view ending : format.endings) {
+      if (ending.size() <= longest || !lower.ends_with(ending)) continue;
+      found = &format;
+      longest = ending.size();
+    }
+  }
+  return found;
 }
 
 const GridFormat& gridFormatFor(const std::string& path, const std::string& name) {

@@ -1,7 +1,6 @@
 #include "gis/format/read_gmsh.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <iterator>
 #include <limits>
@@ -16,6 +15,7 @@
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/grid/grid_lines.hpp"
 #include "gis/grid/loop_role.hpp"
+#include "gis/lower_case.hpp"
 
 namespace coastmesh {
 namespace {
@@ -316,8 +316,8 @@ void readFeatures(const Contents& contents, Grid& grid) {
   for (const auto& triangle : contents.triangles) grid.feature_of.push_back(index_of[triangle.physical]);
 }
 
-std::optional<BoundaryRole> roleOfName(std::string name) {
-  std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+std::optional<BoundaryRole> roleOfName(const std::string& given) {
+  const std::string name = lowerCase(given);
   for (const BoundaryRole role : kBoundaryRoles)
     if (name.starts_with(toString(role))) return role;
   return std::nullopt;

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 
 #include "gis/error.hpp"
@@ -8,6 +7,7 @@
 #include "gis/format/grid_formats.hpp"
 #include "gis/grid/geographic_nodes.hpp"
 #include "gis/grid/one_turn.hpp"
+#include "gis/lower_case.hpp"
 
 namespace coastmesh {
 namespace {
@@ -38,8 +38,7 @@ void writeSchism(const Grid& grid, const std::string& path, const ItemLoop& loop
 Grid readSchism(const std::string& path, const Crs& unsaid) {
   Grid grid = readFort14(path);
   for (Boundary& boundary : grid.boundaries) boundary.ibtype = -1;  // SCHISM only distinguishes land and islands
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string ending = lowerCase(std::filesystem::path(path).extension().string());
   grid.crs = readPrjBeside(path, unsaid);
   if (ending == ".ll" && !grid.crs.geographic) grid.crs = wgs84();
   return grid;

@@ -17,8 +17,8 @@ constexpr Ibtype kIbtypes[] = {
     {20, kLand},          {21, kIsland},        {22, kRiver},  {23, kLand, 2, false},
     {24, kLand, 3, true}, {25, kLand, 6, true}, {30, kLand},  // waves radiate
     {32, kRiver},                                             // a discharge, and waves radiate
-    {40, kLand},                                              // no gradient of the velocity
-    {41, kIsland},        {52, kRiver},                       // a periodic discharge, and waves radiate
+    {40, kLand},          {41, kLand},                        // outer, without a normal gradient of the velocity
+    {52, kRiver},                                             // a periodic discharge, and waves radiate
     {64, kLand, 3, true},                                     // a wall that elements stand on
     {102, kRiver},        {112, kRiver},        {122, kRiver},
 };

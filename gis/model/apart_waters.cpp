@@ -5,9 +5,9 @@
 #include <map>
 #include <utility>
 
-#include "core/metric.hpp"
 #include "gis/geometry/union_find.hpp"
 #include "gis/grid/grid_edit.hpp"
+#include "gis/grid/ground_orientation.hpp"
 
 namespace coastmesh {
 
@@ -102,8 +102,7 @@ DroppedWaters dropApartWaters(Grid& grid) {
     dropped.area_m2 += area;
     if (area <= largest) continue;
     largest = area;
-    const auto& [a, b, c] = grid.triangles[first];
-    dropped.place = centroid(grid.nodes[a], grid.nodes[b], grid.nodes[c]);
+    dropped.place = middleOf(grid, first);
   }
   dropped.share = dropped.area_m2 / all;
   if (dropped.share > 1.0 - kLittle) return {};

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <numbers>
@@ -13,17 +12,13 @@
 #include "gis/error.hpp"
 #include "gis/geometry/box_tree.hpp"
 #include "gis/grid/ibtype.hpp"
+#include "gis/lower_case.hpp"
 #include "gis/read/cleaned_layers.hpp"
 #include "gis/read/raw_layer.hpp"
 #include "gis/read/read_layers.hpp"
 
 namespace coastmesh {
 namespace {
-
-std::string lowerCase(std::string text) {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 constexpr std::array kColumns{"type", "role", "boundary", "ibtype", "kind"};
 

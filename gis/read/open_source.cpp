@@ -15,6 +15,7 @@
 #include <string_view>
 
 #include "gis/error.hpp"
+#include "gis/lower_case.hpp"
 #include "gis/read/odd_geojson.hpp"
 
 namespace coastmesh {
@@ -26,12 +27,7 @@ bool exists(const std::string& path) {
   return VSIStatL(path.c_str(), &stat) == 0;
 }
 
-std::string lowered(std::string text) {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
-bool endsWith(const std::string& text, std::string_view ending) { return lowered(text).ends_with(ending); }
+bool endsWith(const std::string& text, std::string_view ending) { return lowerCase(text).ends_with(ending); }
 
 std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t kShown = 8;
@@ -153,7 +149,7 @@ std::string pathForOgr(const std::string& path, const std::vector<std::string>& 
   if (!exists(real)) {  // a file in an archive
     for (const auto& [ending, prefix] :
          {std::pair{".zip/", "/vsizip/"}, {".tar/", "/vsitar/"}, {".tgz/", "/vsitar/"}}) {
-      if (lowered(real).find(ending) != std::string::npos && exists(prefix + real)) return prefix + real;
+      if (lowerCase(real).find(ending) != std::string::npos && exists(prefix + real)) return prefix + real;
     }
     return real;
   }

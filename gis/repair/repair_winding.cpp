@@ -90,7 +90,7 @@ void mendClockwise(RepairState& state, std::span<const FoundDefect> defects) {
     }
     GridCorners& corners = state.grid.triangles[t];
     std::swap(corners[1], corners[2]);
-    state.disturbed[t] = true;
+    state.changed[t] = state.disturbed[t] = true;
     addRepair(state, *found, state.grid.nodes[corners[0]], "triangle turned");
   }
 }

@@ -117,7 +117,8 @@ std::optional<double> numberOf(const OGRFeature& feature, int field, double leas
   }
   if (std::isfinite(value) && value >= least) return value;
   throw InputError(what + ": its attribute '" + feature.GetFieldDefnRef(field)->GetNameRef() + "' is " +
-                   feature.GetFieldAsString(field) + ", not a number above 0; correct it, or leave it empty");
+                   feature.GetFieldAsString(field) + ", not a number " + (least > 0.0 ? "above 0" : "of 0 or more") +
+                   "; correct it, or leave it empty");
 }
 
 class FeatureReader {

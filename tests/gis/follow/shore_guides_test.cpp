@@ -67,6 +67,25 @@ TEST(FollowSizes, APassageStaysOpenAndIsWidened) {
   }
 }
 
+TEST(FollowSizes, AWidenedPassageIsListedWithItsOwnWater) {
+  // The same sea once more, 100 to the east, as another feature.
+  Domain domain = seaWithStrait();
+  const auto count = static_cast<VertexId>(domain.pslg.points.size());
+  for (VertexId v = 0; v < count; ++v) domain.pslg.points.push_back(domain.pslg.points[v] + Point{100.0, 0.0});
+  const std::vector<Segment> segments = domain.pslg.segments;
+  for (const Segment& s : segments) domain.pslg.segments.push_back({s.a + count, s.b + count, 0, 1, kOutside});
+  domain.input_points = domain.pslg.points;
+  Coastline coast;
+  for (const std::int64_t fid : {7, 8}) coast.features.emplace_back().fid = fid;
+  CleanReport report;
+  const ShoreGuides guides{{{{{5, 0.5}, {55, 0.5}}, "", 1.0}, {{{105, 0.5}, {155, 0.5}}, "", 1.0}}, {}};
+  followSizes(std::move(domain), ConstantSize(2.0), {}, coast, report, guides);
+  std::vector<std::int64_t> fids;
+  for (const Edit& edit : report.edits)
+    if (edit.kind == EditKind::WidenedPassage) fids.push_back(edit.fid);
+  EXPECT_EQ(fids, (std::vector<std::int64_t>{7, 8}));
+}
+
 TEST(FollowSizes, APassageThatIsWideEnoughChangesNothingAndOneOnLandIsSaidToBeSo) {
   CleanReport plain, guided;
   const ShoreGuides guides{{{{{5, 25}, {55, 25}}, "", 2.0}, {{{20, 5}, {40, 5}}, "", 2.0}}, {}};

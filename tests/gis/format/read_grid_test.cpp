@@ -18,6 +18,7 @@ namespace coastmesh {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::TemporaryFolder;
@@ -52,6 +53,14 @@ TEST_F(ReadGrid, NamesWhatCannotBeRead) {
   EXPECT_THAT(errorIn("lake.nc", "no netcdf"), HasSubstr("lake.nc"));
   EXPECT_THAT(errorIn("lake.gpkg", "no sqlite"), HasSubstr("lake.gpkg"));
   EXPECT_THAT(errorIn("lake.vtu", "<VTKFile/>"), HasSubstr("no unstructured grid"));
+}
+
+TEST_F(ReadGrid, Fort14WithElementsOutOfOrder) {
+  const Grid grid = readGrid(put("fort.14",
+                                 "two\n2 4\n1 0 0 5\n2 1 0 5\n3 1 1 5\n4 0 1 5\n"
+                                 "7 3 1 2 3\n4 3 1 3 4\n0\n0\n0\n0\n"));
+  EXPECT_EQ(grid.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_THAT(grid.notes, Contains("elements are not numbered from 1 in their order"));
 }
 
 TEST_F(ReadGrid, TwoDmOfOtherPrograms) {

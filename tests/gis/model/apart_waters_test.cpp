@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "gis/crs/geodesy.hpp"
 #include "gis/grid/grid_edit.hpp"
 
 namespace coastmesh {
@@ -64,6 +67,15 @@ TEST(ApartWaters, AreTakenOutOfTheGrid) {
   EXPECT_EQ(grid.nodes.size(), 4u);
   EXPECT_EQ(grid.boundaries.size(), 1u);
   EXPECT_NO_THROW(requireConsistent(grid));
+}
+
+TEST(ApartWaters, TheirPlaceIsWithinThemAcrossTheAntimeridian) {
+  Grid grid = squares({3.0, 2.0});
+  grid.crs = wgs84();
+  for (Point& node : grid.nodes) node.x += node.x > 4.5 ? 174.5 - 360.0 : 174.5;
+  const DroppedWaters dropped = dropApartWaters(grid);
+  EXPECT_EQ(dropped.waters, 1u);
+  EXPECT_GT(std::abs(dropped.place.x), 178.0);
 }
 
 TEST(ApartWaters, StayIfTheFrameOnlyGrazesTheOthers) {

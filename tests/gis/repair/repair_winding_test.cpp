@@ -31,6 +31,16 @@ TEST(RepairWinding, ATriangleListedClockwise) {
   expectMended(grid, {Target::Adcirc});
 }
 
+// Areas of a file of another program are negative where triangles are clockwise.
+TEST(RepairWinding, TheAreaOfATurnedTriangleIsMeasuredAnew) {
+  Grid grid = soundGrid();
+  grid.area_m2.assign(grid.triangles.size(), 433000.0);
+  std::swap(grid.triangles[40][0], grid.triangles[40][1]);
+  grid.area_m2[40] *= -1.0;
+  repairForTargets(grid, std::array{Target::Adcirc});
+  EXPECT_NEAR(grid.area_m2[40], 433000.0, 1.0);
+}
+
 std::uint32_t nodeAt(const Grid& grid, const Point& place) {
   return static_cast<std::uint32_t>(std::ranges::find(grid.nodes, place) - grid.nodes.begin());
 }
