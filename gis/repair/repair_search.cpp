@@ -1,5 +1,11 @@
 #include "gis/repair/repair_search.hpp"
 
+#include <array>
+#include <limits>
+
+#include "core/predicates.hpp"
+#include "core/quality.hpp"
+#include "gis/grid/local_plane.hpp"
 #include "gis/repair/repair_score.hpp"
 #include "gis/repair/repair_shore.hpp"
 
@@ -65,6 +71,14 @@ void offerMoves(Contest& contest, const RepairView& view, std::uint32_t node) {
   forEachMove(view, node, [&contest](const PatchEdit& edit) { contest.offer(edit); });
 }
 
+// The square of what the smallest angle of a triangle lacks of `goal_deg`; infinite if it is clockwise.
+double squaredLack(const Crs& crs, std::array<Point, 3> p, double goal_deg) {
+  flattenLocally(crs, p);
+  if (orient2d(p[0], p[1], p[2]) <= 0) return std::numeric_limits<double>::infinity();
+  const double lack = std::max(0.0, goal_deg - leastAngleDeg(p[0], p[1], p[2]));
+  return lack * lack;
+}
+
 }  // namespace
 
 std::optional<PatchEdit> bestReshaping(const RepairView& view, std::span<const std::uint32_t> inside,
@@ -126,6 +140,40 @@ std::optional<PatchEdit> bestRelaxing(const RepairView& view, std::uint32_t t, s
       for (const double share : {0.0, 0.5})
         if (const auto edit = collapseOf(view, gone, kept, share)) offer(*edit);
   }
+  return best;
+}
+
+double lackOfAngles(const RepairView& view, std::span<const std::uint32_t> triangles, double goal_deg) {
+  double sum = 0.0;
+  for (const std::uint32_t t : triangles) {
+    std::array<Point, 3> p;
+    for (unsigned i = 0; i < 3; ++i) p[i] = view.grid.nodes[view.grid.triangles[t][i]];
+    sum += squaredLack(view.grid.crs, p, goal_deg);
+  }
+  return sum;
+}
+
+std::optional<PatchEdit> bestSharing(const RepairView& view, std::uint32_t node, double goal_deg,
+                                     const GridPatch& patch) {
+  constexpr double kWorthwhile = 0.999;
+  std::optional<PatchEdit> best;
+  double least = kWorthwhile * lackOfAngles(view, view.links.triangles_at[node], goal_deg);
+  if (least <= 0.0) return best;
+  const PatchScale scale = scaleOf(view, patch);
+  forEachMove(view, node, [&](const PatchEdit& edit) {
+    double lack = 0.0;
+    for (const EditedTriangle& triangle : edit.triangles) {
+      std::array<Point, 3> p;
+      for (unsigned i = 0; i < 3; ++i)
+        p[i] = triangle.v[i] == edit.placed ? edit.place : view.grid.nodes[triangle.v[i]];
+      lack += squaredLack(view.grid.crs, p, goal_deg);
+      if (lack >= least) return;
+    }
+    const ScoreBar bar{.defects = 1, .largest_angle_deg = view.step.largest_angle_deg};
+    if (!scoreAbove(view, patch, scale, edit, bar) || !keepsShores(view, edit)) return;
+    least = lack;
+    best = edit;
+  });
   return best;
 }
 

@@ -35,6 +35,15 @@ bool mendsByCornersAlone(const RepairView& view, const GridPatch& patch);
 std::optional<PatchEdit> bestRelaxing(const RepairView& view, std::uint32_t t, std::span<const std::uint32_t> movable,
                                       const GridPatch& patch);
 
+// The sum, over triangles, of the squares of what their smallest angles lack of `goal_deg`; infinite if one is clockwise.
+double lackOfAngles(const RepairView& view, std::span<const std::uint32_t> triangles, double goal_deg);
+
+// For a node near a triangle with a small angle: the move that leaves the least `lackOfAngles` of the triangles around
+// the node, if that is less than before, and adds no defect. Nullopt if there is none. REQUIRES: the patch is that
+// around the node's triangles.
+std::optional<PatchEdit> bestSharing(const RepairView& view, std::uint32_t node, double goal_deg,
+                                     const GridPatch& patch);
+
 // Splits an inner node in two: half of its triangles get a new node, between the old one and the middle of their other
 // corners. Returns nullopt also for a node with fewer than eight triangles.
 std::optional<PatchEdit> bestNodeSplit(const RepairView& view, std::uint32_t node, const GridPatch& patch);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <ranges>
 #include <set>
 #include <string_view>
 
@@ -240,6 +242,58 @@ bool relaxTriangle(RepairState& state, std::uint32_t t) {
       bestRelaxing(state.view(), t, movableNodes(state, state.grid.triangles[t]), *patch);
   if (chosen) applyEdit(state, *patch, *chosen);
   return chosen.has_value();
+}
+
+void shareSmallAngle(RepairState& state, std::uint32_t t) {
+  constexpr int kRings = 3, kMostSweeps = 40;
+  constexpr double kBeyondDeg = 1.0;  // neighbours give up only what is above the bound, less this
+  const RepairView view = state.view();
+  const double bound = state.options.min_angle_deg - kAngleSlackDeg, goal = state.options.min_angle_deg + kBeyondDeg;
+  std::vector<std::uint32_t> around{t};
+  for (int ring = 0; ring < kRings; ++ring) around = patchRound(view, around).triangles;
+  const std::vector<std::uint32_t> movable = movableNodes(state, nodesOf(state.grid, around));
+  const std::vector<std::uint32_t> affected = patchRound(view, around).triangles;
+  const auto countSmall = [&] {
+    return std::ranges::count_if(affected, [&](std::uint32_t of) {
+      const std::vector<Point> p = localPlane(state.grid, state.grid.triangles[of]);
+      return leastAngleDeg(p[0], p[1], p[2]) < bound;
+    });
+  };
+  const auto small_before = countSmall();
+  if (small_before == 0) return;
+  struct Moved {
+    std::uint32_t node;
+    Point place;
+    double z;
+  };
+  std::vector<Moved> moved;
+  const auto forget = [&state](std::uint32_t node) {
+    for (const std::uint32_t of : state.links.triangles_at[node])
+      state.smallest_angle[of] = std::numeric_limits<double>::quiet_NaN();
+    if (!state.on_sphere.empty()) state.on_sphere[node][0] = std::numeric_limits<double>::quiet_NaN();
+  };
+  for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
+    bool any = false;
+    for (const std::uint32_t node : movable) {
+      const std::vector<std::uint32_t>& star = state.links.triangles_at[node];
+      if (lackOfAngles(view, star, goal) <= 0.0) continue;
+      const GridPatch patch = patchRound(view, star);
+      const std::optional<PatchEdit> chosen = bestSharing(view, node, goal, patch);
+      if (!chosen) continue;
+      const double z = state.grid.z.empty() ? 0.0 : state.grid.z[node];
+      moved.push_back({node, state.grid.nodes[node], z});
+      applyEdit(state, patch, *chosen);
+      forget(node);
+      any = true;
+    }
+    if (!any || countSmall() == 0) break;
+  }
+  if (countSmall() < small_before) return;
+  for (const auto& [node, place, z] : std::views::reverse(moved)) {
+    state.grid.nodes[node] = place;
+    if (!state.grid.z.empty()) state.grid.z[node] = z;
+    forget(node);
+  }
 }
 
 void mendValence(RepairState& state, const FoundDefect& found) {

@@ -24,6 +24,10 @@ void unfoldTriangle(RepairState& state, const FoundDefect& found);
 // Increases the triangle's smallest angle if an edit can; returns whether one did.
 bool relaxTriangle(RepairState& state, std::uint32_t t);
 
+// For a triangle whose smallest angle no single edit increases: moves nodes up to three edges away, if that lets fewer
+// triangles miss the minimum angle. Call after `startRound`; the triangles keep their corners.
+void shareSmallAngle(RepairState& state, std::uint32_t t);
+
 void mendValence(RepairState& state, const FoundDefect& found);
 
 }  // namespace coastmesh

@@ -23,6 +23,7 @@ namespace {
 
 constexpr int kMostRounds = 40;
 constexpr int kRelaxRounds = 12;
+constexpr std::size_t kMostShared = 100;  // triangles: each takes some milliseconds
 
 std::vector<FoundDefect> findDefects(const Grid& grid, std::span<const Target> targets, const RepairOptions& options) {
   std::vector<FoundDefect> found;
@@ -207,11 +208,15 @@ void relax(RepairState& state) {
     bool any = false;
     for (const std::uint32_t t : small)
       if (relaxTriangle(state, t)) any = true;
-    if (!any) return;
+    if (!any) break;
     if (std::ranges::count(state.dead, true) == 0) continue;
     compact(state);
     if (!keepsBoundaries(state)) rebuildBoundaries(state);
   }
+  const std::vector<std::uint32_t> small = sharpened(state);
+  if (small.empty() || small.size() > kMostShared) return;
+  startRound(state);
+  for (const std::uint32_t t : small) shareSmallAngle(state, t);
 }
 
 void reportLeft(std::vector<FoundDefect> defects, RepairReport& report) {
