@@ -14,7 +14,6 @@
 #include "apps/report/report_sections.hpp"
 #include "apps/usage/input_usage.hpp"
 #include "apps/usage/target_usage.hpp"
-#include "core/metric.hpp"
 #include "gis/error.hpp"
 #include "gis/for_count.hpp"
 #include "gis/format/grid_io.hpp"
@@ -66,9 +65,8 @@ DefectRow rowOf(const GridDefect& defect) {
 }
 
 DefectRow rowOf(const ApartWater& water, const Grid& grid) {
-  const auto& [a, b, c] = grid.triangles[water.triangle];
-  const Point centre = centroid(grid.nodes[a], grid.nodes[b], grid.nodes[c]);
-  DefectRow row{"water apart", {}, centre, water.triangle, -1, static_cast<double>(water.triangles), {}};
+  DefectRow row{
+      "water apart", {}, middleOf(grid, water.triangle), water.triangle, -1, static_cast<double>(water.triangles), {}};
   row.detail = std::to_string(water.triangles) + forCount(water.triangles, " triangle", " triangles") +
                " without a connection to an open boundary";
   return row;

@@ -1,7 +1,10 @@
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string_view>
 
 #include "apps/cli/commands.hpp"
 #include "apps/cli/exit_codes.hpp"
@@ -12,6 +15,7 @@
 #include "gis/error.hpp"
 #include "gis/format/grid_io.hpp"
 #include "gis/format/poly_io.hpp"
+#include "gis/lower_case.hpp"
 
 namespace coastmesh {
 
@@ -25,14 +29,11 @@ struct InfoUsage {
 
 // False for endings of mesh formats, except GIS layers, which may hold either: their content decides.
 bool mayHoldCoastline(const std::string& path) {
-  const std::string ending = std::filesystem::path(path).extension().string();
-  for (const GridFormat& format : gridFormats()) {
-    for (std::string_view known : format.endings) {
-      if (ending != known) continue;
-      return ending == ".gpkg" || ending == ".geojson" || ending == ".shp" || ending == ".fgb";
-    }
-  }
-  return true;
+  constexpr std::array<std::string_view, 5> kLayers{".gpkg", ".geojson", ".json", ".shp", ".fgb"};
+  const std::string ending = lowerCase(std::filesystem::path(path).extension().string());
+  if (std::ranges::count(kLayers, ending) > 0) return true;
+  return std::ranges::none_of(
+      gridFormats(), [&ending](const GridFormat& format) { return std::ranges::count(format.endings, ending) > 0; });
 }
 
 std::optional<Grid> tryMesh(const MeshFile& file, Run& run) {

@@ -223,6 +223,7 @@ class Maker {
       if (result.regions == 0) {
         outcome.state = FeatureState::Refused;
         outcome.reason = result.refusals.empty() ? result.last_unwanted : result.refusals.front().reason;
+        outcome.over_budget = !result.refusals.empty() && result.refusals.front().over_budget;
       } else {
         noteBoundaries(result.finish.boundaries);
         outcome.warnings = warningsOf(result);
@@ -262,7 +263,8 @@ class Maker {
       ++idle.features;
       idle.warning = boundaries.warnings[i];
     }
-    boundaries.warnings.clear();
+    boundaries.warnings.erase(boundaries.warnings.begin(),
+                              boundaries.warnings.begin() + static_cast<std::ptrdiff_t>(boundaries.idle_files.size()));
   }
 
   // One feature at a time: format libraries and the partitioner are not thread-safe. Nothing in here may run in
@@ -313,7 +315,7 @@ void warnOf(const std::vector<FeatureOutcome>& features, Run& run) {
 }
 
 int exitCodeOf(const FeatureSums& sums) {
-  if (sums.refused > 0 && sums.meshed() + sums.skipped == 0) return kExitInput;
+  if (sums.refused > sums.over_budget && sums.meshed() + sums.skipped == 0) return kExitInput;
   return sums.refused + sums.short_of > 0 ? kExitShort : kExitDone;
 }
 

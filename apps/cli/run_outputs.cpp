@@ -3,15 +3,12 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <map>
 #include <set>
 
 #include "apps/cli/memory_lacked.hpp"
-#include "core/metric.hpp"
-#include "gis/crs/geodesy.hpp"
 #include "gis/error.hpp"
 #include "gis/read/virtual_source.hpp"
 
@@ -140,22 +137,6 @@ class Claims {
   std::map<std::string, Owner> written_, touched_;
 };
 
-// Length in the grid's CRS over length on the ground, for a sample of edges. REQUIRES: a projected CRS in metres.
-double meanScale(const Grid& grid) {
-  constexpr std::size_t kEdges = 1000;
-  std::vector<std::vector<Point>> edges;
-  const std::size_t step = std::max<std::size_t>(1, grid.triangles.size() / kEdges);
-  for (std::size_t t = 0; t < grid.triangles.size(); t += step)
-    edges.push_back({grid.nodes[grid.triangles[t][0]], grid.nodes[grid.triangles[t][1]]});
-  double in_plane = 0.0, on_ground = 0.0;
-  const std::vector<double> lengths = chainLengths(edges, grid.crs);
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    in_plane += distance(edges[i][0], edges[i][1]);
-    on_ground += lengths[i];
-  }
-  return on_ground > 0.0 ? in_plane / on_ground : 1.0;
-}
-
 }  // namespace
 
 std::vector<std::string> filesReadBy(const std::string& name) {
@@ -249,26 +230,9 @@ void RunOutputs::writeReport(const std::string& text) {
 
 std::vector<std::string> RunOutputs::numberWarnings(const Grid& grid) const {
   std::vector<std::string> warnings;
-  if (grid.z.empty() && !depth_paths_.empty())
-    warnings.push_back("the mesh has no depths: '" + depth_paths_.front() + "' says 0 everywhere; give --bathymetry");
-  const Crs& crs = grid.crs;
-  if (metre_paths_.empty() || crs.isPlane() || crs.geographic) return warnings;
-  if (metresPerUnit(crs) != 1.0) {
-    warnings.push_back("'" + metre_paths_.front() + "' has x and y in the unit of " + nameOf(crs) + ", " + unitOf(crs) +
-                       ", as the input has them, and depths in metres, but models read all of them as metres: "
-                       "reproject the input to a CRS in metres (ogr2ogr -t_srs), and mesh that");
-    return warnings;
-  }
-  constexpr double kTrue = 0.02;  // UTM and national grids are true to a few thousandths
-  const double scale = meanScale(grid);
-  if (std::abs(scale - 1.0) > kTrue) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", scale);
-    warnings.push_back(
-        "lengths in '" + metre_paths_.front() + "' are " + text + " times those on the ground, since " + nameOf(crs) +
-        ", as the input has it, is not true to scale here, but models take them for "
-        "metres: reproject the input to a CRS of the region, such as UTM (ogr2ogr -t_srs), and mesh that");
-  }
+  if (!depth_paths_.empty()) warnings.push_back(depthWarning(grid, depth_paths_.front()));
+  if (!metre_paths_.empty()) warnings.push_back(metreWarning(grid, metre_paths_.front()));
+  std::erase(warnings, std::string());
   return warnings;
 }
 

@@ -160,6 +160,7 @@ GridCheck checkGridAgainst(const Grid& grid, const JobInput& input, const GridCh
       defects.push_back({DefectKind::WrongArea, place, std::int64_t{triangles.front()}, 1.0});
     }
   }
+  const LineEdges lines(grid);
   for (std::size_t g = 0; g < domains.size(); ++g) {
     if (!domains[g]) continue;
     if (triangles_of[g].empty()) {
@@ -167,7 +168,7 @@ GridCheck checkGridAgainst(const Grid& grid, const JobInput& input, const GridCh
       continue;
     }
     std::ranges::sort(triangles_of[g]);
-    GridPiece piece = makePiece(grid, std::move(triangles_of[g]), domains[g]->projection);
+    GridPiece piece = makePiece(grid, std::move(triangles_of[g]), domains[g]->projection, lines);
     // Vertices that cleaning made have exact places only in the plane: projecting their rounded coordinates does not
     // give these back.
     for (std::size_t v = 0; v < piece.nodes.size(); ++v) {

@@ -1,7 +1,6 @@
 #include "apps/job/grid_pieces.hpp"
 
 #include <algorithm>
-#include <map>
 #include <utility>
 
 #include "core/metric.hpp"
@@ -53,23 +52,31 @@ void markBorders(TriMesh& mesh) {
 }
 
 // Lines within the mesh were constraints too, each a segment of its own.
-void markLines(const Grid& grid, GridPiece& piece) {
-  std::map<NodePair, SegmentId> segment_of;
-  for (std::size_t line = 0; line < grid.lines.size(); ++line)
-    for (const auto& [a, b] : edgesOf(grid.lines[line]))
-      segment_of.emplace(NodePair{std::min(a, b), std::max(a, b)}, static_cast<SegmentId>(line + 1));
-  if (segment_of.empty()) return;
+void markLines(const LineEdges& lines, GridPiece& piece) {
+  if (lines.empty()) return;
   for (TriId t = 0; t < piece.mesh.triangles.size(); ++t) {
     for (unsigned i = 0; i < 3; ++i) {
       const EdgeRef e = edgeRef(t, i);
-      const std::uint32_t a = piece.nodes[piece.mesh.origin(e)], b = piece.nodes[piece.mesh.target(e)];
-      const auto found = segment_of.find({std::min(a, b), std::max(a, b)});
-      if (found != segment_of.end()) piece.mesh.triangles[t].seg[i] = found->second;
+      const SegmentId segment = lines.segmentAt(piece.nodes[piece.mesh.origin(e)], piece.nodes[piece.mesh.target(e)]);
+      if (segment != kNone) piece.mesh.triangles[t].seg[i] = segment;
     }
   }
 }
 
 }  // namespace
+
+LineEdges::LineEdges(const Grid& grid) {
+  for (std::size_t line = 0; line < grid.lines.size(); ++line)
+    for (const auto& [a, b] : edgesOf(grid.lines[line]))
+      edges_.emplace_back(NodePair{std::min(a, b), std::max(a, b)}, static_cast<SegmentId>(line + 1));
+  std::ranges::sort(edges_);
+}
+
+SegmentId LineEdges::segmentAt(std::uint32_t a, std::uint32_t b) const {
+  const NodePair key{std::min(a, b), std::max(a, b)};
+  const auto at = std::ranges::lower_bound(edges_, key, {}, &std::pair<NodePair, SegmentId>::first);
+  return at != edges_.end() && at->first == key ? at->second : kNone;
+}
 
 std::vector<std::vector<std::uint32_t>> connectedTriangles(const Grid& grid) {
   UnionFind joined(grid.nodes.size());
@@ -113,7 +120,8 @@ Projection fitProjection(const Grid& grid, const std::vector<std::uint32_t>& tri
   return Projection::fitted(outline, {0}, kind);
 }
 
-GridPiece makePiece(const Grid& grid, std::vector<std::uint32_t> triangles, const Projection& projection) {
+GridPiece makePiece(const Grid& grid, std::vector<std::uint32_t> triangles, const Projection& projection,
+                    const LineEdges& lines) {
   GridPiece piece;
   piece.projection = projection;
   piece.nodes = nodesOf(grid, triangles);
@@ -125,7 +133,7 @@ GridPiece makePiece(const Grid& grid, std::vector<std::uint32_t> triangles, cons
     }
     markBorders(piece.mesh);
   }
-  markLines(grid, piece);
+  markLines(lines, piece);
   for (std::size_t i = 0; i < piece.nodes.size(); ++i) {
     const Point& place = piece.mesh.points[i];
     if (isInRange(place)) continue;
@@ -138,9 +146,10 @@ GridPiece makePiece(const Grid& grid, std::vector<std::uint32_t> triangles, cons
 
 std::vector<GridPiece> splitGrid(const Grid& grid, SurfaceKind kind) {
   std::vector<GridPiece> pieces;
+  const LineEdges lines(grid);
   for (std::vector<std::uint32_t>& triangles : connectedTriangles(grid)) {
     const Projection projection = fitProjection(grid, triangles, kind);
-    pieces.push_back(makePiece(grid, std::move(triangles), projection));
+    pieces.push_back(makePiece(grid, std::move(triangles), projection, lines));
   }
   return pieces;
 }

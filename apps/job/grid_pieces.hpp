@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/tri_mesh.hpp"
+#include "gis/grid/boundary_chains.hpp"
 #include "gis/grid/grid.hpp"
 #include "gis/projection/projection.hpp"
 
@@ -20,6 +22,18 @@ struct GridPiece {
   std::vector<EdgeConflict> conflicts;   // in points of the mesh
 };
 
+// The edges of a grid's lines, each with a segment: that of its line.
+class LineEdges {
+ public:
+  explicit LineEdges(const Grid& grid);
+
+  bool empty() const { return edges_.empty(); }
+  SegmentId segmentAt(std::uint32_t a, std::uint32_t b) const;  // kNone if it is of no line
+
+ private:
+  std::vector<std::pair<NodePair, SegmentId>> edges_;  // sorted; the lesser node first
+};
+
 // The grid's triangles in pieces that share no node. Pieces, and the triangles in them, are in ascending order.
 std::vector<std::vector<std::uint32_t>> connectedTriangles(const Grid& grid);
 
@@ -27,7 +41,9 @@ std::vector<std::vector<std::uint32_t>> connectedTriangles(const Grid& grid);
 Projection fitProjection(const Grid& grid, const std::vector<std::uint32_t>& triangles,
                          SurfaceKind kind = SurfaceKind::Auto);
 
-GridPiece makePiece(const Grid& grid, std::vector<std::uint32_t> triangles, const Projection& projection);
+// `lines` are those of the grid, for all its pieces.
+GridPiece makePiece(const Grid& grid, std::vector<std::uint32_t> triangles, const Projection& projection,
+                    const LineEdges& lines);
 
 // Every connected piece in its own projection, as `mesh` would have chosen it.
 std::vector<GridPiece> splitGrid(const Grid& grid, SurfaceKind kind = SurfaceKind::Auto);

@@ -172,6 +172,11 @@ JobInput::JobInput(const InputOptions& options, const ItemLoop& loop) : options_
                                nameOf(coastline_.crs) +
                                ": lengths, as of --size, have that unit, and angles on the ground differ; --crs auto "
                                "works in metres");
+  if (options_.crs == "plane" && !coastline_.crs.isPlane() && !coastline_.crs.geographic &&
+      metresPerUnit(coastline_.crs) != 1.0)
+    report_.warnings.push_back("--crs plane takes coordinates as they are, in the unit of " + nameOf(coastline_.crs) +
+                               ", " + unitOf(coastline_.crs) +
+                               ": lengths, as of --size, have that unit; --crs auto works in metres");
   if (working) {
     chosen_ = Projection::to(coastline_.crs, *working);
     const std::string distorts = judgeWorkingPlane(coastline_, *working, *chosen_);

@@ -49,20 +49,29 @@ Point centreOf(const Pslg& pslg) {
   return {low.x + (high.x - low.x) / 2, low.y + (high.y - low.y) / 2};
 }
 
-// Smallest and largest scale at a sample of the points: a scale is largest on the boundary of what is mapped.
-std::pair<double, double> scaleRange(const Domain& domain) {
+// Smallest and largest value of a scale, `Projection::scaleAt` or `measureAt`, at a sample of the points: a scale is
+// largest on the boundary of what is mapped.
+std::pair<double, double> scaleRange(const Domain& domain, double (Projection::*scale_at)(const Point&) const) {
   constexpr std::size_t kLeastSample = 16, kMostSample = 1024, kPointsForOne = 16;
   const std::size_t count = domain.pslg.points.size();
   double least = std::numeric_limits<double>::infinity(), greatest = 0.0;
-  if (count == 0) return {domain.projection.scaleAt({}), domain.projection.scaleAt({})};
+  if (count == 0) return {(domain.projection.*scale_at)({}), (domain.projection.*scale_at)({})};
   const std::size_t step =
       std::max<std::size_t>(1, count / std::clamp(count / kPointsForOne, kLeastSample, kMostSample));
   for (std::size_t i = 0; i < count; i += step) {
-    const double scale = domain.projection.scaleAt(domain.pslg.points[i]);
+    const double scale = (domain.projection.*scale_at)(domain.pslg.points[i]);
     least = std::min(least, scale);
     greatest = std::max(greatest, scale);
   }
   return {least, greatest};
+}
+
+// Smallest and largest measure in the domain, its centre included: in a conformal plane that is fitted to it, the
+// measure is smallest there.
+std::pair<double, double> measureRange(const Domain& domain) {
+  const double centre = domain.projection.measureAt(centreOf(domain.pslg));
+  const auto [least, greatest] = scaleRange(domain, &Projection::measureAt);
+  return {std::min(centre, least), std::max(centre, greatest)};
 }
 
 // Estimates may be off by half; meshes that require more than this many times the budget are not begun.
@@ -141,12 +150,10 @@ MeshOptions optionsFor(const GroupTask& task, const Domain& domain, SurfaceKind 
   if (std::isfinite(domain.resolution.grain)) options.refine.resolution = domain.resolution.grain;
   // With --coast keep, the data determine the lengths of edges.
   if (job.sizes.least_m > 0.0 && job.sizes.any() && job.sizes.coast == CoastDetail::Follow)
-    options.refine.least_edge =
-        StepOutcome::kUsualShare * job.sizes.least_m * domain.projection.measureAt(centreOf(domain.pslg));
-  if (std::isfinite(job.sizes.most_m) && !job.sizes.any()) {
-    options.refine.size_max = job.sizes.most_m;
-    options.refine.size_max *= domain.projection.measureAt(centreOf(domain.pslg));
-  }
+    options.refine.least_edge = StepOutcome::kUsualShare * job.sizes.least_m * measureRange(domain).second;
+  // Where the plane is less enlarged than elsewhere, edges are longest on the ground.
+  if (std::isfinite(job.sizes.most_m) && !job.sizes.any())
+    options.refine.size_max = job.sizes.most_m * measureRange(domain).first;
   return options;
 }
 
@@ -278,7 +285,7 @@ Domain cleanStage(const GroupTask& task, GroupResult& result) {
   result.projection = domain.projection.description();
   result.projection_reason = domain.projection.reason();
   result.surface = task.input.surfaceOf(domain.projection);
-  std::tie(result.least_scale, result.greatest_scale) = scaleRange(domain);
+  std::tie(result.least_scale, result.greatest_scale) = scaleRange(domain, &Projection::scaleAt);
   result.input_area_m2 = task.input.area(domain, loop);
   result.clean_s = stopwatch.seconds();
   result.log.append(recorder.finish("clean"));

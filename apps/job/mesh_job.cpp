@@ -141,7 +141,9 @@ void addGroup(const JobInput& input, std::size_t group, GroupResult&& part, Mesh
   result.seconds.optimise += part.mesh_s.optimise;
   result.seconds.stitch += part.mesh_s.stitch;
   result.seconds.check += part.check_s;
-  appendGrid(result.grid, std::move(part.grid));
+  const std::uint32_t first_piece = result.next_piece;
+  if (!part.grid.piece_of.empty()) result.next_piece += std::ranges::max(part.grid.piece_of) + 1;
+  appendGrid(result.grid, std::move(part.grid), first_piece);
 }
 
 // The result of a group that waits for those before it. Half a million small ones may wait for a large one: as bytes
@@ -344,11 +346,12 @@ void measureAgain(const MeshJob& job, const JobInput& input, const std::vector<M
   result.quality = {};
   result.short_of = {};
   bool first = true;
+  const LineEdges lines(result.grid);
   const std::vector<std::vector<std::uint32_t>> triangles = trianglesOfGroups(result.grid, groups);
   for (std::size_t g = 0; g < groups.size(); ++g) {
     if (triangles[g].empty()) continue;
     const WorkingPlane plane{input.projectionOf(groups[g].group), groups[g].size_max};
-    const GridPiece piece = makePiece(result.grid, triangles[g], plane.projection);
+    const GridPiece piece = makePiece(result.grid, triangles[g], plane.projection, lines);
     MeshJudgement judgement = judgeMesh(piece.mesh, plane, job.mesh.refine, kAngleSlackDeg, piece.places);
     result.quality.add(judgement.quality);
     result.short_of.add(std::move(judgement.short_of));

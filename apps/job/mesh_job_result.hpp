@@ -89,6 +89,7 @@ struct MeshJobResult {
   double least_scale = std::numeric_limits<double>::infinity(), greatest_scale = 0.0;  // plane over true length
   std::uint64_t regions = 0;        // groups of features that were meshed
   std::uint64_t pieces = 0;         // regions are refined in one or more pieces
+  std::uint32_t next_piece = 0;     // the least number above those in grid.piece_of
   WorkLog log;                      // groups that were cut, one after another, then the others
   double estimated_vertices = 0.0;  // from the requested sizes, including refused groups; 0 if there are none
   RefineStats refine;               // `unresolved` is empty: see below

@@ -510,7 +510,7 @@ void plotMesh(const Grid& grid, const PlotOptions& options, const std::string& p
   std::vector<std::uint32_t> shown = trianglesIn(grid, options);
   if (shown.empty()) throw InputError("the mesh has no triangle in the box asked for");
   const Projection projection = fitProjection(grid, shown);
-  GridPiece piece = makePiece(grid, std::move(shown), projection);
+  GridPiece piece = makePiece(grid, std::move(shown), projection, LineEdges(grid));
   if (options.color == PlotColor::Piece) {
     for (std::size_t t = 0; t < piece.triangles.size(); ++t)
       piece.mesh.regions[t] = static_cast<RegionId>(grid.piece_of[piece.triangles[t]]);

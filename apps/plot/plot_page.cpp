@@ -262,7 +262,7 @@ PageData dataOf(const Grid& grid, const PageOptions& options) {
   for (std::uint32_t t = 0; t < all.size(); ++t) all[t] = t;
   for (const auto& triangle : grid.triangles) corners.insert(corners.end(), triangle.begin(), triangle.end());
   const std::vector<Point> geographic = grid.crs.isPlane() ? std::vector<Point>{} : geographicNodes(grid);
-  const auto piece = [&] { return makePiece(grid, all, fitProjection(grid, all)); };
+  const auto piece = [&] { return makePiece(grid, all, fitProjection(grid, all), LineEdges(grid)); };
   if (options.view) {
     addGlobe(data, geographic, options.view, grid);
   } else if (const GridPiece whole = piece(); whole.places.empty()) {

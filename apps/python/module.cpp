@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "apps/plot/plot_mesh.hpp"
 #include "apps/plot/plot_page.hpp"
@@ -13,6 +14,7 @@
 #include "gis/error.hpp"
 #include "gis/file/staged_files.hpp"
 #include "gis/format/grid_io.hpp"
+#include "gis/format/grid_losses.hpp"
 #include "parallel/recorder.hpp"
 #include "parallel/workers.hpp"
 
@@ -63,11 +65,24 @@ py::list boundariesOf(const Grid& grid) {
   return list;
 }
 
-void writeFile(const MeshResult& mesh, const std::string& path, const std::string& format, bool overwrite) {
-  const py::gil_scoped_release release;
-  StagedOutput output(path, gridFormatFor(path, format), overwrite);
-  withThreads({}, [&] { output.write(mesh.grid, Recorder().loop("write")); });
-  output.commit();
+// Returns warnings of what the file cannot hold, and of numbers that models would misread.
+py::list writeFile(const MeshResult& mesh, const std::string& path, const std::string& format, bool overwrite) {
+  std::vector<std::string> warnings;
+  {
+    const py::gil_scoped_release release;
+    const GridFormat& known = gridFormatFor(path, format);
+    StagedOutput output(path, known, overwrite);
+    withThreads({}, [&] { output.write(mesh.grid, Recorder().loop("write")); });
+    output.commit();
+    if (const std::string losses = lossesIn(mesh.grid, known, LossesOf::Input); !losses.empty())
+      warnings.push_back("'" + path + "' cannot hold " + losses);
+    if (known.says_depth) warnings.push_back(depthWarning(mesh.grid, path));
+    if (known.lengths_in_metres) warnings.push_back(metreWarning(mesh.grid, path));
+    std::erase(warnings, std::string());
+  }
+  py::list texts;
+  for (const std::string& text : warnings) texts.append(textOf(text));
+  return texts;
 }
 
 void plotFile(const MeshResult& mesh, const std::string& path, const std::string& color, std::int64_t size, bool edges,

@@ -45,6 +45,7 @@ FeatureSums sumsOf(const std::vector<FeatureOutcome>& features) {
     sums.short_of += feature.state == FeatureState::Short;
     sums.skipped += feature.state == FeatureState::Skipped;
     sums.refused += feature.state == FeatureState::Refused;
+    sums.over_budget += feature.over_budget;
     if (isMeshed(feature)) sums.quality.add(feature.quality);
   }
   return sums;

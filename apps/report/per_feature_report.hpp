@@ -23,7 +23,8 @@ struct FeatureOutcome {
   std::int64_t fid = 0;
   std::vector<std::string> outputs;
   FeatureState state = FeatureState::Made;
-  std::string reason;  // of a refusal
+  std::string reason;        // of a refusal
+  bool over_budget = false;  // refused because its sizes require many more vertices than `--max-vertices`
   MeshQuality quality;
   std::uint64_t digest = 0;
   std::vector<std::string> warnings;
@@ -31,6 +32,7 @@ struct FeatureOutcome {
 
 struct FeatureSums {
   std::uint64_t made = 0, short_of = 0, skipped = 0, refused = 0;  // `made` without those that are short
+  std::uint64_t over_budget = 0;                                   // of those refused
   MeshQuality quality;                                             // of what was meshed
 
   std::uint64_t meshed() const { return made + short_of; }

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdio>
 #include <set>
 #include <vector>
 
+#include "core/metric.hpp"
+#include "gis/crs/geodesy.hpp"
 #include "gis/grid/grid_lines.hpp"
 #include "gis/grid/ibtype.hpp"
 
@@ -122,6 +126,22 @@ constexpr std::array kAllParts{GridPart::Title,     GridPart::Sizes,        Grid
                                GridPart::Rivers,    GridPart::Ibtypes,      GridPart::Weirs,    GridPart::BareWeirs,
                                GridPart::Partition, GridPart::NodePartition};
 
+// Length in the grid's CRS over length on the ground, for a sample of edges. REQUIRES: a projected CRS in metres.
+double meanScale(const Grid& grid) {
+  constexpr std::size_t kEdges = 1000;
+  std::vector<std::vector<Point>> edges;
+  const std::size_t step = std::max<std::size_t>(1, grid.triangles.size() / kEdges);
+  for (std::size_t t = 0; t < grid.triangles.size(); t += step)
+    edges.push_back({grid.nodes[grid.triangles[t][0]], grid.nodes[grid.triangles[t][1]]});
+  double in_plane = 0.0, on_ground = 0.0;
+  const std::vector<double> lengths = chainLengths(edges, grid.crs);
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    in_plane += distance(edges[i][0], edges[i][1]);
+    on_ground += lengths[i];
+  }
+  return on_ground > 0.0 ? in_plane / on_ground : 1.0;
+}
+
 }  // namespace
 
 std::string lossesIn(const Grid& grid, const GridFormat& format, LossesOf of) {
@@ -133,6 +153,27 @@ std::string lossesIn(const Grid& grid, const GridFormat& format, LossesOf of) {
     if (std::string words = wordsFor(part, grid, format); !words.empty()) losses.push_back(std::move(words));
   }
   return joined(losses, "; ");
+}
+
+std::string depthWarning(const Grid& grid, const std::string& path) {
+  return grid.z.empty() ? "the mesh has no depths: '" + path + "' says 0 everywhere; give --bathymetry" : "";
+}
+
+std::string metreWarning(const Grid& grid, const std::string& path) {
+  const Crs& crs = grid.crs;
+  if (crs.isPlane() || crs.geographic) return {};
+  if (metresPerUnit(crs) != 1.0)
+    return "'" + path + "' has x and y in the unit of " + nameOf(crs) + ", " + unitOf(crs) +
+           ", as the input has them, and depths in metres, but models read all of them as metres: reproject the input "
+           "to a CRS in metres (ogr2ogr -t_srs), and mesh that";
+  constexpr double kTrue = 0.02;  // UTM and national grids are true to a few thousandths
+  const double scale = meanScale(grid);
+  if (std::abs(scale - 1.0) <= kTrue) return {};
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", scale);
+  return "lengths in '" + path + "' are " + text + " times those on the ground, since " + nameOf(crs) +
+         ", as the input has it, is not true to scale here, but models take them for metres: reproject the input to a "
+         "CRS of the region, such as UTM (ogr2ogr -t_srs), and mesh that";
 }
 
 }  // namespace coastmesh

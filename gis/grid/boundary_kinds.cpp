@@ -1,6 +1,9 @@
 #include "gis/grid/boundary_kinds.hpp"
 
 #include <algorithm>
+#include <map>
+#include <ranges>
+#include <set>
 
 #include "gis/grid/loop_role.hpp"
 
@@ -10,6 +13,28 @@ namespace {
 bool isShore(BoundaryRole role) { return role == BoundaryRole::Land || role == BoundaryRole::Island; }
 
 NodePair keyOf(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
+
+// By boundary: 0, or for open boundaries and rivers the least number that no adjacent one of the same kind has.
+std::vector<std::uint32_t> separatorsOf(const std::vector<Boundary>& boundaries) {
+  std::vector<std::uint32_t> separators(boundaries.size(), 0);
+  std::multimap<std::uint32_t, std::size_t> at_end;  // node → boundaries that have a separator
+  for (std::size_t b = 0; b < boundaries.size(); ++b) {
+    const Boundary& boundary = boundaries[b];
+    if (boundary.closed || boundary.nodes.empty()) continue;
+    if (boundary.role != BoundaryRole::Open && boundary.role != BoundaryRole::River) continue;
+    std::set<std::uint32_t> taken;
+    for (const std::uint32_t node : {boundary.nodes.front(), boundary.nodes.back()}) {
+      const auto [first, last] = at_end.equal_range(node);
+      for (const auto& [end, other] : std::ranges::subrange(first, last))
+        if (boundaries[other].role == boundary.role && boundaries[other].ibtype == boundary.ibtype)
+          taken.insert(separators[other]);
+    }
+    while (taken.contains(separators[b])) ++separators[b];
+    at_end.emplace(boundary.nodes.front(), b);
+    at_end.emplace(boundary.nodes.back(), b);
+  }
+  return separators;
+}
 
 }  // namespace
 
@@ -53,6 +78,14 @@ EdgeKinds::EdgeKinds(const Grid& grid) {
     for (const auto& [from, to] : edgesOf(grid.boundaries[b])) edges_.emplace_back(keyOf(from, to), b);
   }
   std::ranges::sort(edges_);
+  separators_ = separatorsOf(grid.boundaries);
+}
+
+BoundaryKind EdgeKinds::forCutting(std::uint32_t a, std::uint32_t b) const {
+  const BoundaryKind* const kind = find(a, b);
+  if (kind == nullptr) return {};
+  const BoundaryRole role = kind->role == BoundaryRole::Island ? BoundaryRole::Land : kind->role;
+  return {role, kind->ibtype, separators_[kind->segment]};
 }
 
 const BoundaryKind* EdgeKinds::find(std::uint32_t a, std::uint32_t b) const {

@@ -35,9 +35,14 @@ class EdgeKinds {
   // Null for an edge in no boundary. `segment` is the boundary's number.
   const BoundaryKind* find(std::uint32_t a, std::uint32_t b) const;
 
+  // The kind for boundaries that are cut anew (`cutLoops`): islands, and edges in no boundary, are land. `segment` is 0
+  // unless it separates open boundaries or rivers of one kind that meet at a node.
+  BoundaryKind forCutting(std::uint32_t a, std::uint32_t b) const;
+
  private:
   std::vector<std::pair<NodePair, std::uint32_t>> edges_;  // sorted; the lesser node first
   std::vector<BoundaryKind> kinds_;
+  std::vector<std::uint32_t> separators_;  // by boundary
 };
 
 // For files that only mark open nodes: boundary edges between two of them are open, all others are shore. `is_open` has

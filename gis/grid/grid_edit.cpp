@@ -358,7 +358,7 @@ void sortFeatures(Grid& grid) {
   reorder(grid.features, order);
 }
 
-void appendGrid(Grid& whole, Grid&& part) {
+void appendGrid(Grid& whole, Grid&& part, std::optional<std::uint32_t> first_piece) {
   if (whole.nodes.empty() && whole.triangles.empty()) {
     whole = std::move(part);
     return;
@@ -377,7 +377,8 @@ void appendGrid(Grid& whole, Grid&& part) {
   }
   const auto node_shift = static_cast<std::uint32_t>(whole.nodes.size());
   const auto feature_shift = static_cast<std::uint32_t>(whole.features.size());
-  const std::uint32_t piece_shift = whole.piece_of.empty() ? 0 : std::ranges::max(whole.piece_of) + 1;
+  const std::uint32_t piece_shift =
+      whole.piece_of.empty() ? 0 : (first_piece ? *first_piece : std::ranges::max(whole.piece_of) + 1);
   renumberNodes(part, [node_shift](std::uint32_t node) { return node_shift + node; });
   for (std::uint32_t& feature : part.feature_of) feature += feature_shift;
   for (std::uint32_t& piece : part.piece_of) piece += piece_shift;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -59,9 +60,10 @@ void reorder(std::vector<T>& values, const std::vector<std::uint32_t>& order) {
 void sortFeatures(Grid& grid);
 
 // Appends `part` to `whole`, with its indices shifted; title and CRS are those of `whole`. Values that only one of them
-// has are unknown in the other (NaN; a piece of its own); solver partitions are dropped. REQUIRES: both have features,
-// or neither does.
-void appendGrid(Grid& whole, Grid&& part);
+// has are unknown in the other (NaN; a piece of its own); solver partitions are dropped. Pieces of `part` are numbered
+// from `first_piece`, by default from one more than the largest number, which is looked up. REQUIRES: both have
+// features, or neither does.
+void appendGrid(Grid& whole, Grid&& part, std::optional<std::uint32_t> first_piece = std::nullopt);
 
 // Cuts lines that do not run along an edge between two triangles.
 void cutLinesOffEdges(Grid& grid);

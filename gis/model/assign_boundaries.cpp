@@ -15,11 +15,8 @@ BoundaryEdges edgesOfLoops(const Grid& grid, const std::vector<std::vector<std::
     const bool outer = roleOfLoop(grid.nodes, loop, grid.crs) == BoundaryRole::Land;
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const NodePair edge{loop[i], loop[(i + 1) % loop.size()]};
-      const BoundaryKind* const kind = before.find(edge[0], edge[1]);
       boundary.edges.push_back(edge);
-      boundary.kinds.push_back(kind != nullptr ? BoundaryKind{kind->role, kind->ibtype} : BoundaryKind{});
-      // Islands and shores are distinguished by their loops alone.
-      if (boundary.kinds.back().role == BoundaryRole::Island) boundary.kinds.back().role = BoundaryRole::Land;
+      boundary.kinds.push_back(before.forCutting(edge[0], edge[1]));
       boundary.outer.push_back(outer);
     }
     boundary.loop_ends.push_back(boundary.edges.size());

@@ -24,16 +24,13 @@ BoundaryKind openingAt(const RepairState& state, std::uint32_t node) {
 BoundaryKinds takeBoundaryKinds(const Grid& grid) {
   std::vector<EdgeConflict> conflicts;
   const TriMesh mesh = linkTriangles(grid.nodes, grid.triangles, conflicts);
-  const EdgeKinds said(grid);
+  const EdgeKinds given(grid);
   BoundaryKinds kinds;
   for (TriId t = 0; t < mesh.triangles.size(); ++t) {
     for (unsigned i = 0; i < 3; ++i) {
       if (mesh.triangles[t].adj[i] != kNone) continue;
       const std::uint32_t a = mesh.origin(edgeRef(t, i)), b = mesh.target(edgeRef(t, i));
-      const BoundaryKind* const kind = said.find(a, b);
-      BoundaryKind made = kind != nullptr ? BoundaryKind{kind->role, kind->ibtype} : BoundaryKind{};
-      if (made.role == BoundaryRole::Island) made.role = BoundaryRole::Land;
-      kinds[edgeKey(a, b)] = made;
+      kinds[edgeKey(a, b)] = given.forCutting(a, b);
     }
   }
   return kinds;

@@ -52,13 +52,17 @@ class Contest {
   std::optional<PatchEdit> best_;
 };
 
-// Moves towards nodes of the ring and midpoints of consecutive ones; on the shore, along it.
-void forEachMove(const RepairView& view, std::uint32_t node, auto&& use) {
+// How far inner nodes move; the fine moves are for sums, which change steadily.
+constexpr std::array kMoves{0.02, 0.05, 0.1, 0.15, 0.2, 0.3};
+constexpr std::array kFineMoves{0.004, 0.01, 0.02, 0.05, 0.1, 0.2};
+
+// Moves by `shares` of the way towards nodes of the ring and midpoints of consecutive ones; on the shore, along it.
+void forEachMove(const RepairView& view, std::uint32_t node, std::span<const double> shares, auto&& use) {
   for (const std::uint32_t other : boundaryNeighbours(view, node))
     for (const double share : {0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5}) use(moveOf(view, node, other, other, share));
   if (view.links.on_boundary[node]) return;
   const std::vector<std::uint32_t> ring = ringRound(view, node);
-  for (const double share : {0.02, 0.05, 0.1, 0.15, 0.2, 0.3}) {
+  for (const double share : shares) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
       use(moveOf(view, node, ring[i], ring[i], share));
       use(moveOf(view, node, ring[i], ring[(i + 1) % ring.size()], share));
@@ -68,7 +72,7 @@ void forEachMove(const RepairView& view, std::uint32_t node, auto&& use) {
 
 void offerMoves(Contest& contest, const RepairView& view, std::uint32_t node) {
   if (!contest.moveMayMend(node)) return;
-  forEachMove(view, node, [&contest](const PatchEdit& edit) { contest.offer(edit); });
+  forEachMove(view, node, kMoves, [&contest](const PatchEdit& edit) { contest.offer(edit); });
 }
 
 // The square of what the smallest angle of a triangle lacks of `goal_deg`; infinite if it is clockwise.
@@ -135,7 +139,7 @@ std::optional<PatchEdit> bestRelaxing(const RepairView& view, std::uint32_t t, s
   const GridCorners& v = view.grid.triangles[t];
   for (unsigned i = 0; i < 3; ++i) {
     if (const auto flip = flipOf(view, patch, v[i], v[next3(i)])) offer(*flip);
-    if (std::ranges::count(movable, v[i]) > 0) forEachMove(view, v[i], offer);
+    if (std::ranges::count(movable, v[i]) > 0) forEachMove(view, v[i], kMoves, offer);
     for (const auto& [gone, kept] : {std::pair(v[i], v[next3(i)]), std::pair(v[next3(i)], v[i])})
       for (const double share : {0.0, 0.5})
         if (const auto edit = collapseOf(view, gone, kept, share)) offer(*edit);
@@ -160,7 +164,7 @@ std::optional<PatchEdit> bestSharing(const RepairView& view, std::uint32_t node,
   double least = kWorthwhile * lackOfAngles(view, view.links.triangles_at[node], goal_deg);
   if (least <= 0.0) return best;
   const PatchScale scale = scaleOf(view, patch);
-  forEachMove(view, node, [&](const PatchEdit& edit) {
+  forEachMove(view, node, kFineMoves, [&](const PatchEdit& edit) {
     double lack = 0.0;
     for (const EditedTriangle& triangle : edit.triangles) {
       std::array<Point, 3> p;

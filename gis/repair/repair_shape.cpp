@@ -245,7 +245,7 @@ bool relaxTriangle(RepairState& state, std::uint32_t t) {
 }
 
 void shareSmallAngle(RepairState& state, std::uint32_t t) {
-  constexpr int kRings = 3, kMostSweeps = 40;
+  constexpr int kRings = 3, kMostSweeps = 80;
   constexpr double kBeyondDeg = 1.0;  // neighbours give up only what is above the bound, less this
   const RepairView view = state.view();
   const double bound = state.options.min_angle_deg - kAngleSlackDeg, goal = state.options.min_angle_deg + kBeyondDeg;

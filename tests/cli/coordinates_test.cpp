@@ -344,6 +344,33 @@ TEST_F(Coordinates, MetresThatAreSaidToBeDegreesAreRefused) {
   EXPECT_NE(other.errors.find("metres.geojson"), std::string::npos) << other.errors;
 }
 
+TEST_F(Coordinates, FeetInAPlaneAreWarnedOf) {
+  const std::string input =
+      write("feet.geojson",
+            R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::2263"}},)"
+            R"("features":[{"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":)"
+            R"([[[980000,190000],[990000,190000],[990000,200000],[980000,200000],[980000,190000]]]}}]})");
+  const auto errorsWith = [&](const std::string& crs) {
+    return runProgram({"mesh", input, "--crs", crs, "--size", "900", "-o", file("m.nc"), "--overwrite", "--quiet"})
+        .errors;
+  };
+  EXPECT_NE(errorsWith("plane").find("US survey foot: lengths, as of --size, have that unit"), std::string::npos);
+  EXPECT_EQ(errorsWith("auto"), "");
+}
+
+// In Mercator's plane the south of this box is less enlarged than its centre.
+TEST_F(Coordinates, TheLargestSizeHoldsOnTheGroundInAnyPlane) {
+  const std::string input = ring("north.geojson", {{10, 40}, {11, 40}, {11, 65}, {10, 65}});
+  ASSERT_EQ(runProgram({"mesh", input, "--crs", "EPSG:3857", "--size-max", "20000", "-o", file("m.nc")}).code, 0);
+  EXPECT_LE(infoOf(file("m.nc"))["longest_edge_m"].get<double>(), 20000.0);
+}
+
+TEST_F(Coordinates, JsonMayHoldACoastline) {
+  const std::string input = ring("lake.json", {{10, 40}, {11, 40}, {11, 41}, {10, 41}});
+  const ProgramRun run = runProgram({"info", input});
+  EXPECT_EQ(run.code, 0) << run.errors;
+}
+
 // Degrees taken as a plane keep their CRS, and their longitudes in any revolution.
 TEST_F(Coordinates, DegreesInAPlane) {
   const std::string input = ring("wide.geojson", {{-10, 0}, {400, 0}, {400, 50}, {200, 20}, {-10, 50}});

@@ -139,6 +139,21 @@ TEST_F(PerFeature, WhereNoneCanBeMeshedItIsTheInputsFault) {
   EXPECT_EQ(names(), Names{"lakes.geojson"});
 }
 
+TEST_F(PerFeature, WhereAllRequireTooManyVerticesItIsNotTheInputsFault) {
+  const ProgramRun run = mesh(lakes(), {"-o", file("{}.2dm"), "--size", "5", "--max-vertices", "100"});
+  EXPECT_EQ(run.code, 1) << run.errors;
+  EXPECT_THAT(run.errors, HasSubstr("--max-vertices allows"));
+  EXPECT_EQ(names(), Names{"lakes.geojson"});
+}
+
+TEST_F(PerFeature, DepthsThatOpenNothingAreWarnedOf) {
+  write("shallow.asc", "ncols 4\nnrows 2\nxllcorner 4\nyllcorner 49\ncellsize 1\n-10 -10 -10 -10\n-10 -10 -10 -10\n");
+  const ProgramRun run = mesh(writeFeatures({square(5, 50, 0.03, {{"name", "a"}})}),
+                              {"-o", file("{}.14"), "--bathymetry", file("shallow.asc"), "--open-deeper", "50"});
+  EXPECT_EQ(run.code, 0) << run.errors;
+  EXPECT_THAT(run.errors, HasSubstr("--open-deeper"));
+}
+
 TEST_F(PerFeature, BoundsThatAreMissedMakeExitCodeOne) {
   const ProgramRun run =
       mesh(lakes(), {"-o", file("{}.2dm"), "--size", "50", "--max-vertices", "40", "--report", file("r.json")});

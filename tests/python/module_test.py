@@ -272,6 +272,23 @@ class FilesTest(unittest.TestCase):
         with self.assertRaisesRegex(coastmesh.InputError, "another CRS"):
             coastmesh.mesh([Shape(0), other])
 
+    def test_a_crs_without_a_code_is_refused(self):
+        class Crs:
+            def to_authority(self):
+                return None
+
+        class Shape:
+            __geo_interface__ = POLYGON
+            crs = Crs()
+
+        with self.assertRaisesRegex(coastmesh.InputError, "no code"):
+            coastmesh.mesh([Shape()])
+
+    def test_files_that_models_would_misread_are_warned_of(self):
+        mesh = coastmesh.mesh(POLYGON)
+        with self.assertWarnsRegex(coastmesh.CoastmeshWarning, "says 0 everywhere"):
+            mesh.write(self.path("fort.14"))
+
     def test_meshes_are_pickled_and_copied(self):
         mesh = coastmesh.mesh(LAKE, min_angle=30, threads=1)
         for twin in (pickle.loads(pickle.dumps(mesh)), copy.deepcopy(mesh)):

@@ -252,6 +252,12 @@ class ProviderTest(unittest.TestCase):
         self.assertIn("warning: ", self.log.text())
         self.assertTrue(os.path.exists(results["OUTPUT"]))
 
+    def test_sizes_that_require_too_many_vertices_are_an_error(self):
+        with self.assertRaises(QgsProcessingException) as caught:
+            self.mesh(memory_layer(LAKE), SIZE=1, MAX_VERTICES=500)
+        self.assertIn("--max-vertices", str(caught.exception))
+        self.assertEqual(os.listdir(self.folder), [])
+
     def test_a_crs_given_by_hand_and_a_flag(self):
         self.mesh(memory_layer(LAKE), CRS="EPSG:32631", COARSEN=False)
         self.assertIn("--crs=EPSG:32631 --no-coarsen", self.log.text().replace("--no-coarsen --crs=EPSG:32631",

@@ -126,9 +126,12 @@ class Mesh:
         return self._parsed_report
 
     def write(self, path, format=None, overwrite=False):
-        """Writes the mesh in the format that the ending of `path`, or `format`, names. Raises OutputError."""
+        """Writes the mesh in the format that the ending of `path`, or `format`, names. What the file cannot hold, and
+        numbers that models would misread, are a CoastmeshWarning. Raises OutputError."""
         with _own_errors():
-            self._made._write(os.fsencode(path), format or "", overwrite)
+            warnings = self._made._write(os.fsencode(path), format or "", overwrite)
+        for warning in warnings:
+            _warnings.warn(warning, CoastmeshWarning, stacklevel=2)
 
     def plot(self, path, color="angle", size=1600, edges=True, overwrite=False):
         """Draws the mesh as .png or .svg, `size` pixels on its longer side, or as a page for a browser, .html, as large
@@ -253,6 +256,9 @@ def _geojson_text(geojson, crs=None):
     if kind not in ("Feature", "FeatureCollection"):
         geojson = _feature(geojson)
     authority = crs.to_authority() if hasattr(crs, "to_authority") else None
+    if crs is not None and hasattr(crs, "to_authority") and not authority:
+        raise InputError("the CRS of the shapes has no code such as EPSG:32633, and GeoJSON can name no other: "
+                         "give them in a CRS that has one, with to_crs()")
     if authority:
         name = f"urn:ogc:def:crs:{authority[0]}::{authority[1]}"
         geojson = {**geojson, "crs": {"type": "name", "properties": {"name": name}}}

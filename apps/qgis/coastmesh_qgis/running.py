@@ -95,10 +95,9 @@ def run_program(program, arguments, feedback, in_words):
         raise QgsProcessingException(f"'{program}' cannot be started")
     if process.exitStatus() != QProcess.NormalExit:
         raise QgsProcessingException("coastmesh was ended from outside, perhaps for want of memory; no file was written")
-    if code not in (0, SHORT):
+    # SHORT comes with an error where nothing was meshed because the sizes require too many vertices.
+    if code not in (0, SHORT) or talk.errors:
         raise QgsProcessingException("; ".join(talk.errors) or f"coastmesh ended with exit code {code}")
-    for error in talk.errors:
-        feedback.reportError(error)
     return code
 
 

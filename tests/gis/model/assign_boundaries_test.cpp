@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "gis/error.hpp"
+#include "gis/repair/repair_target.hpp"
 #include "tests/gis/grid_samples.hpp"
 
 namespace coastmesh {
@@ -155,6 +156,29 @@ TEST_F(AssignBoundaries, DepthOpensOuterLoopsOnly) {
   EXPECT_EQ(none.warnings[0].find("--open-deeper 1000 opens no boundary: its deepest edge is at "), 0u);
   grid.z.clear();
   EXPECT_THROW(assignBoundaries(grid, options), InputError);
+}
+
+// Programs count open boundaries: one for each forcing.
+TEST_F(AssignBoundaries, AdjacentOpenBoundariesStayApart) {
+  Grid grid = sea();
+  const auto loops = boundaryLoops(grid);
+  grid.boundaries = cutLoops(grid, loops, [&](std::uint32_t a, std::uint32_t b) {
+    const bool south = grid.nodes[a].y == 50.0 && grid.nodes[b].y == 50.0;
+    const bool east = grid.nodes[a].x == 20.0 && grid.nodes[b].x == 20.0;
+    return BoundaryKind{south || east ? BoundaryRole::Open : BoundaryRole::Land, -1, east ? 1u : 0u};
+  });
+  const auto open = [&] {
+    return std::ranges::count_if(grid.boundaries, [](const Boundary& b) { return b.role == BoundaryRole::Open; });
+  };
+  ASSERT_EQ(open(), 2);
+  BoundaryOptions options;
+  options.least_length_m = 1.0;
+  assignBoundaries(grid, options);
+  EXPECT_EQ(open(), 2);
+  grid.nodes.push_back({30.0, 50.0});  // an unused node, which repairs remove
+  EXPECT_FALSE(repairForTargets(grid, std::array{Target::Adcirc}).repairs.empty());
+  EXPECT_EQ(open(), 2);
+  expectWholeBoundary(grid);
 }
 
 TEST_F(AssignBoundaries, ShortOnesBecomePartOfLongerOnes) {
