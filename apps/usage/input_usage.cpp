@@ -116,7 +116,7 @@ void declareInputOptions(OptionTable& table, InputOptions& options) {
       .needs({"--edges"});
   table.section(Section::Coast);
   table.number({"--min-island-area", "Smallest island"}, options.min_island_area_m2, "M2", kNotNegative,
-               "fill islands smaller than this");
+               "fill islands smaller than this; those that a frame cuts stay");
   table.section(Section::Input);
   table.text({"--crs", "Working plane"}, options.crs, "CRS",
              "auto fits a conformal projection, plane uses coordinates as they are; or any CRS that PROJ knows: if it "

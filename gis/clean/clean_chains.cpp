@@ -9,8 +9,8 @@
 #include <tuple>
 
 #include "gis/clean/clean_touches.hpp"
-#include "gis/clean/geodesic_area.hpp"
 #include "gis/clean/seam.hpp"
+#include "gis/clean/small_islands.hpp"
 #include "gis/clean/torn_edges.hpp"
 #include "gis/coast/turned_rings.hpp"
 #include "gis/error.hpp"
@@ -33,32 +33,22 @@ std::vector<InputChain> gather(const Coastline& coastline, const std::vector<std
                                const CleanOptions& options, CleanReport& report) {
   using Role = CleanChain::Role;
   std::vector<InputChain> chains;
-  std::optional<RingArea> area;
-  if (options.min_island_area_m2 > 0) area.emplace(coastline.crs);
+  std::optional<SmallIslands> small;
+  if (options.min_island_area_m2 > 0) small.emplace(coastline.crs, options.min_island_area_m2);
   for (const std::size_t member : members) {
     const Feature& feature = coastline.features[member];
     const auto index = static_cast<std::uint32_t>(member);
-    // In land features an island is a separate polygon; the full area of polygons cut at the frame is unknown.
-    const bool land = feature.use == FeatureUse::Land || feature.use == FeatureUse::Coast;
+    std::vector<Polygon> larger;
+    if (small)
+      larger =
+          small->without(feature, [&](const Point& p) { report.add(EditKind::SmallIsland, p, coastline, member); });
     // If a region has lines, they are its border, cleaned before.
     const bool by_lines = feature.use == FeatureUse::Region && !feature.lines.empty();
-    for (const Polygon& polygon : feature.polygons) {
+    for (const Polygon& polygon : small ? larger : feature.polygons) {
       if (by_lines) break;
-      if (land && area && !feature.clipped && !polygon.outer.empty() &&
-          area->of(polygon.outer) < options.min_island_area_m2) {
-        report.add(EditKind::SmallIsland, polygon.outer.front(), coastline, member);
-        continue;
-      }
       if (!polygon.outer.empty()) chains.push_back({Role::Outer, index, polygon.outer});
-      for (const Ring& hole : polygon.holes) {
-        if (hole.empty()) continue;
-        if (area && feature.use == FeatureUse::Area && !feature.clipped &&
-            area->of(hole) < options.min_island_area_m2) {
-          report.add(EditKind::SmallIsland, hole.front(), coastline, member);
-        } else {
-          chains.push_back({Role::Hole, index, hole});
-        }
-      }
+      for (const Ring& hole : polygon.holes)
+        if (!hole.empty()) chains.push_back({Role::Hole, index, hole});
     }
     for (const auto& line : feature.lines) {
       if (!line.empty()) chains.push_back({Role::Line, index, line});

@@ -18,6 +18,10 @@ using Ring = std::vector<Point>;
 struct Polygon {
   Ring outer;
   std::vector<Ring> holes;
+  std::vector<bool> cut = {};  // the outer ring, then the holes: parts of it were cut off; empty if of none
+
+  bool isOuterCut() const { return !cut.empty() && cut.front(); }
+  bool isHoleCut(std::size_t hole) const { return !cut.empty() && cut[hole + 1]; }
 };
 
 // The purpose of a feature.

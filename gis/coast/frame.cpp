@@ -270,6 +270,18 @@ struct Clips {
   double west = 0;  // where the data's range of longitudes begins
 };
 
+// Sets the outer ring's part, and whether that is less than the ring.
+void setOuter(Ring part, const Ring& given, Polygon& polygon) {
+  polygon.cut.assign(1, part != given);
+  polygon.outer = std::move(part);
+}
+
+void addHole(Ring part, const Ring& given, Polygon& polygon) {
+  polygon.cut.resize(polygon.holes.size() + 1);
+  polygon.cut.push_back(part != given);
+  polygon.holes.push_back(std::move(part));
+}
+
 // Adds the parts near the frame of a polygon whose longitudes jump. Inside is even-odd over all rings, so any outer
 // ring may take the holes.
 void clipTurnedPolygon(const Polygon& polygon, const Clips& clips, std::vector<Polygon>& kept) {
@@ -282,11 +294,11 @@ void clipTurnedPolygon(const Polygon& polygon, const Clips& clips, std::vector<P
     return parts;
   };
   const std::size_t first = kept.size();
-  for (Ring& part : partsOf(polygon.outer)) kept.push_back({std::move(part), {}});
+  for (Ring& part : partsOf(polygon.outer)) setOuter(std::move(part), polygon.outer, kept.emplace_back());
   for (const Ring& hole : polygon.holes) {
     for (Ring& part : partsOf(hole)) {
       if (kept.size() == first) kept.emplace_back();
-      kept[first].holes.push_back(std::move(part));
+      addHole(std::move(part), hole, kept[first]);
     }
   }
 }
@@ -313,10 +325,10 @@ void clipFeature(Feature& feature, const Clips& clips) {
     for (const Polygon& polygon : feature.polygons) {
       if (polygon_jumps(polygon)) continue;
       Polygon part;
-      part.outer = clipRing(polygon.outer, clip);
+      setOuter(clipRing(polygon.outer, clip), polygon.outer, part);
       for (const Ring& hole : polygon.holes) {
         Ring ring = clipRing(hole, clip);
-        if (!ring.empty()) part.holes.push_back(std::move(ring));
+        if (!ring.empty()) addHole(std::move(ring), hole, part);
       }
       if (!part.outer.empty() || !part.holes.empty()) kept.polygons.push_back(std::move(part));
     }

@@ -247,6 +247,17 @@ TEST(Clean, FillsSmallIslands) {
   EXPECT_EQ(cleaned.area(0), 77.0);
 }
 
+TEST(Clean, FillsPondsOfSmallIslands) {
+  Feature nested = polygonFeature(1, square(0, 0, 20), {square(2, 2, 3), square(10, 10, 4)});
+  nested.polygons.push_back({square(2, 3, 1), {}});    // touches the shore of its island
+  nested.polygons.push_back({square(11, 11, 1), {}});  // on a larger island
+  nested.polygons.push_back({square(30, 30, 1), {}});  // elsewhere
+  const Cleaned cleaned = cleanInPlane({nested}, {.snap_m = 0, .min_island_area_m2 = 10.0});
+  EXPECT_EQ(cleaned.count(EditKind::SmallIsland), 1u);
+  EXPECT_EQ(cleaned.count(EditKind::MisplacedRing), 0u);
+  EXPECT_EQ(cleaned.area(0), 400.0 - 16.0 + 1.0 + 1.0);
+}
+
 TEST(Clean, KeepsOpenLinesInside) {
   // A wharf from the shore, a breakwater inside, a line outside, one that crosses the shore.
   const Cleaned cleaned = cleanInPlane({polygonFeature(1, square(0, 0, 10)), lineFeature(2, {{0, 5}, {3, 5}}),

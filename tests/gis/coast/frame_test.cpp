@@ -40,14 +40,14 @@ struct Framed {
   }
 };
 
-Framed frame(Coastline coastline, const FrameOptions& options) {
+Framed frame(Coastline coastline, const FrameOptions& options, const CleanOptions& cleaning = {.snap_m = 0.0}) {
   Framed result;
   result.frame = frameCoastline(coastline, options);
   result.coastline = std::move(coastline);
   for (const auto& members : groupFeatures(result.coastline)) {
     const Projection projection = Projection::fitted(result.coastline, members);
     try {
-      result.domains.push_back(cleanFeatures(result.coastline, members, projection, {0.0}, result.report));
+      result.domains.push_back(cleanFeatures(result.coastline, members, projection, cleaning, result.report));
       EXPECT_EQ(defectOfLabelled(result.domains.back().pslg), "");
     } catch (const NothingWanted&) {
     }
@@ -93,6 +93,22 @@ TEST(Frame, LandAcrossTheBoundary) {
   EXPECT_DOUBLE_EQ(framed.area(), 100 - 3 * 8 - 2 * 3);
   EXPECT_DOUBLE_EQ(framed.openLength(), 40 - 8 - 3);
   EXPECT_EQ(framed.frame.beyond_frame, 1u);
+}
+
+// The frame cuts the features, but only some of their islands, whose full area is unknown.
+TEST(Frame, SmallIslandsOfFeaturesThatItCutsAreFilled) {
+  const CleanOptions least{.snap_m = 0.0, .min_island_area_m2 = 5.0};
+  const Ring whole = square(2, 2, 1), large = square(5, 5, 3), cut = square(11, 1, 2);
+  const FrameOptions box = boxOf(0, 0, 10, 10);
+  const Framed sea = frame(coastlineOf({polygonFeature(1, square(-5, -5, 30), {whole, large, cut})}), box, least);
+  EXPECT_EQ(sea.coastline.features[0].polygons.front().cut, (std::vector<bool>{true, false, false, true}));
+  EXPECT_DOUBLE_EQ(sea.area(), 100 - 9);
+  EXPECT_EQ(sea.report.counts[static_cast<std::size_t>(EditKind::SmallIsland)], 1u);
+  Feature land = polygonFeature(1, whole);
+  for (const Ring& ring : {large, square(-5, 3, 6), square(9.5, 1, 2)}) land.polygons.push_back({ring, {}});
+  const Framed water = frame(coastlineOf({land}), boxOf(0, 0, 10, 10, DomainSide::Outside), least);
+  EXPECT_DOUBLE_EQ(water.area(), 100 - 9 - 6 - 1);
+  EXPECT_EQ(water.report.counts[static_cast<std::size_t>(EditKind::SmallIsland)], 1u);
 }
 
 // Lakes within, across and beyond the frame, and one around all of it.
