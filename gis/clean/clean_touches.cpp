@@ -38,7 +38,8 @@ class Toucher {
       const std::vector<Point>& points = *chain.points;
       first_edge_.push_back(static_cast<std::uint32_t>(ends_.size()));
       for (std::size_t i = 0; i + 1 < points.size(); ++i) ends_.push_back({points[i], points[i + 1]});
-      if (chain.closed && !points.empty()) ends_.push_back({points.back(), points.front()});
+      // A single point is an edge without length, so that it is found near others.
+      if (!points.empty() && (chain.closed || points.size() == 1)) ends_.push_back({points.back(), points.front()});
     }
     double largest = 0;
     for (const auto& [a, b] : ends_) largest = std::max({largest, std::abs(a.x), std::abs(a.y)});

@@ -9,7 +9,7 @@
 
 namespace coastmesh {
 
-// A ring or line of the input while it is cleaned.
+// A ring, line or point of the input while it is cleaned.
 struct TouchChain {
   std::vector<Point>* points = nullptr;  // a ring's first point is not repeated
   bool closed = true;

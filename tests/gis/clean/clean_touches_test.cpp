@@ -53,6 +53,32 @@ TEST(CleanTouches, WhatIsNearToAnEndIsLeftToSnapping) {
   EXPECT_EQ(putOn({0, 0}, {100, 0}, {0.005, 0}, 0.01), 1u);  // exactly on it
 }
 
+TEST(CleanTouches, SinglePointsArePutOnEdges) {
+  std::vector<Point> edge{{0, 0}, {100, 50}}, on{{40, 20}}, at_end{{100, 50}}, off{{40, 21}};
+  const auto touches = insertTouchingPoints({{&edge, false}, {&on, false}, {&at_end, false}, {&off, false}}, 0.01);
+  EXPECT_EQ(edge, (std::vector<Point>{{0, 0}, {40, 20}, {100, 50}}));
+  EXPECT_EQ(touches.size(), 1u);
+  EXPECT_EQ(on.size() + at_end.size() + off.size(), 3u);
+}
+
+// Straight edges in degrees are curves in the plane: points on them would lie beside them by metres.
+TEST(CleanTouches, RequestedPointsOnEdgesLieOnTheShore) {
+  Feature gauges;
+  gauges.use = FeatureUse::Constraint;
+  gauges.points = {{5.13, 50}, {5.17, 50.4}, {5.2, 50.2}};
+  const Coastline coastline = coastlineOf({polygonFeature(1, square(5, 50, 0.4)), gauges}, wgs84());
+  const Projection projection = Projection::fitted(coastline, {0, 1});
+  CleanReport report;
+  const Domain domain = cleanFeatures(coastline, {0, 1}, projection, CleanOptions{}, report);
+  EXPECT_EQ(report.counts[static_cast<std::size_t>(EditKind::OutsideWater)], 0u);
+  ASSERT_EQ(domain.asked.size(), 3u);
+  for (const VertexId v : domain.asked) {
+    const auto ends =
+        std::ranges::count_if(domain.pslg.segments, [v](const Segment& s) { return s.a == v || s.b == v; });
+    EXPECT_EQ(ends, domain.input_points[v] == gauges.points[2] ? 0 : 2);
+  }
+}
+
 // A ring that runs back along itself in degrees, up to rounded decimals. In the plane, where its sides are straight
 // between other points, they were centimetres apart over a kilometre. Tests all starting points and both directions.
 TEST(CleanTouches, ASpikeThatRunsBackIsNone) {
