@@ -5,8 +5,11 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/metric.hpp"
 #include "gis/coast/feature_names.hpp"
 #include "gis/error.hpp"
+#include "gis/for_count.hpp"
+#include "gis/geometry/box.hpp"
 
 namespace coastmesh {
 
@@ -26,6 +29,7 @@ class WaterFinder {
     water_.assign(coast_.map.faceCount(), 0);
     if (coast_.seed) {
       flood(*coast_.seed, true, [](std::uint32_t, bool) {});
+      leaveOutUnreached();
     } else {
       byTheRule();
     }
@@ -54,9 +58,48 @@ class WaterFinder {
     }
   }
 
+  // Warns of parts of the frame without a connection to the seed. They are land.
+  void leaveOutUnreached() {
+    if (std::ranges::none_of(coast_.edges, &CoastEdge::of_frame)) return;
+    std::vector<Point> places;
+    for (std::uint32_t face = 0; face < coast_.map.faceCount(); ++face) {
+      if (!coast_.framed[face] || seen_[face]) continue;
+      std::vector<std::uint32_t> members;
+      flood(face, true, [&](std::uint32_t member, bool) { members.push_back(member); });
+      for (const std::uint32_t member : members) water_[member] = 0;
+      places.push_back(middleOf(members));
+    }
+    if (places.empty()) return;
+    report_.warnings.push_back(partsInWords(places) + " not connected with the place of --water-at, and " +
+                               forCount(places.size(), "is", "are") + " not meshed: mesh " +
+                               forCount(places.size(), "it", "them") + " in another run");
+  }
+
+  // The middle of the faces' bounds, in the input's coordinates.
+  Point middleOf(const std::vector<std::uint32_t>& faces) const {
+    Box box;
+    for (const std::uint32_t face : faces)
+      for (const PlanarMap::HalfEdge h : coast_.map.around(face)) {
+        const CoastEdge& edge = coast_.edges[h / 2];
+        for (const VertexId v : {edge.low, edge.high}) box.add(vertices_.plane[v]);
+      }
+    return projection_.inverse(midpoint(Point{box.xmin, box.ymin}, Point{box.xmax, box.ymax}));
+  }
+
+  // "2 parts of the frame, around (1, 2) and (3, 4), are", with some of the places.
+  static std::string partsInWords(const std::vector<Point>& places) {
+    constexpr std::size_t kNamed = 5;
+    const std::size_t named = std::min(kNamed, places.size());
+    std::string text = std::to_string(places.size()) + forCount(places.size(), " part", " parts") + " of the frame, ";
+    text += places.size() > kNamed ? "such as those around " : "around ";
+    for (std::size_t i = 0; i < named; ++i)
+      text += (i == 0 ? "(" : i + 1 == named ? " and (" : ", (") + roughPlaceInWords(places[i]) + ")";
+    return text + ", " + forCount(places.size(), "is", "are");
+  }
+
   void byTheRule() {
     double agreeing = 0, all = 0;
-    std::vector<std::uint32_t> bare;
+    std::vector<Point> bare;  // places of parts without a coast
     for (std::uint32_t face = 0; face < coast_.map.faceCount(); ++face) {
       if (!coast_.framed[face] || (!seen_.empty() && seen_[face])) continue;
       std::vector<std::uint32_t> members;
@@ -74,7 +117,8 @@ class WaterFinder {
         }
       });
       if (length == 0) {
-        bare.insert(bare.end(), members.begin(), members.end());
+        for (const std::uint32_t member : members) water_[member] = 0;
+        bare.push_back(middleOf(members));
         continue;
       }
       if (for_water < 0) {
@@ -96,7 +140,11 @@ class WaterFinder {
                     100 * agreeing / all);
       throw InputError(text);
     }
-    for (const std::uint32_t member : bare) water_[member] = 0;
+    if (!bare.empty())
+      report_.warnings.push_back(partsInWords(bare) +
+                                 " without a coastline, so that it is unknown whether there is water, and " +
+                                 forCount(bare.size(), "is", "are") + " not meshed: for the sea, mesh " +
+                                 forCount(bare.size(), "it", "them") + " in another run with --water-at LON,LAT");
     char text[256];
     std::snprintf(text, sizeof text,
                   "meshed the side to the right of the coastlines, where OpenStreetMap has the water (%.4g %% of their "

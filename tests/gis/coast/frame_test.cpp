@@ -195,6 +195,34 @@ TEST(Frame, TwoSeasOfOneRule) {
             std::string::npos);
 }
 
+// Parts of the frame without a coast, or without a connection to the place of the water, are named.
+TEST(Frame, PartsThatAreNotMeshedAreNamed) {
+  const Feature coast = coastFeature({{4, -1}, {4, 11}}), next = coastFeature({{34, -1}, {34, 11}});
+  const Coastline bare = coastlineOf({coast, frameFeature(11, square(0, 0, 10)), frameFeature(12, square(30, 0, 10)),
+                                      frameFeature(13, square(60, 2, 2))});
+  const Framed by_rule = frame(bare, {});
+  EXPECT_DOUBLE_EQ(by_rule.area(), 60);
+  ASSERT_EQ(by_rule.report.warnings.size(), 1u);
+  EXPECT_NE(
+      by_rule.report.warnings[0].find("2 parts of the frame, around (35, 5) and (61, 3), are without a coastline"),
+      std::string::npos)
+      << by_rule.report.warnings[0];
+  FrameOptions options;
+  options.water_at = Point{5, 5};
+  const Framed by_place = frame(
+      coastlineOf({coast, next, frameFeature(11, square(0, 0, 10)), frameFeature(12, square(30, 0, 10))}), options);
+  EXPECT_DOUBLE_EQ(by_place.area(), 60);
+  ASSERT_EQ(by_place.report.warnings.size(), 1u);
+  EXPECT_NE(by_place.report.warnings[0].find("1 part of the frame, around (35, 5), is not connected"),
+            std::string::npos)
+      << by_place.report.warnings[0];
+  // Without a frame, only the water at the place is asked for.
+  const Framed rings = frame(coastlineOf({coastFeature({{0, 0}, {9, 0}, {9, 9}, {0, 9}, {0, 0}}),
+                                          coastFeature({{20, 0}, {29, 0}, {29, 9}, {20, 9}, {20, 0}})}),
+                             options);
+  EXPECT_TRUE(rings.report.warnings.empty());
+}
+
 TEST(Frame, AGapInTheCoastIsRefusedByItsPlace) {
   const Coastline coastline = coastlineOf({coastFeature({{4, -1}, {4, 5}}), coastFeature({{4, 5.25}, {4, 11}})});
   const std::string text = refusalOf(coastline, boxOf(0, 0, 10, 10));
