@@ -14,6 +14,7 @@
 #include "apps/job/step_outcome.hpp"
 #include "apps/job/stopwatch.hpp"
 #include "core/delaunay.hpp"
+#include "core/label_regions.hpp"
 #include "core/refine/check.hpp"
 #include "core/size/estimate_vertices.hpp"
 #include "core/sphere/close_sphere.hpp"
@@ -350,6 +351,7 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
     sized = makeSizes(domain, SizeAccuracy::Fine);
   } else {
     const FollowOptions follow = followOptionsOf(job);
+    labelSegments(domain.pslg);  // plane graphs have no labels, by which the area is found
     const double area_m2 = result.input_area_m2 ? *result.input_area_m2 : geodesicArea(domain, Crs{});
     const EdgeWishes wishes{kShoreMargin * StepOutcome::kUsualShare * job.sizes.least_m,
                             job.mesh.refine.max_angle_deg <= kNotObtuseDeg};

@@ -109,6 +109,7 @@ TEST_F(CoordinateRange, CoastFollowsInAPoly) {
     const ProgramRun run = runProgram({"mesh", poly, "--size", "200", "--coast", coast, "-o", file("a.nc"),
                                        "--overwrite", "--report", file("a.json")});
     EXPECT_EQ(run.code, 0) << run.errors;
+    EXPECT_EQ(run.errors, "");
     return Json::parse(readText(file("a.json")))["mesh"]["vertices"].get<int>();
   };
   EXPECT_GT(vertices("keep"), 720);
