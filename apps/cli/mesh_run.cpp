@@ -95,7 +95,8 @@ std::string shortfallOf(const MeshJobResult& result) {
   if (!result.refusals.empty()) add(counted(result.refusals.size(), " group", " groups") + " of features left out");
   const std::size_t left = result.finish.repairs.left.size();
   if (left > 0) add(counted(left, " defect", " defects") + " for models could not be repaired");
-  if (!result.step.held()) add("the time step is not held");
+  if (!result.step.below_step.empty()) add("the time step is not held");
+  if (result.step.least_missed) add("edges are far shorter than --size-min");
   return text;
 }
 

@@ -218,6 +218,21 @@ TEST_F(TimeStep, SizeMinThatTheCoastUndercutsIsSaid) {
   }
 }
 
+// Two requested points are too near to one another.
+TEST_F(TimeStep, AQuietRunSaysThatSizeMinIsMissed) {
+  const std::string points =
+      write("gauges.geojson",
+            R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:32631"}}, )"
+            R"("features": [{"type": "Feature", "properties": {}, "geometry": )"
+            R"({"type": "MultiPoint", "coordinates": [[30000, 20000], [30050, 20000]]}}]})");
+  const ProgramRun run =
+      mesh({"--size", "3000", "--size-min", "2000", "--coast", "follow", "--constraints", points, "--quiet"});
+  EXPECT_EQ(run.code, 1);
+  EXPECT_TRUE(step().at("size_min").at("missed").get<bool>());
+  EXPECT_THAT(run.errors, HasSubstr("edges are far shorter than --size-min"));
+  EXPECT_THAT(run.errors, Not(HasSubstr("the time step is not held")));
+}
+
 TEST_F(TimeStep, SizeMinHoldsForEdgesWhereTheCoastFollows) {
   for (const std::string quality : {"shape", "centred"}) {
     SCOPED_TRACE(quality);
