@@ -43,6 +43,7 @@ class Simplifier {
         links_(vertices.plane.size()) {
     pieces_.reserve(edges.segments.size());
     for (const VertexId v : edges.points) links_[v].degree = 3;  // never dropped, but it blocks others
+    kept_.insert(edges.asked.begin(), edges.asked.end());
     for (const Segment& s : edges.segments) {
       for (const VertexId v : {s.a, s.b}) {
         Link& link = links_[v];

@@ -12,7 +12,7 @@ namespace coastmesh {
 // vertex stays within `tolerance_m` metres of the segment that replaces it. A vertex is dropped only if the triangle
 // with its two neighbours contains no other vertex, so the segments keep their topology: nothing crosses, no island
 // changes sides, no ring disappears; and only if the new segment keeps `resolution` from all others. Junctions, ends of
-// lines, fixed points and pinched vertices stay. After Visvalingam & Whyatt, "Line generalisation by repeated
+// lines, requested vertices and pinched vertices stay. After Visvalingam & Whyatt, "Line generalisation by repeated
 // elimination of points" (1993), with Douglas & Peucker's distance (1973) in place of the area. O(n log n) for shores
 // that are not dense within the tolerance.
 std::vector<Segment> simplifyEdges(const CleanVertices& vertices, const LabelledEdges& edges,

@@ -17,6 +17,7 @@
 #include "gis/follow/shore_joins.hpp"
 #include "gis/follow/shore_settle.hpp"
 #include "gis/follow/water_lines.hpp"
+#include "gis/shore/asked_points.hpp"
 #include "gis/shore/shore_chains.hpp"
 #include "gis/shore/shore_coarsen.hpp"
 #include "gis/shore/shore_ends.hpp"
@@ -59,6 +60,17 @@ void thin(ShoreChains& chains, const ShoreSizes& sizes, const BoxTree& lines, co
   thinShores(chains, {lines, options.channel_min < 1.0, dropped, before}, gone, loop);
 }
 
+// Calls `mendEnds`, which lets ends go that it removes: not those that the user requested.
+void mendEndsButAsked(ShoreChains& chains, const std::vector<VertexId>& asked, const ShoreLoss& gone) {
+  mendEnds(chains, gone);
+  keepAsked(chains, asked);
+}
+
+std::vector<VertexId> together(std::vector<VertexId> these, const std::vector<VertexId>& others) {
+  these.insert(these.end(), others.begin(), others.end());
+  return these;
+}
+
 // A constant length on the ground, as lengths in the plane.
 class SameOnGround final : public SizeFunction {
  public:
@@ -90,6 +102,7 @@ Domain thinToLeast(Domain&& domain, double least_m, const FollowOptions& options
   start.thinned_m = least_m;
   const EditLog log{domain, coastline, report};
   ShoreChains chains = chainsOf(takeGraph(domain), least, loop);
+  keepAsked(chains, domain.asked);
   thin(chains, {least, scales}, guides.tree(), options, nullptr, log, start.gained, loop);
   return domainOf(graphOf(std::move(chains)), std::move(domain));
 }
@@ -111,17 +124,19 @@ Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOpti
   const EvenSizes* const even = std::isnan(known.rate) ? nullptr : &growing;
   ShoreStart start;
   start.gained = std::move(known.gained);
+  const AskedPoints asked(domain.asked, domain.pslg.points);
   ShoreGraph graph;
   {
     ShoreChains chains = chainsOf(takeGraph(domain), given, loop, even);
+    keepAsked(chains, asked.sources());
     thin(chains, {given, scales}, lines, options, known.thinned_m > 0.0 ? &thinned : nullptr, log, start.gained, loop);
     graph = graphOf(std::move(chains));
   }
   // Parts of lines that cannot be followed must not keep land. The rest is set aside, as the width of water does not
   // depend on it.
   LostLines lost;
-  returnLines(graph, takeLines(graph, domain.asked), {given, scales}, options.channel_min, lost);
-  WaterLines in_water = takeLines(graph, domain.asked);
+  returnLines(graph, takeLines(graph, asked.sources()), {given, scales}, options.channel_min, lost);
+  WaterLines in_water = takeLines(graph, asked.sources());
   const std::vector<VertexId> ends_of_lines = bridgeLand(graph, in_water, given);
   sampleShores(graph, given, lines, loop, even);
   start.triangles = triangulateShores(std::move(graph), given, loop, even);
@@ -151,9 +166,11 @@ Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOpti
   noteFollowing(std::move(noted), guides, options, domain.projection, report);
 
   graph = settledGraph(std::move(opened.after), size);
+  // Points on the shore of land that was removed are in the water now.
+  addLoose(in_water, asked.missingFrom(together(graph.source, in_water.source)));
   returnLines(graph, std::move(in_water), sizes, options.channel_min, lost);
-  noteLostLines(lost, domain, report);
   ShoreChains chains = chainsOf(std::move(graph), size, loop, even);
+  keepAsked(chains, asked.sources());
   dropSamples(chains);
   const ShoreLoss gone = [&](VertexId v) {
     log.add(EditKind::SimplifiedPoint, chains, v);
@@ -163,7 +180,7 @@ Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOpti
     log.add(EditKind::MovedPoint, chains, v);
     addGain(chains, v, &x, scales, opened.gained);
   };
-  mendEnds(chains, gone);
+  mendEndsButAsked(chains, asked.sources(), gone);
   coarsenShores(chains, gone);
   MetPoints met_points;
   meetPoints(chains, [&](VertexId v, VertexId w) {
@@ -178,7 +195,10 @@ Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOpti
   for (const auto& [water, gained] : opened.gained)
     if (std::abs(gained) > kNoted * opened.areas[water]) missing[water] = -gained;
   if (!missing.empty()) shiftShores(chains, missing, scales, moved);
-  return domainOf(graphOf(std::move(chains)), std::move(domain));
+  ShoreGraph followed = graphOf(std::move(chains));
+  addLost(lost, asked.missingFrom(followed.source));
+  noteLostLines(lost, domain, report);
+  return domainOf(std::move(followed), std::move(domain));
 }
 
 SizeGrowth growthOf(const Pslg& pslg, const SizeFunction& before, const SizeFunction& after, const ItemLoop& loop) {
@@ -198,10 +218,11 @@ SizeGrowth growthOf(const Pslg& pslg, const SizeFunction& before, const SizeFunc
 Domain coarsenFurther(Domain&& domain, const SizeFunction& size, const Coastline& coastline, CleanReport& report) {
   const SizesInPlane in_plane(size, domain);
   ShoreChains chains = chainsOf(takeGraph(domain), in_plane.get());
+  keepAsked(chains, domain.asked);
   const EditLog log{domain, coastline, report};
   const ShoreLoss gone = [&](VertexId v) { log.add(EditKind::SimplifiedPoint, chains, v); };
   const ShoreMove moved = [&](VertexId v, const Point&) { log.add(EditKind::MovedPoint, chains, v); };
-  mendEnds(chains, gone);
+  mendEndsButAsked(chains, domain.asked, gone);
   coarsenShores(chains, gone);
   mendShores(chains, gone, moved);
   return domainOf(graphOf(std::move(chains)), std::move(domain));

@@ -43,6 +43,7 @@ Domain lengthenShores(Domain&& domain, const EdgeWishes& wishes, const SizeFunct
   const ScaleTable scales(domain.projection, box);
   const SizesInPlane in_plane(size, domain);
   ShoreChains chains = chainsOf(takeGraph(domain), in_plane.get(), loop);
+  keepAsked(chains, domain.asked);
   for (const Point& p : chains.at) chains.least.push_back(wishes.least_m * scales.at(p));
   chains.no_square_ends = wishes.no_square_ends;
   const EditLog log{domain, coastline, report};

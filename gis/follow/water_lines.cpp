@@ -266,6 +266,21 @@ WaterLines takeLines(ShoreGraph& graph, const std::vector<VertexId>& asked) {
   return lines;
 }
 
+void addLoose(WaterLines& lines, const std::vector<AskedPoint>& points) {
+  for (const AskedPoint& point : points) {
+    lines.loose.push_back(static_cast<VertexId>(lines.at.size()));
+    lines.at.push_back(point.at);
+    lines.source.push_back(point.source);
+    lines.stays.push_back(1);
+    lines.shore.push_back(kNone);
+  }
+}
+
+void addLost(LostLines& lost, const std::vector<AskedPoint>& points) {
+  for (const AskedPoint& point : points)
+    if (std::ranges::find(lost.points, point.at) == lost.points.end()) lost.points.push_back(point.at);
+}
+
 std::vector<VertexId> bridgeLand(const ShoreGraph& shores, WaterLines& lines, const SizeFunction& size) {
   constexpr double kNarrow = 1.0;  // of the size
   std::vector<VertexId> ends;      // of lines at shores, once per segment

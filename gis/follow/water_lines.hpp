@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gis/follow/shore_sizes.hpp"
+#include "gis/shore/asked_points.hpp"
 #include "gis/shore/shore_graph.hpp"
 
 namespace coastmesh {
@@ -25,6 +26,9 @@ struct WaterLines {
 // of points requested as vertices.
 WaterLines takeLines(ShoreGraph& graph, const std::vector<VertexId>& asked = {});
 
+// Adds requested points that are on no segment.
+void addLoose(WaterLines& lines, const std::vector<AskedPoint>& points);
+
 // Joins ends of a line across land narrower than an element by bridges, in case that land is removed. `shores`: as left
 // by `takeLines`. Returns the other vertices of the shore where lines end: land must stay there.
 std::vector<VertexId> bridgeLand(const ShoreGraph& shores, WaterLines& lines, const SizeFunction& size);
@@ -39,6 +43,9 @@ struct LostLines {
   std::map<std::int32_t, Part> lines;  // by their tag
   std::vector<Point> points;
 };
+
+// Adds the requested points that are not in it.
+void addLost(LostLines& lost, const std::vector<AskedPoint>& points);
 
 // Puts lines and points back into a graph whose shores may have changed, as elements of these sizes can follow them.
 // Lines end where they now meet a shore, in a new vertex unless one is near. Leaves out what is not in water, and lines

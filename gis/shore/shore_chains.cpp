@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <unordered_set>
 
 #include "core/metric.hpp"
 #include "gis/coast/segment_tags.hpp"
@@ -93,6 +94,13 @@ ShoreGraph graphOf(ShoreChains&& chains) {
     graph.pslg.segments.push_back(s);
   }
   return graph;
+}
+
+void keepAsked(ShoreChains& chains, const std::vector<VertexId>& asked) {
+  if (asked.empty()) return;
+  const std::unordered_set<VertexId> sources(asked.begin(), asked.end());
+  for (VertexId v = 0; v < chains.at.size(); ++v)
+    if (sources.contains(chains.source[v])) chains.stays[v] = 1;
 }
 
 double waterAngle(const Point& a, const Point& b, const Point& c) {

@@ -17,11 +17,12 @@ struct ShoreChains {
   std::vector<VertexId> source;      // index of the domain's point, or kNone
   std::vector<VertexId> next, prev;  // kNone: on no boundary, or removed from it
   std::vector<Segment> leaving;      // segment to the next vertex: its tag and labels
-  std::vector<char> stays;           // neither removed nor moved: ends, corners of open boundaries, ends of lines
-  std::vector<char> open;            // between two segments of an open boundary
-  std::vector<char> alive;           // not removed
-  std::vector<double> size;          // wanted there
-  std::vector<Segment> lines;        // all other segments, such as boundaries where the graph touches itself
+  // Neither removed nor moved: ends, corners of open boundaries, ends of lines, requested vertices.
+  std::vector<char> stays;
+  std::vector<char> open;      // between two segments of an open boundary
+  std::vector<char> alive;     // not removed
+  std::vector<double> size;    // wanted there
+  std::vector<Segment> lines;  // all other segments, such as boundaries where the graph touches itself
   // Their ends, the lower first, sorted.
   std::vector<std::pair<VertexId, VertexId>> line_ends{};
   // At each vertex, the least length of segments if more than half the size; water is kept wider than it by some.
@@ -38,6 +39,9 @@ using ShoreMove = std::function<void(VertexId, const Point&)>;
 ShoreChains chainsOf(ShoreGraph&& graph, const SizeFunction& size, const ItemLoop& loop = inOrder,
                      const EvenSizes* even = nullptr);
 ShoreGraph graphOf(ShoreChains&& chains);
+
+// Sets `stays` of vertices that the user requested. `asked`: their sources.
+void keepAsked(ShoreChains& chains, const std::vector<VertexId>& asked);
 
 // The angle on the water's side at b, with the water to the left of the way a, b, c: 0 to 2 pi.
 double waterAngle(const Point& a, const Point& b, const Point& c);

@@ -65,6 +65,31 @@ TEST(Simplify, JunctionsAndRingsStay) {
   EXPECT_NEAR(labelledArea(domain.pslg, 1), 30, 1e-12);
 }
 
+Feature requestedPoints(std::vector<Point> points) {
+  Feature feature;
+  feature.use = FeatureUse::Constraint;
+  feature.points = std::move(points);
+  return feature;
+}
+
+TEST(Simplify, RequestedPointsOnShoresStay) {
+  const Feature lake = polygonFeature(1, {{0, 0}, {5, 0.1}, {10, 0}, {10, 10}, {5, 9.9}, {0, 10}});
+  CleanReport report;
+  const Domain domain = simplify({lake, requestedPoints({{5, 0.1}})}, 0.5, report);
+  EXPECT_EQ(domain.input_points, (Ring{{0, 0}, {5, 0.1}, {10, 0}, {10, 10}, {0, 10}}));
+  ASSERT_EQ(domain.asked.size(), 1u);
+  EXPECT_EQ(domain.pslg.points[domain.asked[0]], (Point{5, 0.1}));
+  // The end of an edge that is dissolved.
+  const Coastline halves = coastlineOf(
+      {polygonFeature(1, square(0, 0, 10)), polygonFeature(2, square(10, 0, 10)), requestedPoints({{10, 0}})});
+  CleanReport dissolved;
+  const Domain whole =
+      cleanFeatures(halves, allMembers(halves), Projection::plane(), {.snap_m = 0, .dissolve = true}, dissolved);
+  EXPECT_EQ(whole.pslg.points.size(), 5u);
+  ASSERT_EQ(whole.asked.size(), 1u);
+  EXPECT_EQ(whole.pslg.points[whole.asked[0]], (Point{10, 0}));
+}
+
 class SimplifyRandom : public ::testing::TestWithParam<unsigned> {};
 
 TEST_P(SimplifyRandom, StaysWithinTheToleranceAndValid) {
