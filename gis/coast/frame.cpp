@@ -42,6 +42,9 @@ double turnOf(const Box& data) {
   return data.xmax - data.xmin <= kTurn ? data.xmin : -180;
 }
 
+// Degrees of longitude from the west to the east of a box; an east less than the west lies beyond the antimeridian.
+double widthOf(const Box& box) { return box.xmax - box.xmin + (box.xmax < box.xmin ? kTurn : 0); }
+
 void refuseOddBox(const Box& box, const Crs& crs) {
   const std::string given = "--bbox " + inWords(box);
   if (!(box.ymin < box.ymax)) {
@@ -59,12 +62,16 @@ void refuseOddBox(const Box& box, const Crs& crs) {
   if (box.xmax - box.xmin > kTurn) {
     throw InputError(given + ": from the west to the east it has to be at most 360 degrees");
   }
+  if (!(widthOf(box) > 0)) {
+    throw OptionError(given + ": it has no width: the east lies a full turn or more west of the west; for all " +
+                      "longitudes give -180 as the west and 180 as the east");
+  }
 }
 
 // An east less than the west means a box across the antimeridian. If that spans most of the Earth, it may be a mistake.
 void noteWideBox(const Box& box, const Crs& crs, FrameReport& report) {
   if (!crs.geographic || box.xmin < box.xmax) return;
-  const double width = box.xmax + kTurn - box.xmin;
+  const double width = widthOf(box);
   if (width <= kTurn / 2) return;
   char text[60];
   std::snprintf(text, sizeof text, "reaches over %.6g degrees", width);
@@ -133,7 +140,7 @@ Feature frameOf(const Box& given, const Crs& crs, double turn) {
     frame.polygons.push_back(polygonOf(given));
     return frame;
   }
-  const double width = given.xmax - given.xmin + (given.xmax < given.xmin ? kTurn : 0);
+  const double width = widthOf(given);
   const double turns = std::floor((given.xmin - turn) / kTurn);  // 0 if the box begins in the data's range
   const double west = width == kTurn ? turn : given.xmin - turns * kTurn, end = turn + kTurn;
   const double east = width == kTurn ? end : given.xmax - turns * kTurn + (given.xmax < given.xmin ? kTurn : 0);

@@ -261,6 +261,9 @@ TEST(Frame, OddBoxesAreRefused) {
   EXPECT_THROW(frame(lake, boxOf(0, 10, 10, 0)), OptionError);
   EXPECT_THROW(frame(lake, boxOf(10, 0, 10, 10)), OptionError);
   EXPECT_NE(refusalOf(lake, boxOf(-200, 0, 200, 10)).find("at most 360 degrees"), std::string::npos);
+  // An east a full turn or more west of the west.
+  for (const auto& [west, east] : {std::pair{180.0, -180.0}, {200.0, -200.0}, {0.0, -360.0}})
+    EXPECT_THROW(frame(lake, boxOf(west, -60, east, 60)), OptionError) << west;
   const Coastline in_plane = coastlineOf({polygonFeature(1, square(1, 1, 2))});
   EXPECT_NE(refusalOf(in_plane, boxOf(10, 0, 0, 10)).find("the west has to lie below"), std::string::npos);
   EXPECT_NE(refusalOf(lake, boxOf(0, 0, 10, 100)).find("degrees"), std::string::npos);
