@@ -25,19 +25,23 @@ TextReader::TextReader(std::string path, char comment, std::string_view between)
   for (const char c : between) between_[static_cast<unsigned char>(c)] = true;
 }
 
-bool TextReader::nextLine() {
-  while (next_ < text_.size()) {
-    const std::size_t end = std::min(text_.find('\n', next_), text_.size());
-    line_ = std::string_view(text_).substr(next_, end - next_);
-    next_ = end + 1;
-    ++line_number_;
-    if (comment_ != '\0') line_ = line_.substr(0, line_.find(comment_));
-    if (!line_.empty() && line_.back() == '\r') line_.remove_suffix(1);
-    at_ = 0;
-    if (hasWord()) return true;
-  }
+bool TextReader::nextPhysicalLine() {
   line_ = {};
   at_ = 0;
+  if (next_ >= text_.size()) return false;
+  const std::size_t end = std::min(text_.find('\n', next_), text_.size());
+  line_ = std::string_view(text_).substr(next_, end - next_);
+  next_ = end + 1;
+  ++line_number_;
+  if (comment_ != '\0') line_ = line_.substr(0, line_.find(comment_));
+  if (!line_.empty() && line_.back() == '\r') line_.remove_suffix(1);
+  return true;
+}
+
+bool TextReader::nextLine() {
+  while (nextPhysicalLine()) {
+    if (hasWord()) return true;
+  }
   return false;
 }
 

@@ -16,8 +16,9 @@ class TextReader {
   // `comment`: the rest of a line after it is ignored; '\0' for none.
   explicit TextReader(std::string path, char comment = '\0', std::string_view between = " \t\r,");
 
-  bool nextLine();  // goes to the next line that is not blank; false at the end of the file
-  void needLine();  // the same, for a line that must exist
+  bool nextLine();          // goes to the next line that is not blank; false at the end of the file
+  void needLine();          // the same, for a line that must exist
+  bool nextPhysicalLine();  // goes to the next line, blank or not; false at the end of the file
   std::string_view line() const { return line_; }
 
   bool hasWord();           // true if there is another word in the line

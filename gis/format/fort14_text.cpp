@@ -221,10 +221,9 @@ void readLandSegments(TextReader& file, std::uint64_t count, const NodeNumbers& 
 
 Grid readFort14(const std::string& path) {
   TextReader file(path);
-  file.needLine();
   Grid grid;
-  grid.title = std::string(file.line());
-  if (grid.title == kNoTitle) grid.title.clear();
+  // The first line is the title even if it is blank.
+  if (file.nextPhysicalLine() && file.hasWord() && file.line() != kNoTitle) grid.title = std::string(file.line());
   file.needLine();
   const std::uint64_t elements = file.count(), nodes = file.count();
   const NodeNumbers numbers = readNodes(file, nodes, grid);

@@ -63,6 +63,17 @@ TEST_F(ReadGrid, Fort14WithElementsOutOfOrder) {
   EXPECT_THAT(grid.notes, Contains("elements are not numbered from 1 in their order"));
 }
 
+// The first line is the title, whatever it holds.
+TEST_F(ReadGrid, Fort14WithoutATitle) {
+  for (const char* const title : {"", "  ", "\r", ","}) {
+    const Grid grid =
+        readGrid(put("hgrid.gr3", std::string(title) + "\n1 3\n1 0 0 5\n2 1 0 5\n\n3 1 1 5\n1 3 1 2 3\n"));
+    EXPECT_EQ(grid.triangles, (Triangles{{0, 1, 2}})) << title;
+    EXPECT_EQ(grid.title, "");
+  }
+  EXPECT_THAT(errorIn("fort.14", "\n"), HasSubstr("ends too early, after line 1"));
+}
+
 TEST_F(ReadGrid, TwoDmOfOtherPrograms) {
   const Grid grid = readGrid(put("lake.2dm",
                                  "MESH2D\r\nMESHNAME \"x\"\r\nNUM_MATERIALS_PER_ELEM 1\r\n"
