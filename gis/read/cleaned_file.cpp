@@ -191,12 +191,26 @@ void takeEdits(OGRLayer* layer, const ShapeReader& shapes) {
   });
 }
 
+bool isReadWhole(const OpenSource& source) {
+  return source.layers.size() == static_cast<std::size_t>(source.dataset->GetLayerCount());
+}
+
+[[noreturn]] void refuseAsGuest(const OpenSource& source, FeatureUse use) {
+  const bool regions = use == FeatureUse::Region && layerNamed(source, kRegionLayer) != nullptr;
+  throw InputError(source.name +
+                   ": coastmesh clean wrote it, so that it can be the input, but as anything else only one of its "
+                   "layers can be read: name it, such as " +
+                   source.name + "|" + (regions ? kRegionLayer : kPslgLayer));
+}
+
 }  // namespace
 
-std::optional<std::vector<RawLayer>> readCleaned(const OpenSource& source, const OgrErrors& errors,
+std::optional<std::vector<RawLayer>> readCleaned(const OpenSource& source, FeatureUse use, const OgrErrors& errors,
                                                  ReadReport& report) {
+  if (!isReadWhole(source)) return std::nullopt;
   OGRLayer* const pslg = layerNamed(source, kPslgLayer);
   if (!pslg || !hasFields(*pslg, {"kind", "region", "left_fid", "right_fid"})) return std::nullopt;
+  if (use != FeatureUse::Area) refuseAsGuest(source, use);
   OGRLayer* const features = layerNamed(source, kFeatureLayer);
   OGRLayer* const attributes = layerNamed(source, kAttributeLayer);
   if (!features || !attributes || !hasFields(*pslg, {"left_id", "right_id", "line_id", "first", "last"}))

@@ -224,7 +224,8 @@ std::vector<RawLayer> readLayers(const Source& given, const ReadFilter& filter, 
   const OpenSource source = openSource(given.path, filter.layers, errors);
   refuseOddGeojson(source, errors);
   if (!filtered) {
-    if (std::optional<std::vector<RawLayer>> cleaned = readCleaned(source, errors, report)) return std::move(*cleaned);
+    if (std::optional<std::vector<RawLayer>> cleaned = readCleaned(source, given.use, errors, report))
+      return std::move(*cleaned);
   }
   if (!filter.where.empty()) report.filtered += keepWhere(source, filter.where, errors);
   const bool only = source.dataset->GetLayerCount() == 1;

@@ -75,9 +75,10 @@ class CleanedFile : public ::testing::Test {
     return readCoastline(std::vector{path()}, report_);
   }
 
-  std::string refusal() {
+  std::string refusal(FeatureUse use = FeatureUse::Area) {
+    dataset_.reset();
     try {
-      read();
+      readCoastline({{path(), use}}, {}, report_);
     } catch (const InputError& error) {
       return error.what();
     }
@@ -112,6 +113,24 @@ TEST_F(CleanedFile, IsReadAsAreas) {
   EXPECT_EQ(coastline.features[1].polygons[0].outer.size(), 4u);
   EXPECT_EQ(report_.points, 14u);
   EXPECT_EQ(report_.skipped_empty, 0u);
+}
+
+// Its areas must not become part of the domain if it is given for something else.
+TEST_F(CleanedFile, IsOnlyAnInputUnlessALayerIsNamed) {
+  addLake(1);
+  addRow(kRegionLayer, "POLYGON((1 0, 1.25 0, 1 0.25, 1 0))", {{"feature_id", "1"}});
+  for (const FeatureUse use : {FeatureUse::Constraint, FeatureUse::Weir, FeatureUse::Frame})
+    EXPECT_THAT(refusal(use), HasSubstr("name it, such as " + path() + "|pslg"));
+  EXPECT_THAT(refusal(FeatureUse::Region), HasSubstr("name it, such as " + path() + "|regions"));
+  const Coastline named = readCoastline(
+      {{path() + "|regions"}, {path() + "|pslg", FeatureUse::Constraint}, {path() + "|pslg", FeatureUse::Frame}}, {},
+      report_);
+  EXPECT_FALSE(report_.cleaned);
+  ASSERT_EQ(named.features.size(), 5u);
+  EXPECT_EQ(named.features[0].use, FeatureUse::Area);
+  EXPECT_EQ(named.features[1].use, FeatureUse::Frame);
+  EXPECT_EQ(named.features[1].polygons.at(0).outer.size(), 4u);
+  for (std::size_t i = 2; i < 5; ++i) EXPECT_EQ(named.features[i].use, FeatureUse::Constraint);
 }
 
 TEST_F(CleanedFile, WithADamagedPageIsRefused) {
