@@ -319,8 +319,7 @@ Grid readVtu(const std::string& path, const Crs& unsaid) {
               readTexts(file, "region_names"), grid);
   readBoundaries(file, grid);
   readLines(file, grid);
-  grid.crs = readPrjBeside(path, unsaid);
-  if (on_globe && !grid.crs.geographic) grid.crs = wgs84();
+  grid.crs = on_globe ? wgs84() : readPrjBeside(path, unsaid);
   return grid;
 }
 

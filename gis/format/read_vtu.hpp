@@ -11,7 +11,8 @@ inline constexpr const char *kVtuLongitude = "longitude", *kVtuLatitude = "latit
 
 // Reads VTK's unstructured grid of triangles as XML: arrays appended (raw or base64) or inline (ASCII or base64), not
 // compressed. Lines and points among the cells are ignored. z: node data "z", else the third coordinate if it is not 0
-// throughout and the mesh is not on a globe. What `writeVtu` adds is read too. Throws InputError.
+// throughout and the mesh is not on a globe. What `writeVtu` adds is read too. The CRS is WGS 84 on a globe, else that
+// of a .prj beside the file, else `unsaid`. Throws InputError.
 Grid readVtu(const std::string& path, const Crs& unsaid);
 
 }  // namespace coastmesh

@@ -34,13 +34,17 @@ void writeSchism(const Grid& grid, const std::string& path, const ItemLoop& loop
   writePrjBeside(path, grid.crs);
 }
 
-// Reads either file: a .ll is in WGS 84. Throws InputError.
+// Reads either file. A .ll is in WGS 84, unless `unsaid` has other longitudes: the .prj is that of the .gr3. Throws
+// InputError.
 Grid readSchism(const std::string& path, const Crs& unsaid) {
   Grid grid = readFort14(path);
   for (Boundary& boundary : grid.boundaries) boundary.ibtype = -1;  // SCHISM only distinguishes land and islands
   const std::string ending = lowerCase(std::filesystem::path(path).extension().string());
-  grid.crs = readPrjBeside(path, unsaid);
-  if (ending == ".ll" && !grid.crs.geographic) grid.crs = wgs84();
+  if (ending == ".ll") {
+    grid.crs = unsaid.geographic ? unsaid : wgs84();
+  } else {
+    grid.crs = readPrjBeside(path, unsaid);
+  }
   return grid;
 }
 

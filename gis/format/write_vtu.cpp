@@ -205,7 +205,7 @@ void writeVtu(const Grid& grid, const std::string& path, const ItemLoop& loop) {
 }
 
 // The same on a globe: nodes in metres from the centre of a sphere, latitudes unchanged, with longitudes and latitudes
-// as node data. Throws OutputError, also for a mesh in a plane.
+// of WGS 84 as node data. Throws OutputError, also for a mesh in a plane.
 void writeVtuGlobe(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   constexpr double kRadiusM = 6371220.0;
   const std::vector<Point> nodes = requireGeographicNodes(grid, path, "a globe", loop);
@@ -215,7 +215,6 @@ void writeVtuGlobe(const Grid& grid, const std::string& path, const ItemLoop& lo
     return at;
   };
   writeFile(grid, {place, [&nodes](std::size_t i) { return asLonLat(nodes[i]); }}, path, loop);
-  if (grid.crs.geographic) writePrjBeside(path, grid.crs);
 }
 
 constexpr GridParts kParts{GridPart::Features, GridPart::Regions, GridPart::Lines,    GridPart::LineNames,
@@ -232,7 +231,7 @@ FormatRecord vtuGlobeFormat() {
            kParts,
            false,
            NodePlaces::Geographic},
-          {writeVtuGlobe, readVtu, withPrjBeside}};
+          {writeVtuGlobe, readVtu, nullptr}};
 }
 
 FormatRecord vtuFormat() {

@@ -368,6 +368,28 @@ TEST(GridFormats, LongitudesWithoutACrsAreThoseOfWgs84) {
   }
 }
 
+// Longitudes that a file holds besides coordinates of the CRS, and those of a globe, are in WGS 84 too.
+TEST(GridFormats, LongitudesBesideACrsAreThoseOfWgs84) {
+  const TemporaryFolder folder;
+  const Crs tokyo = parseCrs("EPSG:4301");  // some 400 m from WGS 84
+  const CrsMap map(toOgr(tokyo), toOgr(wgs84()));
+  const Grid grid = sampleGrid(tokyo, {139.8, 35.5}, 0.01);
+  for (const char* name : {"a.gr3", "a_globe.vtu"}) {
+    StagedOutput output(folder / name, gridFormatFor(name), true);
+    output.write(grid);
+    output.commit();
+  }
+  for (const char* name : {"a.ll", "a_globe.vtu"}) {
+    const Grid got = readGrid(folder / name);
+    EXPECT_TRUE(sameCrs(got.crs, wgs84())) << name;
+    ASSERT_EQ(got.nodes.size(), grid.nodes.size());
+    for (std::size_t i = 0; i < got.nodes.size(); ++i) EXPECT_EQ(got.nodes[i], map.forward(grid.nodes[i])) << name;
+  }
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.gr3", "a.ll", "a.prj", "a_globe.vtu"}));
+  EXPECT_TRUE(sameCrs(readGrid(folder / "a.gr3").crs, tokyo));
+  EXPECT_TRUE(sameCrs(readGrid(folder / "a.ll", tokyo).crs, tokyo));  // as the user says
+}
+
 TEST(GridFormats, AreChosenByEndingOrName) {
   EXPECT_EQ(gridFormatFor("a/b.GPKG").name, "gpkg");
   EXPECT_EQ(gridFormatFor("lake.1.ele").name, "triangle");
