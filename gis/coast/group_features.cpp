@@ -105,7 +105,8 @@ bool isGuest(const Feature& feature) {
 // meet there from either side touch.
 void uniteAcrossCut(const Coastline& coastline, const std::vector<Box>& boxes, UnionFind& sets) {
   Box extent;
-  for (const Box& box : boxes) extent.add(box);
+  for (std::size_t f = 0; f < boxes.size(); ++f)
+    if (!isGuest(coastline.features[f])) extent.add(boxes[f]);
   if (!coastline.crs.geographic || extent.xmax - extent.xmin != 360) return;
   struct OnCut {
     double south, north;

@@ -73,6 +73,11 @@ TEST(GroupFeatures, WhatACutAlongAMeridianPartsBelongsTogether) {
                                     polygonFeature(2, square(-180, 50, 1)), polygonFeature(3, square(178, 50, 1)),
                                     polygonFeature(4, {{180, 11.5}, {179, 12}, {179, 11.6}})};
   EXPECT_EQ(groupFeatures(coastlineOf(halves, wgs84())), (Groups{{0, 1, 4}, {2}, {3}}));
+  // A guest beyond the end of the data's longitudes does not hide the cut.
+  std::vector<Feature> with_guest = halves;
+  with_guest.push_back(lineFeature(5, {{179.5, 10.2}, {180.5, 10.7}}));
+  with_guest.back().use = FeatureUse::Constraint;
+  EXPECT_EQ(groupFeatures(coastlineOf(with_guest, wgs84())), (Groups{{0, 1, 4, 5}, {2}, {3}}));
   // A plane has no antimeridian.
   EXPECT_EQ(group(halves).size(), 5u);
 }
