@@ -7,6 +7,7 @@
 #include <memory>
 #include <numbers>
 
+#include "gis/crs/known_code.hpp"
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
 
@@ -23,6 +24,13 @@ std::string authorityOf(const OGRSpatialReference& srs) {
   const char* name = srs.GetAuthorityName(nullptr);
   const char* code = srs.GetAuthorityCode(nullptr);
   return name && code ? std::string(name) + ":" + code : std::string();
+}
+
+// Removes the code of the whole CRS from its text. Parts keep theirs.
+void dropAuthority(OGRSpatialReference& srs) {
+  OGR_SRSNode* const root = srs.GetRoot();
+  const int at = root ? root->FindChild("AUTHORITY") : -1;
+  if (at >= 0) root->DestroyChild(at);
 }
 
 std::string wktOf(const OGRSpatialReference& srs) {
@@ -65,6 +73,10 @@ Crs parseCrs(const std::string& text) {
   const double inverse_flattening = srs.GetInvFlattening();
   crs.flattening = inverse_flattening > 0 ? 1 / inverse_flattening : 0.0;
   crs.authority = authorityOf(srs);
+  if (!crs.authority.empty() && crs.authority != text && !isKnownCode(crs.authority)) {
+    dropAuthority(srs);
+    crs.authority.clear();
+  }
   crs.wkt = wktOf(srs);
   return crs;
 }

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "gis/crs/known_code.hpp"
+
 namespace coastmesh {
 
 Crs fromOgr(const OGRSpatialReference* srs) {
@@ -17,7 +19,8 @@ Crs fromOgr(const OGRSpatialReference* srs) {
     return name && code ? std::string(name) + ":" + code : std::string();
   };
   std::string code = codeOf(*srs);
-  if (code.empty()) {
+  if (code.empty() || !isKnownCode(code)) {
+    code.clear();
     const std::unique_ptr<OGRSpatialReference, void (*)(OGRSpatialReference*)> match(
         srs->FindBestMatch(90, "EPSG", nullptr), [](OGRSpatialReference* found) {
           if (found) found->Release();

@@ -11,8 +11,8 @@ namespace coastmesh {
 // OGR's name for the CRS of a GeoPackage layer that has none.
 inline constexpr std::string_view kUndefinedGeographic = "Undefined geographic SRS";
 
-// The CRS of `srs`; a plane for null, and for an undefined one. Looks up the EPSG code if the source has none, as in
-// the WKT of a .prj file.
+// The CRS of `srs`; a plane for null, and for an undefined one. Looks up the EPSG code if the source has none that
+// PROJ knows, as in the WKT of a .prj file.
 Crs fromOgr(const OGRSpatialReference* srs);
 
 }  // namespace coastmesh

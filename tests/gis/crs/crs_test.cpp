@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gis/crs/crs_from_ogr.hpp"
 #include "gis/error.hpp"
 
 namespace coastmesh {
@@ -18,6 +19,27 @@ TEST(Crs, ReadsCodesTextAndProjStrings) {
   EXPECT_EQ(proj.authority, "");
   EXPECT_TRUE(sameCrs(parseCrs(utm.wkt), utm));
   EXPECT_EQ(parseCrs(utm.wkt).authority, "EPSG:32616");
+}
+
+// Other programs give their own codes the name of EPSG. The definition counts.
+TEST(Crs, CodesThatPROJDoesNotKnowAreLeftOut) {
+  const std::string code = "AUTHORITY[\"EPSG\",\"102100\"]";
+  const std::string wkt =
+      "PROJCS[\"Mercator\",GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,298.257223563]],"
+      "PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433],AUTHORITY[\"EPSG\",\"4326\"]],"
+      "PROJECTION[\"Mercator_1SP\"],PARAMETER[\"central_meridian\",7],PARAMETER[\"scale_factor\",1],"
+      "PARAMETER[\"false_easting\",0],PARAMETER[\"false_northing\",0],UNIT[\"metre\",1]," +
+      code + "]";
+  OGRSpatialReference srs;
+  ASSERT_EQ(srs.importFromWkt(wkt.c_str()), OGRERR_NONE);
+  for (const Crs& crs : {parseCrs(wkt), fromOgr(&srs)}) {
+    EXPECT_EQ(crs.authority, "");
+    EXPECT_EQ(crs.wkt.find("102100"), std::string::npos) << crs.wkt;
+    EXPECT_NE(crs.wkt.find("ID[\"EPSG\",4326]"), std::string::npos) << crs.wkt;
+    EXPECT_EQ(nameOf(crs), "Mercator");
+    EXPECT_TRUE(sameCrs(crs, parseCrs("+proj=merc +lon_0=7 +datum=WGS84")));
+    EXPECT_EQ(metresPerUnit(crs), 1.0);
+  }
 }
 
 TEST(Crs, KnowsGeographicOnesAndTheirEllipsoid) {
