@@ -7,6 +7,7 @@
 #include "core/hilbert.hpp"
 #include "gis/coast/feature_bounds.hpp"
 #include "gis/coast/snap_reach.hpp"
+#include "gis/coast/turned_rings.hpp"
 #include "gis/geometry/chain_index.hpp"
 #include "gis/geometry/union_find.hpp"
 
@@ -95,6 +96,56 @@ bool belongTogether(const FeatureIndex& small, const FeatureIndex& large, const 
          liesIn(small.rings, large.rings) || liesIn(small.lines, large.rings) || liesIn(large.rings, small.rings) ||
          liesIn(large.lines, small.rings);
 }
+
+// Features continued past the antimeridian where their longitudes jump, at offsets of full turns.
+class TurnedFeatures {
+ public:
+  TurnedFeatures(const Coastline& coastline, const std::vector<Box>& boxes)
+      : given_(coastline.features), turned_(coastline.crs.geographic ? given_.size() : 0) {
+    for (std::size_t f = 0; f < turned_.size(); ++f)
+      if (boxes[f].xmax - boxes[f].xmin > 180 && jumps(given_[f]))
+        turned_[f] = std::make_unique<Feature>(continued(given_[f]));
+  }
+
+  bool isTurned(std::size_t f) const { return f < turned_.size() && turned_[f] != nullptr; }
+  const Feature& operator[](std::size_t f) const { return isTurned(f) ? *turned_[f] : given_[f]; }
+  std::size_t size() const { return given_.size(); }
+
+ private:
+  static bool jumps(const Feature& feature) {
+    const auto polygonJumps = [](const Polygon& polygon) {
+      return longitudesJump(polygon.outer) || std::ranges::any_of(polygon.holes, longitudesJump);
+    };
+    const auto lineJumps = [](const std::vector<Point>& line) { return turnsOf(line, false).any; };
+    return std::ranges::any_of(feature.polygons, polygonJumps) || std::ranges::any_of(feature.lines, lineJumps);
+  }
+
+  static void addTurnedLine(const std::vector<Point>& line, Feature& feature) {
+    const Turns turns = turnsOf(line, false);
+    for (const double shift : {-360.0, 0.0, 360.0}) {
+      if (!turns.any && shift != 0) continue;
+      std::vector<Point>& copy = feature.lines.emplace_back(line);
+      for (std::size_t i = 0; i < copy.size(); ++i) copy[i].x += 360.0 * turns.of[i] + shift;
+    }
+  }
+
+  // Inside is even-odd over all rings, so each becomes a polygon of its own.
+  static Feature continued(const Feature& feature) {
+    Feature result;
+    const auto add = [&](const Ring& ring) {
+      for (Ring& turned : turnedRings(ring)) result.polygons.push_back({std::move(turned), {}});
+    };
+    for (const Polygon& polygon : feature.polygons) {
+      add(polygon.outer);
+      std::ranges::for_each(polygon.holes, add);
+    }
+    for (const auto& line : feature.lines) addTurnedLine(line, result);
+    return result;
+  }
+
+  const std::vector<Feature>& given_;
+  std::vector<std::unique_ptr<Feature>> turned_;  // null where nothing jumps
+};
 
 bool isGuest(const Feature& feature) {
   return feature.use == FeatureUse::Frame || feature.use == FeatureUse::Constraint || feature.use == FeatureUse::Weir ||
@@ -228,7 +279,7 @@ struct Pair {
 // are skipped.
 class Uniting {
  public:
-  Uniting(const std::vector<Feature>& features, const SnapReach& reach, const ItemLoop& loop, UnionFind& sets)
+  Uniting(const TurnedFeatures& features, const SnapReach& reach, const ItemLoop& loop, UnionFind& sets)
       : features_(features), reach_(reach), loop_(loop), sets_(sets), kept_(features.size()) {}
 
   void unite(const std::vector<Pair>& pairs) {
@@ -288,7 +339,7 @@ class Uniting {
     return coastmesh::belongTogether(a_smaller ? a : b, a_smaller ? b : a, reach_);
   }
 
-  const std::vector<Feature>& features_;
+  const TurnedFeatures& features_;
   const SnapReach& reach_;
   const ItemLoop& loop_;
   UnionFind& sets_;
@@ -307,15 +358,19 @@ std::vector<std::vector<std::size_t>> groupFeatures(const Coastline& coastline, 
     std::iota(all.begin(), all.end(), std::size_t{0});
     return {all};
   }
-  const BoxTree tree(boxes, BoxTree::Order::Hilbert);
+  const TurnedFeatures turned(coastline, boxes);
+  std::vector<Box> turned_boxes = boxes;
+  for (std::size_t f = 0; f < features.size(); ++f)
+    if (turned.isTurned(f)) turned_boxes[f] = boundsOf(turned[f]);
+  const BoxTree tree(turned_boxes, BoxTree::Order::Hilbert);
   const SnapReach reach(features.size() > 1 ? snap : SnapDistance{}, coastline.crs, tree.bounds());
   UnionFind sets(features.size());
-  Uniting(features, reach, loop, sets)
+  Uniting(turned, reach, loop, sets)
       .unite(joined(overStretches(loop, features.size(), [&](std::size_t first, std::size_t last) {
         std::vector<Pair> pairs;
         for (auto i = static_cast<std::uint32_t>(first); i < last; ++i) {
           if (isGuest(features[i])) continue;
-          tree.visit(reach.around(boxes[i]), [&](std::uint32_t j) {
+          tree.visit(reach.around(turned_boxes[i]), [&](std::uint32_t j) {
             if (j > i && !isGuest(features[j])) pairs.push_back({i, j});
           });
         }

@@ -82,6 +82,29 @@ TEST(GroupFeatures, WhatACutAlongAMeridianPartsBelongsTogether) {
   EXPECT_EQ(group(halves).size(), 5u);
 }
 
+// A sea and a line across the antimeridian meet what lies there on either side, and nothing of the same latitudes.
+TEST(GroupFeatures, WhatJumpsMeetsOnlyWhatLiesAcrossTheAntimeridian) {
+  const Ring sea{{179, -18}, {-179, -18}, {-179, -16}, {179, -16}};
+  const std::vector<Feature> features{
+      polygonFeature(0, sea),
+      polygonFeature(1, square(10, -17.5, 0.3)),                            // far away
+      polygonFeature(2, square(-179.9, -17.2, 0.4)),                        // inside, east of the antimeridian
+      polygonFeature(3, square(179.1, -17.2, 0.4)),                         // inside, west of it
+      polygonFeature(4, square(-179, -17, 0.5)),                            // along a side
+      polygonFeature(5, {{179.5, -16.5}, {-179.5, -16.5}, {-179.5, -15}}),  // jumps too
+      lineFeature(6, {{179.9, -15.5}, {-179.5, -15.2}}),
+      lineFeature(7, {{30, -17}, {31, -17}})};
+  EXPECT_EQ(groupFeatures(coastlineOf(features, wgs84())), (Groups{{0, 2, 3, 4, 5, 6}, {1}, {7}}));
+  Feature with_hole = polygonFeature(0, sea, {{{179.5, -17.5}, {-179.5, -17.5}, {-179.5, -16.5}, {179.5, -16.5}}});
+  EXPECT_EQ(groupFeatures(coastlineOf({with_hole, polygonFeature(1, square(-179.8, -17.2, 0.1))}, wgs84())),
+            (Groups{{0}, {1}}));
+  // In data from 0 to 360.
+  EXPECT_EQ(groupFeatures(coastlineOf({polygonFeature(0, {{359, 0}, {1, 0}, {1, 2}, {359, 2}}),
+                                       polygonFeature(1, square(0.2, 1, 0.3)), polygonFeature(2, square(100, 1, 1))},
+                                      wgs84())),
+            (Groups{{0, 1}, {2}}));
+}
+
 // Snapping merges points and edges of two features only if they are cleaned together.
 TEST(GroupFeatures, WhatSnappingMayMergeBelongsTogether) {
   const auto groupsOf = [](double gap, const SnapDistance& snap) {
