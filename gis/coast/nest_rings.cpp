@@ -5,6 +5,7 @@
 #include <numeric>
 #include <optional>
 
+#include "gis/coast/turned_rings.hpp"
 #include "gis/geometry/chain_index.hpp"
 #include "gis/geometry/ring_area.hpp"
 
@@ -22,14 +23,24 @@ bool liesInside(const Ring& ring, const ChainIndex& other) {
   return false;
 }
 
+Box boundsOf(const std::vector<Ring>& rings) {
+  Box box;
+  for (const Ring& ring : rings)
+    for (const Point& p : ring) box.add(p);
+  return box;
+}
+
 }  // namespace
 
-std::vector<NestedRing> nestRings(const std::vector<Ring>& rings) {
+std::vector<NestedRing> nestRings(const std::vector<Ring>& rings, bool geographic) {
   std::vector<Box> boxes(rings.size());
   std::vector<double> areas(rings.size());
+  const auto jumps = [&](std::size_t i) {
+    return geographic && boxes[i].xmax - boxes[i].xmin > 180 && longitudesJump(rings[i]);
+  };
   for (std::size_t i = 0; i < rings.size(); ++i) {
     for (const Point& p : rings[i]) boxes[i].add(p);
-    areas[i] = std::abs(signedAreaOf(rings[i]));
+    areas[i] = std::abs(signedAreaOf(jumps(i) ? turnedRings(rings[i]).front() : rings[i]));
   }
   const BoxTree tree(boxes, BoxTree::Order::Hilbert);
 
@@ -37,13 +48,17 @@ std::vector<NestedRing> nestRings(const std::vector<Ring>& rings) {
   std::vector<std::size_t> parent(rings.size(), kNoRing);
   for (std::size_t around = 0; around < rings.size(); ++around) {
     std::optional<ChainIndex> index;
-    tree.visit(boxes[around], [&](std::uint32_t i) {
+    // Any point of a ring is also inside one that jumps, at one of that ring's offsets.
+    const std::vector<Ring> turned = jumps(around) ? turnedRings(rings[around]) : std::vector<Ring>{};
+    const Box box = turned.empty() ? boxes[around] : boundsOf(turned);
+    tree.visit(box, [&](std::uint32_t i) {
       const bool smaller = areas[i] < areas[around] || (areas[i] == areas[around] && i > around);
-      if (i == around || !smaller || !boxes[around].contains(boxes[i])) return;
+      if (i == around || !smaller || !box.contains(boxes[i])) return;
       if (parent[i] != kNoRing && areas[parent[i]] <= areas[around]) return;
       if (!index) {
         index.emplace(ChainIndex::Kind::Rings);
-        index->add(rings[around]);
+        if (turned.empty()) index->add(rings[around]);
+        for (const Ring& ring : turned) index->add(ring);
         index->build();
       }
       if (liesInside(rings[i], *index)) parent[i] = around;

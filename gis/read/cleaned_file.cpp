@@ -61,7 +61,7 @@ void addAreas(const Lines& lines, bool geographic, Feature& feature) {
     for (Ring& ring : rings) putOnOneSide(ring);
   }
   feature.clipped = std::ranges::any_of(rings, jumps);
-  for (const NestedRing& nested : nestRings(rings)) {
+  for (const NestedRing& nested : nestRings(rings, geographic)) {
     Polygon& polygon = feature.polygons.emplace_back();
     polygon.outer = std::move(rings[nested.outer]);
     for (const std::size_t hole : nested.holes) polygon.holes.push_back(std::move(rings[hole]));

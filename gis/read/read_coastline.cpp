@@ -141,7 +141,7 @@ void addJoinedLines(std::vector<RawLayer>& layers, FeatureUse use, Coastline& co
   rings.reserve(joined.rings.size());
   for (JoinedLines::Part& part : joined.rings) rings.push_back(std::move(part.points));
   report.rings += rings.size();
-  for (const NestedRing& nested : nestRings(rings)) {
+  for (const NestedRing& nested : nestRings(rings, coastline.crs.geographic)) {
     Feature feature = origins[joined.rings[nested.outer].origin].named();
     feature.from_lines = true;
     Polygon& polygon = feature.polygons.emplace_back();

@@ -142,7 +142,8 @@ TEST(JoinLines, ANetOfStreetsComesApartWhole) {
 
 TEST(NestRings, HolesIslandsAndLakesOnIslands) {
   const std::vector<NestedRing> nested = nestRings(
-      {square(2, 2, 4), square(0, 0, 10), square(3, 3, 1), square(20, 0, 5), square(21, 1, 1), square(6.5, 6.5, 2)});
+      {square(2, 2, 4), square(0, 0, 10), square(3, 3, 1), square(20, 0, 5), square(21, 1, 1), square(6.5, 6.5, 2)},
+      false);
   ASSERT_EQ(nested.size(), 3u);
   EXPECT_EQ(nested[0].outer, 1u);
   EXPECT_EQ(nested[0].holes, (std::vector<std::size_t>{0, 5}));
@@ -153,11 +154,37 @@ TEST(NestRings, HolesIslandsAndLakesOnIslands) {
 }
 
 TEST(NestRings, RingsThatTouchOrCoincide) {
-  const std::vector<NestedRing> touching = nestRings({square(0, 0, 10), square(0, 0, 3), square(7, 7, 3)});
+  const std::vector<NestedRing> touching = nestRings({square(0, 0, 10), square(0, 0, 3), square(7, 7, 3)}, false);
   ASSERT_EQ(touching.size(), 1u);
   EXPECT_EQ(touching[0].holes.size(), 2u);
-  EXPECT_EQ(nestRings({square(0, 0, 1), square(0, 0, 1)}).size(), 2u);
-  EXPECT_TRUE(nestRings({}).empty());
+  EXPECT_EQ(nestRings({square(0, 0, 1), square(0, 0, 1)}, false).size(), 2u);
+  EXPECT_TRUE(nestRings({}, false).empty());
+}
+
+// A ring across the antimeridian holds what lies there on either side, and nothing else of the same latitudes.
+TEST(NestRings, AcrossTheAntimeridian) {
+  const Ring sea{{179, -18}, {-179, -18}, {-179, -16}, {179, -16}};
+  const Ring island{{179.8, -17.5}, {-179.8, -17.5}, {-179.8, -16.5}, {179.8, -16.5}};
+  const Ring lake{{179.9, -17.2}, {-179.9, -17.2}, {-179.9, -16.8}, {179.9, -16.8}};
+  const std::vector<Ring> rings{
+      square(10, -17.5, 0.3), square(-179.5, -17, 0.2), lake, square(179.2, -17, 0.2), sea, island};
+  for (const bool framed : {false, true}) {  // within a ring of the whole map
+    std::vector<Ring> all = rings;
+    if (framed) all.push_back({{-180, -90}, {180, -90}, {180, 90}, {-180, 90}});
+    const std::vector<NestedRing> nested = nestRings(all, true);
+    ASSERT_EQ(nested.size(), framed ? 4u : 3u);
+    if (framed) {
+      EXPECT_EQ(nested[0].outer, 1u);
+      EXPECT_EQ(nested[3].outer, 6u);
+      EXPECT_EQ(nested[3].holes, (std::vector<std::size_t>{0, 4}));
+      continue;
+    }
+    EXPECT_EQ(nested[0].outer, 0u);
+    EXPECT_TRUE(nested[0].holes.empty());
+    EXPECT_EQ(nested[1].outer, 2u);
+    EXPECT_EQ(nested[2].outer, 4u);
+    EXPECT_EQ(nested[2].holes, (std::vector<std::size_t>{1, 3, 5}));
+  }
 }
 
 TEST(NestRings, EveryRingComesOutOnceWhateverCrosses) {
@@ -166,7 +193,7 @@ TEST(NestRings, EveryRingComesOutOnceWhateverCrosses) {
     std::vector<Ring> rings;
     for (int r = 0; r < 30; ++r) rings.push_back(tangledRing(random, 5));
     std::vector<int> seen(rings.size(), 0);
-    for (const NestedRing& nested : nestRings(rings)) {
+    for (const NestedRing& nested : nestRings(rings, false)) {
       ++seen[nested.outer];
       for (const std::size_t hole : nested.holes) ++seen[hole];
     }
