@@ -158,7 +158,7 @@ std::shared_ptr<const ProjectionMap> fitTo(const Coastline& coastline, const std
       Ring ring;
       for (auto i = places.end() - static_cast<std::ptrdiff_t>(chain.size()); i != places.end(); ++i)
         ring.push_back(asGeographic(*i));
-      addProjected(std::move(ring));
+      for (Ring& turned : turnedRings(ring)) addProjected(std::move(turned));
     }
   });
   if (places.empty() && !coastline.rest) {

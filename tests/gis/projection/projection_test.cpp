@@ -7,6 +7,8 @@
 #include <cmath>
 #include <thread>
 
+#include "gis/crs/crs_map.hpp"
+#include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
 #include "tests/support/gis_shapes.hpp"
 
@@ -192,6 +194,30 @@ TEST(Fitted, FromAProjectedCrs) {
   // UTM's scale is 0.9996 on its central meridian, ours is 1.
   const Point a = projection.forward({500000, 4.8e6}), b = projection.forward({500000, 4.801e6});
   EXPECT_NEAR(std::hypot(a.x - b.x, a.y - b.y), 1000 / 0.9996, 1e-3);
+}
+
+// More than a hemisphere of water across the antimeridian, in Mercator: as in longitudes that go on past 180.
+TEST(Fitted, FromAProjectedCrsAcrossTheAntimeridian) {
+  const std::vector<Ring> rings{graticuleRing(105, 295, -75, 70), graticuleRing(115, 150, -38, -12),
+                                graticuleRing(155, 200, 60, 72), graticuleRing(240, 285, -5, 40)};
+  const Crs mercator = parseCrs("EPSG:3832");
+  const CrsMap map(toOgr(wgs84()), toOgr(mercator));
+  Coastline degrees = coastlineOf({}, wgs84()), metres = coastlineOf({}, mercator);
+  for (const Ring& ring : rings) {
+    Ring projected;
+    for (const Point& p : ring) projected.push_back(map.forward(p));
+    const FeatureUse use = degrees.features.empty() ? FeatureUse::Frame : FeatureUse::Land;
+    degrees.features.push_back(polygonFeature(1, ring));
+    metres.features.push_back(polygonFeature(1, projected));
+    degrees.features.back().use = metres.features.back().use = use;
+  }
+  const Projection expected = Projection::fitted(degrees, allMembers(degrees));
+  const Projection projection = Projection::fitted(metres, allMembers(metres));
+  EXPECT_EQ(projection.description(), expected.description());
+  for (const Point& p : {Point{180, 0}, {230, -40}, {110, -60}, {290, 60}}) {
+    const Point plane = projection.forward(map.forward(p)), wanted = expected.forward(p);
+    EXPECT_NEAR(std::hypot(plane.x - wanted.x, plane.y - wanted.y), 0, 1) << p.x;
+  }
 }
 
 TEST(Fitted, ToGroupsOfTheirOwn) {
