@@ -9,6 +9,7 @@
 
 #include "gis/coast/clip_chains.hpp"
 #include "gis/coast/feature_bounds.hpp"
+#include "gis/coast/split_frames.hpp"
 #include "gis/coast/turned_rings.hpp"
 #include "gis/coast/unite_frames.hpp"
 #include "gis/error.hpp"
@@ -429,9 +430,12 @@ FrameReport frameCoastline(Coastline& coastline, const FrameOptions& options) {
   }
   if (options.side == DomainSide::Ocean)
     return frameCoastline(coastline, {DomainSide::Outside, Box{-180.0, -90.0, 180.0, 90.0}, {}});
+  refuseOddFrames(coastline);
+  const Box given = boundsOf(coastline, false);
+  const double turn = turnOf(given);
+  if (coastline.crs.geographic) std::ranges::move(splitFrames(coastline, turn), std::back_inserter(report.notes));
   if (options.box) {
     refuseOddBox(*options.box, coastline.crs);
-    const double turn = turnOf(boundsOf(coastline, false));
     noteWideBox(*options.box, coastline.crs, report);
     coastline.features.push_back(frameOf(*options.box, coastline.crs, turn));
     coastline.framed_by_box = true;
@@ -444,13 +448,11 @@ FrameReport frameCoastline(Coastline& coastline, const FrameOptions& options) {
     throw InputError("--domain outside: the water needs a limit: give --bbox W,S,E,N or --clip FILE");
   }
   if (!framed) return report;
-  refuseOddFrames(coastline);
   uniteFrames(coastline);
   for (Feature& feature : coastline.features) {
     if (feature.use == FeatureUse::Frame) cutLongEdges(feature, coastline.crs.geographic);
   }
-  const Box given = boundsOf(coastline, false);
-  clipToFrame(coastline, turnOf(given), report);
+  clipToFrame(coastline, turn, report);
   if (!options.water_at) chooseUses(coastline, options, report);
   for (const FeatureUse use : {FeatureUse::Area, FeatureUse::Land, FeatureUse::Coast}) {
     if (any(coastline, use)) return report;

@@ -36,7 +36,8 @@ struct FrameReport {
 // Sets the uses of the features of `coastline`: polygons become land, or polygons and lines coasts, as the options say.
 // A box becomes a feature of use Frame; such features that meet are united. Features completely outside the frame are
 // left out, and parts far outside are cut off at some distance, so that the working plane need not show them; nothing
-// within the frame changes. For a whole globe, adds a last feature for everything outside the others. Throws
+// within the frame changes. Frames whose longitudes jump, or lie in another range than those of the other features, are
+// split at the antimeridian. For a whole globe, adds a last feature for everything outside the others. Throws
 // OptionError for a box without width or height; InputError for a side that needs a frame and has none, for a box that
 // is invalid in the input's CRS, and for a frame without any input.
 FrameReport frameCoastline(Coastline& coastline, const FrameOptions& options);

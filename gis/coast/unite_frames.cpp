@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "gis/coast/feature_bounds.hpp"
+#include "gis/coast/ogr_polygons.hpp"
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
 #include "gis/geometry/box_tree.hpp"
@@ -19,54 +19,6 @@
 namespace coastmesh {
 
 namespace {
-
-using Shape = std::unique_ptr<OGRGeometry>;
-
-std::unique_ptr<OGRLinearRing> ringOf(const Ring& points) {
-  auto ring = std::make_unique<OGRLinearRing>();
-  for (const Point& p : points) ring->addPoint(p.x, p.y);
-  ring->closeRings();
-  return ring;
-}
-
-Ring pointsOf(const OGRLinearRing& ring) {
-  Ring points;
-  for (int i = 0; i + 1 < ring.getNumPoints(); ++i) points.push_back({ring.getX(i), ring.getY(i)});
-  return points;
-}
-
-// The polygons of a feature as they are, valid or not. REQUIRES: each has an outer ring.
-Shape shapeOf(const Feature& feature) {
-  auto shape = std::make_unique<OGRMultiPolygon>();
-  for (const Polygon& polygon : feature.polygons) {
-    OGRPolygon made;
-    made.addRingDirectly(ringOf(polygon.outer).release());
-    for (const Ring& hole : polygon.holes) made.addRingDirectly(ringOf(hole).release());
-    shape->addGeometry(&made);
-  }
-  return shape;
-}
-
-void addPolygons(const OGRGeometry& shape, std::vector<const OGRPolygon*>& found) {
-  if (wkbFlatten(shape.getGeometryType()) == wkbPolygon) {
-    found.push_back(shape.toPolygon());
-  } else if (OGR_GT_IsSubClassOf(shape.getGeometryType(), wkbGeometryCollection)) {
-    for (const OGRGeometry* part : shape.toGeometryCollection()) addPolygons(*part, found);
-  }
-}
-
-std::vector<const OGRPolygon*> polygonsOf(const OGRGeometry& shape) {
-  std::vector<const OGRPolygon*> found;
-  addPolygons(shape, found);
-  return found;
-}
-
-Polygon fromOgr(const OGRPolygon& polygon) {
-  Polygon made;
-  made.outer = pointsOf(*polygon.getExteriorRing());
-  for (int i = 0; i < polygon.getNumInteriorRings(); ++i) made.holes.push_back(pointsOf(*polygon.getInteriorRing(i)));
-  return made;
-}
 
 // A point inside the polygon; null if GEOS fails. OGRPolygon::PointOnSurface always fails in GDAL 3.6.
 Shape insideOf(const OGRPolygon& polygon) {
@@ -105,7 +57,7 @@ void uniteFrames(Coastline& coastline) {
   std::vector<Shape> valid;
   OGRMultiPolygon all;
   for (const Feature* frame : meeting) {
-    valid.emplace_back(shapeOf(*frame)->MakeValid());
+    valid.emplace_back(shapeOf(frame->polygons)->MakeValid());
     for (const OGRPolygon* polygon : polygonsOf(require(valid.back(), *frame))) all.addGeometry(polygon);
   }
   const Shape united(all.UnionCascaded());

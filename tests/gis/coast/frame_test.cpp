@@ -338,6 +338,76 @@ TEST(Frame, AcrossTheAntimeridian) {
   }
 }
 
+// The frame as a feature of its own, like one of --clip, its longitudes from -180 to 180.
+Feature frameWithin180(Ring outer, std::vector<Ring> holes = {}) {
+  Feature feature = frameFeature(7, std::move(outer));
+  feature.polygons[0].holes = std::move(holes);
+  const auto moveBack = [](Ring& ring) {
+    for (Point& p : ring) p.x -= p.x > 180 ? 360 : 0;
+  };
+  moveBack(feature.polygons[0].outer);
+  std::ranges::for_each(feature.polygons[0].holes, moveBack);
+  return feature;
+}
+
+// Frames across the antimeridian, in any range of longitudes, around the same island as boxes.
+TEST(Frame, PolygonsAcrossTheAntimeridian) {
+  const Ring west{{179, -18}, {180, -18}, {180, -17}, {179, -17}},
+      east{{-180, -18}, {-179, -18}, {-179, -17}, {-180, -17}};
+  const Coastline land = coastlineOf({polygonFeature(1, west), polygonFeature(2, east)}, wgs84());
+  const Framed box = frame(land, boxOf(177, -20, -177, -15, DomainSide::Outside));
+  for (const Ring& ring :
+       {Ring{{177, -20}, {183, -20}, {183, -15}, {177, -15}}, Ring{{-183, -20}, {-177, -20}, {-177, -15}, {-183, -15}},
+        Ring{{177, -20}, {-177, -20}, {-177, -15}, {177, -15}}}) {
+    Coastline coastline = land;
+    coastline.features.push_back(frameFeature(7, ring));
+    const Framed framed = frame(coastline, {DomainSide::Outside, {}, {}});
+    ASSERT_EQ(framed.domains.size(), 1u);
+    EXPECT_NEAR(framed.area() / box.area(), 1, 1e-9) << ring[0].x;
+    EXPECT_NEAR(framed.openLength() / box.openLength(), 1, 1e-9) << ring[0].x;
+    EXPECT_EQ(framed.frame.notes.size(), ring[1].x - ring[0].x < 0 ? 1u : 0u);
+    for (const Polygon& polygon : framed.coastline.features.back().polygons)
+      for (const Point& p : polygon.outer) EXPECT_LE(std::abs(p.x), 180);
+  }
+}
+
+// A frame that crosses the antimeridian several times, with a hole across it, and one that crosses itself: as in data
+// from 0 to 360, where nothing is split.
+TEST(Frame, PolygonsThatCrossTheAntimeridianRepeatedly) {
+  const Ring comb{{175, 0}, {185, 0}, {185, 2}, {178, 2}, {178, 4}, {184, 4.5}, {184, 8}, {175, 9}};
+  const std::vector<Ring> holes{{{179, 5}, {181, 5.2}, {181, 7}, {179, 7}}, {{180.5, 1}, {181, 1}, {181, 1.5}}};
+  const Ring crossed{{176, 0}, {184, 8}, {184, 0}, {176, 7}};
+  const Feature islet = polygonFeature(1, square(176.2, 1.2, 0.1)), far = polygonFeature(2, square(20, 0, 1));
+  const Feature far_east = polygonFeature(2, square(200, 0, 1));
+  for (const auto& [ring, inner] : {std::pair{comb, holes}, {crossed, {}}}) {
+    Feature on = frameFeature(7, ring);
+    on.polygons[0].holes = inner;
+    const Framed expected = frame(coastlineOf({islet, far_east, on}, wgs84()), {DomainSide::Outside, {}, {}});
+    const Framed framed =
+        frame(coastlineOf({islet, far, frameWithin180(ring, inner)}, wgs84()), {DomainSide::Outside, {}, {}});
+    EXPECT_EQ(expected.frame.notes.size(), 0u);
+    EXPECT_EQ(framed.frame.notes.size(), 1u);
+    EXPECT_EQ(framed.domains.size(), expected.domains.size());
+    EXPECT_NEAR(framed.area() / expected.area(), 1, 1e-6);
+    EXPECT_NEAR(framed.openLength() / expected.openLength(), 1, 1e-6);
+  }
+}
+
+// A frame round a pole that its file does not close there, from any starting point.
+TEST(Frame, APolygonRoundAPole) {
+  Ring ring;
+  for (int lon = -170; lon <= 170; lon += 20) ring.push_back({static_cast<double>(lon), -60});
+  const Coastline land = coastlineOf({polygonFeature(1, square(20, -75, 3))}, wgs84());
+  for (const std::size_t first : {0u, 5u, 9u}) {
+    std::ranges::rotate(ring, ring.begin() + static_cast<std::ptrdiff_t>(first));
+    Coastline coastline = land;
+    coastline.features.push_back(frameFeature(7, ring));
+    const Framed framed = frame(coastline, {DomainSide::Outside, {}, {}});
+    ASSERT_EQ(framed.domains.size(), 1u);
+    EXPECT_NEAR(framed.area() / (zone(-90, -60, 360) - landArea(land)), 1, 1e-5) << first;
+  }
+}
+
 // With many points, so that edges are the same lines in every projection.
 Ring along(const Ring& ring) {
   Ring fine;
