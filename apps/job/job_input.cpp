@@ -164,7 +164,9 @@ JobInput::JobInput(const InputOptions& options, const ItemLoop& loop) : options_
                      " takes longitudes and latitudes, and the input is in " +
                      (coastline_.crs.isPlane() ? std::string("a plane without a CRS") : nameOf(coastline_.crs)));
   requireSurface();
-  FrameReport framed = frameCoastline(coastline_, options_.frame);
+  FrameOptions frame = options_.frame;
+  frame.in_plane = options_.crs == "plane";
+  FrameReport framed = frameCoastline(coastline_, frame);
   report_.beyond_frame = framed.beyond_frame;
   std::ranges::move(framed.notes, std::back_inserter(report_.notes));
   if (options_.crs == "plane" && coastline_.crs.geographic)

@@ -92,14 +92,21 @@ void refuseOddFrames(const Coastline& coastline) {
   }
 }
 
+// Unit of an input's coordinates.
+struct Unit {
+  bool geographic;  // degrees
+  double metres;    // of a projected CRS
+};
+
 // Number of straight pieces of a frame edge, so that it is the same line in the working plane as in the input's CRS:
 // areas then agree to some 2e-7, and along a parallel the direction changes by at most 2 degrees per piece.
-int piecesOf(const Point& a, const Point& b, bool geographic) {
+int piecesOf(const Point& a, const Point& b, const Unit& unit) {
   constexpr double kLongest = 0.15, kLongestInPlane = 15'000, kMostTurn = 2;  // degrees of arc, metres, degrees
   constexpr double kMostInPlane = 4096;                                       // more than once around the Earth
   const double dx = std::abs(b.x - a.x), dy = std::abs(b.y - a.y);
-  if (!geographic) {
-    return static_cast<int>(std::clamp(std::ceil(std::hypot(dx, dy) / kLongestInPlane), 1.0, kMostInPlane));
+  if (!unit.geographic) {
+    const double metres = std::hypot(dx, dy) * unit.metres;
+    return static_cast<int>(std::clamp(std::ceil(metres / kLongestInPlane), 1.0, kMostInPlane));
   }
   if (a.y == b.y && std::abs(a.y) == 90) return 1;  // a pole is a point
   const double middle = (a.y + b.y) / 2 * GeographicLib::Math::degree();
@@ -107,11 +114,11 @@ int piecesOf(const Point& a, const Point& b, bool geographic) {
   return std::max(1, static_cast<int>(std::ceil(std::max(arc / kLongest, turn / kMostTurn))));
 }
 
-Ring inPieces(const Ring& ring, bool geographic) {
+Ring inPieces(const Ring& ring, const Unit& unit) {
   Ring result;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Point &a = ring[i], &b = ring[(i + 1) % ring.size()];
-    const int pieces = piecesOf(a, b, geographic);
+    const int pieces = piecesOf(a, b, unit);
     for (int k = 0; k < pieces; ++k) {
       const double t = static_cast<double>(k) / pieces;
       result.push_back({a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)});
@@ -120,10 +127,14 @@ Ring inPieces(const Ring& ring, bool geographic) {
   return result;
 }
 
-void cutLongEdges(Feature& frame, bool geographic) {
-  for (Polygon& polygon : frame.polygons) {
-    polygon.outer = inPieces(polygon.outer, geographic);
-    for (Ring& hole : polygon.holes) hole = inPieces(hole, geographic);
+void cutLongEdges(Coastline& coastline) {
+  const Unit unit{coastline.crs.geographic, metresPerUnit(coastline.crs)};
+  for (Feature& feature : coastline.features) {
+    if (feature.use != FeatureUse::Frame) continue;
+    for (Polygon& polygon : feature.polygons) {
+      polygon.outer = inPieces(polygon.outer, unit);
+      for (Ring& hole : polygon.holes) hole = inPieces(hole, unit);
+    }
   }
 }
 
@@ -429,7 +440,7 @@ FrameReport frameCoastline(Coastline& coastline, const FrameOptions& options) {
     return report;
   }
   if (options.side == DomainSide::Ocean)
-    return frameCoastline(coastline, {DomainSide::Outside, Box{-180.0, -90.0, 180.0, 90.0}, {}});
+    return frameCoastline(coastline, {DomainSide::Outside, Box{-180.0, -90.0, 180.0, 90.0}, {}, options.in_plane});
   refuseOddFrames(coastline);
   const Box given = boundsOf(coastline, false);
   const double turn = turnOf(given);
@@ -449,9 +460,7 @@ FrameReport frameCoastline(Coastline& coastline, const FrameOptions& options) {
   }
   if (!framed) return report;
   uniteFrames(coastline);
-  for (Feature& feature : coastline.features) {
-    if (feature.use == FeatureUse::Frame) cutLongEdges(feature, coastline.crs.geographic);
-  }
+  if (!options.in_plane && !coastline.crs.isPlane()) cutLongEdges(coastline);
   clipToFrame(coastline, turn, report);
   if (!options.water_at) chooseUses(coastline, options, report);
   for (const FeatureUse use : {FeatureUse::Area, FeatureUse::Land, FeatureUse::Coast}) {

@@ -25,6 +25,7 @@ struct FrameOptions {
   // West, south, east, north, in the input's CRS. In degrees, an east less than the west is beyond the antimeridian.
   std::optional<Box> box{};
   std::optional<Point> water_at{};  // in the input's CRS
+  bool in_plane = false;            // the input's coordinates are the working plane
 };
 
 // Results of framing.

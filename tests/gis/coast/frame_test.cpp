@@ -458,6 +458,23 @@ TEST(Frame, WhatIsCutOffStaysBeyondTheFrame) {
   EXPECT_NEAR(sea.area() / (zone(65, 80, 360) - zone(65, 70, 120)), 1, 1e-4);
 }
 
+// Only where the working plane may bend them: pieces of 15 km, whatever the unit.
+TEST(Frame, LongEdgesAreDividedUnlessCoordinatesAreThePlane) {
+  const auto cornersOf = [](const Crs& crs, double side, bool in_plane) {
+    Coastline coastline = coastlineOf({polygonFeature(1, square(0.4 * side, 0.4 * side, 0.2 * side))}, crs);
+    FrameOptions options = boxOf(0, 0, side, side, DomainSide::Outside);
+    options.in_plane = in_plane;
+    frameCoastline(coastline, options);
+    return coastline.features.back().polygons.at(0).outer.size();
+  };
+  EXPECT_EQ(cornersOf({}, 2e6, false), 4u);
+  EXPECT_EQ(cornersOf(wgs84(), 30, true), 4u);
+  EXPECT_GT(cornersOf(wgs84(), 30, false), 4u * 150);
+  EXPECT_EQ(cornersOf(parseCrs("EPSG:32616"), 150'000, false), 4u * 10);
+  EXPECT_EQ(cornersOf(parseCrs("EPSG:32616"), 150'000, true), 4u);
+  EXPECT_EQ(cornersOf(parseCrs("EPSG:2263"), 150'000 / 0.3048, false), 4u * 11);  // US survey feet, a bit more
+}
+
 TEST(Frame, PolygonsThatAreNoDegreesAreRefused) {
   Coastline coastline = coastlineOf({polygonFeature(1, square(1, 1, 2))}, wgs84());
   coastline.features.push_back(polygonFeature(0, square(0, 0, 22'600'000)));
