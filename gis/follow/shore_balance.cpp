@@ -36,8 +36,9 @@ OpenedShores openShores(const ShoreStart& start, const ShoreSizes& sizes, const 
   opened.edits_before = opened.edits.size();
   opened.spits_before = opened.spits.size();
   opened.before = triangles;
+  const ConnectedRegions connected = connectedRegions(triangles);
   const auto close = [&](KeepWater keep) {
-    return openWater(triangles, sizes, guides, options.channel_min, keep, edit, opened.gained);
+    return openWater(triangles, sizes, guides, options.channel_min, keep, connected, edit, opened.gained);
   };
   OpenedWater water = close(first < 1.0 ? KeepWater::All : options.keep);
   if (first < 1.0) {

@@ -98,7 +98,7 @@ class Opening {
     bool any_wide = false;
     for (TriId t = 0; t < is_narrow.size(); ++t) {
       if (isLand(t)) continue;
-      is_narrow[t] = t_.width[t] < narrowest && (usesOf(t) & kInWater) == 0 && !allOpen(t) &&
+      is_narrow[t] = t_.width[t] < narrowest && !hasOffShore(t_, t) && !allOpen(t) &&
                      (!isAt(passages_, t, kPassage * t_.size[t]) || isAt(barriers_, t, kPassage * t_.size[t]));
       any_wide = any_wide || is_narrow[t] == 0;
     }
@@ -118,16 +118,16 @@ class Opening {
     closeSmall();
   }
 
-  // Applies to what `openWater` left, for each region separately.
-  void keepWater(KeepWater keep, std::vector<WaterPart>& waters) {
+  // Applies to what `openWater` left, for each water separately.
+  void keepWater(KeepWater keep, const ConnectedRegions& connected, std::vector<WaterPart>& waters) {
     struct Whole {
       double area = 0.0, at_open = 0.0, largest_at_open = 0.0;
       std::size_t largest = 0;
     };
     std::map<RegionId, Whole> wholes;
     for (const std::vector<TriId>& part : parts_) {
-      const WaterPart& water = waters.emplace_back(partOf(part));
-      Whole& whole = wholes.try_emplace(water.region, Whole{.largest = waters.size() - 1}).first->second;
+      const WaterPart& water = waters.emplace_back(partOf(part, connected));
+      Whole& whole = wholes.try_emplace(water.whole, Whole{.largest = waters.size() - 1}).first->second;
       whole.area += water.area;
       if (water.at_open) {
         whole.at_open += water.area;
@@ -137,12 +137,12 @@ class Opening {
     }
     for (std::size_t i = 0; i < waters.size(); ++i) {
       WaterPart& water = waters[i];
-      const Whole& whole = wholes[water.region];
+      const Whole& whole = wholes[water.whole];
       const double grazed = keep == KeepWater::Open ? 0.0 : kGrazed;
       const bool by_opening = keep != KeepWater::Largest && whole.at_open > 0.0 && whole.at_open >= grazed * whole.area;
       water.kept = by_opening ? water.at_open && water.area >= grazed * whole.largest_at_open : i == whole.largest;
       if (water.kept || keep == KeepWater::All) continue;
-      gained_[water.region] += water.area;
+      for (const auto& [region, area] : water.areas) gained_[region] += area;
       flip(parts_[i], t_.land, EditKind::CutOffWater, firstVertexOf(parts_[i]));
     }
   }
@@ -177,10 +177,16 @@ class Opening {
     const double scale = scale_.at(centreOf(t));
     return areaOf(t) / scale / scale;
   }
-  WaterPart partOf(const std::vector<TriId>& patch) const {
+  WaterPart partOf(const std::vector<TriId>& patch, const ConnectedRegions& connected) const {
     WaterPart part;
-    part.region = mesh().regions[patch.front()];
-    for (const TriId t : patch) part.area += groundAreaOf(t);
+    const RegionId region = mesh().regions[patch.front()];
+    const auto found = connected.find(region);
+    part.whole = found != connected.end() ? found->second : region;
+    for (const TriId t : patch) {
+      const double area = groundAreaOf(t);
+      part.area += area;
+      part.areas[mesh().regions[t]] += area;
+    }
     part.at_open = openingOf(patch) >= kLeastOpening;
     std::vector<TriId> largest(std::min(kPlaces, patch.size()));
     std::ranges::partial_sort_copy(patch, largest, [&](TriId a, TriId b) {
@@ -335,7 +341,7 @@ class Opening {
     if (elements.empty()) return;
     const auto most = static_cast<std::size_t>(std::ranges::max_element(elements) - elements.begin());
     for (std::size_t i = 0; i < elements.size(); ++i) {
-      if (i == most || elements[i] >= kLeastWater || (usesOf(parts_[i]) & kInWater) != 0) continue;
+      if (i == most || elements[i] >= kLeastWater) continue;
       flip(parts_[i], t_.land, EditKind::ClosedWater, firstVertexOf(parts_[i]));
       parts_[i].clear();
     }
@@ -360,14 +366,41 @@ void openLand(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGui
   settleShores(triangles, sizes.wanted);
 }
 
+ConnectedRegions connectedRegions(const ShoreTriangles& triangles) {
+  const TriMesh& mesh = triangles.mesh;
+  ConnectedRegions first;
+  const auto firstOf = [&](RegionId region) {
+    auto at = first.try_emplace(region, region).first;
+    while (at->second != at->first) {
+      at->second = first.find(at->second)->second;  // shortens the way for later calls
+      at = first.find(at->second);
+    }
+    return at->first;
+  };
+  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
+    const RegionId region = mesh.regions[t];
+    if (region == triangles.land) continue;
+    for (const EdgeRef e : mesh.triangles[t].adj) {
+      const RegionId beside = mesh.regions[triOf(e)];
+      if (beside == triangles.land || beside == region) continue;
+      const RegionId one = firstOf(region), other = firstOf(beside);
+      first[std::max(one, other)] = std::min(one, other);
+    }
+  }
+  for (auto& [region, of] : first) of = firstOf(region);
+  return first;
+}
+
 OpenedWater openWater(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
-                      KeepWater keep, const ShoreEdit& edit, WaterAreas& gained) {
+                      KeepWater keep, const ConnectedRegions& connected, const ShoreEdit& edit, WaterAreas& gained) {
   OpenedWater opened;
   Opening opening(triangles, sizes, guides, edit, gained);
   opening.openWater(narrowest);
-  opening.keepWater(keep, opened.waters);
-  for (const WaterPart& water : opened.waters)
-    if (water.kept || keep == KeepWater::All) opened.areas[water.region] += water.area;
+  opening.keepWater(keep, connected, opened.waters);
+  for (const WaterPart& water : opened.waters) {
+    if (!water.kept && keep != KeepWater::All) continue;
+    for (const auto& [region, area] : water.areas) opened.areas[region] += area;
+  }
   return opened;
 }
 

@@ -25,13 +25,20 @@ struct DroppedSpit {
 void openLand(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
               const ShoreEdit& edit, WaterAreas& gained, std::vector<DroppedSpit>& spits);
 
-// A part of a region of water without a connection to the others, mostly because this was closed.
+// For each region whose water meets that of others: the first of all regions that it is connected with. Features with a
+// common border are one water.
+using ConnectedRegions = std::map<RegionId, RegionId>;
+
+ConnectedRegions connectedRegions(const ShoreTriangles& triangles);
+
+// A part of a water without a connection to the others, mostly because this was closed.
 struct WaterPart {
-  RegionId region = kUnlabelled;
-  double area = 0.0;          // square metres
-  bool at_open = false;       // its open boundary is at least one element long
-  bool kept = false;          // by `KeepWater`; for All as for Modelled
-  std::vector<Point> inside;  // points in its largest triangles, the largest first
+  RegionId whole = kUnlabelled;  // of all parts of the water: its region, the first if several are connected
+  double area = 0.0;             // square metres
+  WaterAreas areas{};            // the same by region
+  bool at_open = false;          // its open boundary is at least one element long
+  bool kept = false;             // by `KeepWater`; for All as for Modelled
+  std::vector<Point> inside;     // points in its largest triangles, the largest first
 };
 
 struct OpenedWater {
@@ -40,10 +47,10 @@ struct OpenedWater {
 };
 
 // The same for water: closes narrower parts (channels, heads of bays, corners), and water smaller than a few triangles.
-// Triangles at lines inside the water, along passages and at a corner of an open boundary stay. If nothing would be
-// left, all stays. Then keeps the parts of each region of water by `keep`; those left out are not subtracted from
-// `gained`. Does not settle the triangles.
+// Triangles at vertices of borders in the water, along passages and at a corner of an open boundary stay. If nothing
+// would be left, all stays. Then keeps the parts of each water by `keep`, regions that were connected before
+// (`connected`) being one water; those left out are not subtracted from `gained`. Does not settle the triangles.
 OpenedWater openWater(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
-                      KeepWater keep, const ShoreEdit& edit, WaterAreas& gained);
+                      KeepWater keep, const ConnectedRegions& connected, const ShoreEdit& edit, WaterAreas& gained);
 
 }  // namespace coastmesh

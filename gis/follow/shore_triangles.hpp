@@ -46,6 +46,17 @@ void sampleShores(ShoreGraph& graph, const SizeFunction& size, const BoxTree& li
 ShoreTriangles triangulateShores(ShoreGraph&& graph, const SizeFunction& size, const ItemLoop& loop = inOrder,
                                  const EvenSizes* even = nullptr);
 
+// True if v is in the water and on no shore, as vertices of a border of regions.
+inline bool isOffShore(const ShoreTriangles& triangles, VertexId v) {
+  return (triangles.use[v] & (kInWater | kOnShore | kOnOpen)) == kInWater;
+}
+
+// True if a vertex of the triangle is: its width then says nothing of the water's.
+inline bool hasOffShore(const ShoreTriangles& triangles, TriId t) {
+  const auto& v = triangles.mesh.triangles[t].v;
+  return isOffShore(triangles, v[0]) || isOffShore(triangles, v[1]) || isOffShore(triangles, v[2]);
+}
+
 // Calls `visit(t)` for the triangles around v, counter-clockwise. REQUIRES: v is not kAround.
 template <typename Visit>
 void forTrianglesRound(const ShoreTriangles& triangles, VertexId v, Visit&& visit) {

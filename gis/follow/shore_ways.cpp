@@ -55,8 +55,14 @@ class WayFinder {
   double lengthOf(EdgeRef e) const { return distance(mesh().point(mesh().origin(e)), mesh().point(mesh().target(e))); }
   // The smaller of both triangles' sizes: one may reach far into open water, where sizes are larger.
   double sizeAt(EdgeRef e) const { return std::min(t_.size[triOf(e)], t_.size[triOf(mesh().twin(e))]); }
-  // The width of the water as a share of the size: edges reach from shore to shore.
-  double shareOf(EdgeRef e) const { return lengthOf(e) / sizeAt(e); }
+  bool isLand(TriId t) const { return mesh().regions[t] == t_.land; }
+  bool isNarrow(TriId t) const { return t_.width[t] < narrowest_ && !hasOffShore(t_, t); }
+  // The width of the water as a share of the size: edges reach from shore to shore, except those to a border of regions
+  // in the water, whose width is unknown.
+  double shareOf(EdgeRef e) const {
+    if (isOffShore(t_, mesh().origin(e)) || isOffShore(t_, mesh().target(e))) return kInfinity;
+    return lengthOf(e) / sizeAt(e);
+  }
 
   // For each water, the triangles that contain its places.
   std::vector<std::vector<TriId>> locate(const std::vector<WaterPart>& waters) const {
@@ -67,7 +73,7 @@ class WayFinder {
         const TriId t = locateIn(t_, x, last);
         if (t == kNone) continue;
         last = t;
-        if (mesh().regions[t] == waters[i].region) found[i].push_back(t);
+        if (!isLand(t)) found[i].push_back(t);
       }
     }
     return found;
@@ -82,15 +88,14 @@ class WayFinder {
       from_[t] = kNone;
       reached.push_back(t);
     };
-    const auto isBeside = [&](TriId t, EdgeRef e) { return mesh().regions[triOf(e)] == mesh().regions[t]; };
     for (const TriId t : places) reach(t);
     while (!reached.empty()) {
       const TriId t = reached.back();
       reached.pop_back();
       bool goes_on = false;
       for (const EdgeRef e : mesh().triangles[t].adj) {
-        if (!isBeside(t, e)) continue;
-        if (t_.width[triOf(e)] >= narrowest_)
+        if (isLand(triOf(e))) continue;
+        if (!isNarrow(triOf(e)))
           reach(triOf(e));
         else
           goes_on = goes_on || cost_[triOf(e)] > 0.0;
@@ -124,7 +129,7 @@ class WayFinder {
       for (unsigned i = 0; i < 3; ++i) {
         const EdgeRef e = edgeRef(t, i);
         const TriId next = triOf(mesh().twin(e));
-        if (mesh().regions[next] != mesh().regions[t]) continue;
+        if (isLand(next)) continue;
         const double share = shareOf(e);
         if (share < least_) continue;
         const double step = (distance(centreOf(t), middleOf(e)) + distance(middleOf(e), centreOf(next))) / sizeAt(e);
@@ -155,7 +160,7 @@ class WayFinder {
         way.place = x;
         way.width_m = lengthOf(e) / scale_.at(x);
       }
-      if (t_.width[t] < narrowest_) {
+      if (isNarrow(t)) {
         if (!narrow_before) line.assign(1, line.back());
         const double scale = scale_.at(x), length = distance(line.back(), x) / scale;
         way.length_m += length;
@@ -200,11 +205,11 @@ std::vector<bool> areMain(const std::vector<WaterPart>& waters) {
   std::map<RegionId, std::size_t> largest;
   for (std::size_t i = 0; i < waters.size(); ++i) {
     if (!waters[i].kept) continue;
-    const auto [at, is_first] = largest.emplace(waters[i].region, i);
+    const auto [at, is_first] = largest.emplace(waters[i].whole, i);
     if (!is_first && waters[i].area > waters[at->second].area) at->second = i;
   }
   std::vector<bool> main(waters.size(), false);
-  for (const auto& [region, i] : largest) main[i] = true;
+  for (const auto& [whole, i] : largest) main[i] = true;
   return main;
 }
 

@@ -17,7 +17,7 @@ struct WaterWay {
   double widening_m2 = 0.0;       // of land removed by widening these
 };
 
-// For each water: true if it is the largest kept one of its region.
+// For each water: true if it is the largest kept part of its whole.
 std::vector<bool> areMain(const std::vector<WaterPart>& waters);
 
 // A way for each water made by opening: from kept ones to the largest of them, which has none; from others to any kept
