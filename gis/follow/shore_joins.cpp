@@ -1,13 +1,46 @@
 #include "gis/follow/shore_joins.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <set>
 #include <utility>
+
+#include "gis/follow/shore_settle.hpp"
 
 namespace coastmesh {
 
 namespace {
 
 constexpr int kRounds = 3;  // widening may close something else
+
+// Finds the water that a place is in.
+class WaterSearch {
+ public:
+  explicit WaterSearch(const OpenedShores& opened)
+      : triangles_(opened.after), water_(opened.after.mesh.triangles.size(), kNone) {
+    for (std::uint32_t i = 0; i < opened.waters.size(); ++i)
+      for (const TriId t : opened.waters[i].triangles) water_[t] = i;
+  }
+
+  // The water at the first of these places that is in any, also one that was left out; kNone if none is.
+  std::uint32_t at(const std::vector<Point>& places) {
+    for (const Point& x : places) {
+      const TriId t = locateIn(triangles_, x, last_);
+      if (t == kNone) continue;
+      last_ = t;
+      if (water_[t] != kNone) return water_[t];
+    }
+    return kNone;
+  }
+
+ private:
+  const ShoreTriangles& triangles_;
+  std::vector<std::uint32_t> water_;  // of each triangle
+  TriId last_ = 0;
+};
 
 class Joiner {
  public:
@@ -21,7 +54,11 @@ class Joiner {
     std::vector<JoinedWater> joins = findJoins();
     opened_ = balanceShores(std::move(opened_), start_, sizes_, guides_, options_);
     if (joins.empty() && opened_.first != 1.0) joins = findJoins();
-    for (int round = 0; round < kRounds && join(std::move(joins)); ++round) joins = findJoins();
+    for (int round = 0; round < kRounds && join(std::move(joins)); ++round) {
+      joins = findJoins();
+      forget(joins);
+    }
+    forgetApart();
     std::vector<WaterWay> ways = waysToWaters(opened_, sizes_, options_);
     return {std::move(opened_), std::move(ways), std::move(joined_)};
   }
@@ -30,6 +67,32 @@ class Joiner {
   std::vector<JoinedWater> findJoins() const {
     if (options_.strait_min >= options_.channel_min) return {};
     return waysToJoin(opened_, sizes_, options_);
+  }
+
+  // Removes earlier joins of the same waters: for each, the largest that is in it.
+  void forget(const std::vector<JoinedWater>& joins) {
+    if (joins.empty()) return;
+    WaterSearch waters(opened_);
+    std::map<std::uint32_t, std::size_t> largest;  // by water: index of the earlier join
+    for (std::size_t i = 0; i < joined_.size(); ++i) {
+      const auto [at, is_first] = largest.emplace(waters.at(joined_[i].inside), i);
+      if (!is_first && joined_[i].area > joined_[at->second].area) at->second = i;
+    }
+    std::set<std::size_t, std::greater<>> again;
+    for (const JoinedWater& water : joins)
+      if (const auto at = largest.find(waters.at(water.inside)); at != largest.end()) again.insert(at->second);
+    for (const std::size_t i : again) joined_.erase(joined_.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+
+  // Removes joins of waters that are separate nevertheless.
+  void forgetApart() {
+    if (joined_.empty()) return;
+    WaterSearch waters(opened_);
+    const std::vector<bool> main = areMain(opened_.waters);
+    std::erase_if(joined_, [&](const JoinedWater& water) {
+      const std::uint32_t at = waters.at(water.inside);
+      return at == kNone || !(water.was_kept ? main[at] : opened_.waters[at].kept);
+    });
   }
 
   bool join(std::vector<JoinedWater>&& joins) {

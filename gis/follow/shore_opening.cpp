@@ -145,6 +145,8 @@ class Opening {
       for (const auto& [region, area] : water.areas) gained_[region] += area;
       flip(parts_[i], t_.land, EditKind::CutOffWater, firstVertexOf(parts_[i]));
     }
+    for (std::size_t i = 0; i < waters.size(); ++i) waters[i].triangles = std::move(parts_[i]);
+    parts_.clear();
   }
 
  private:

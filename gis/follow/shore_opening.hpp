@@ -39,6 +39,7 @@ struct WaterPart {
   bool at_open = false;          // its open boundary is at least one element long
   bool kept = false;             // by `KeepWater`; for All as for Modelled
   std::vector<Point> inside;     // points in its largest triangles, the largest first
+  std::vector<TriId> triangles;  // before settling
 };
 
 struct OpenedWater {

@@ -247,7 +247,7 @@ std::vector<JoinedWater> waysToJoin(const OpenedShores& opened, const ShoreSizes
       for (std::size_t i = 0; i < ways.size(); ++i) {
         const double area = opened.waters[i].area;
         if (ways[i].narrow.empty() || ways[i].widening_m2 > kMostWidened * area) continue;
-        found.push_back({std::move(ways[i]), area});
+        found.push_back({std::move(ways[i]), area, opened.waters[i].inside, kept[i]});
         joined[i] = true;
       }
       if (found.size() == before) return;

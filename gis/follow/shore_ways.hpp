@@ -27,7 +27,9 @@ std::vector<WaterWay> waysToWaters(const OpenedShores& opened, const ShoreSizes&
 // A water that closing cuts off, or separates from the largest, and the way to widen instead.
 struct JoinedWater {
   WaterWay way;
-  double area = 0.0;  // square metres
+  double area = 0.0;          // square metres
+  std::vector<Point> inside;  // as in `WaterPart`
+  bool was_kept = false;      // separated from the largest, but not cut off
 };
 
 // Waters whose ways (see `waysToWaters`) are at least `options.strait_min` sizes wide, and take little area to widen
