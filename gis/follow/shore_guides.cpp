@@ -123,11 +123,12 @@ BoxTree ShoreGuides::tree() const {
 
 LineZone::LineZone(const std::vector<ShoreLine>& lines) {
   std::vector<Box> boxes;
-  for (const ShoreLine& line : lines) {
-    for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
-      pieces_.push_back({line.points[i], line.points[i + 1], line.elements});
-      most_elements_ = std::max(most_elements_, line.elements);
-      boxes.push_back(Box::of(line.points[i], line.points[i + 1]));
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    const std::vector<Point>& points = lines[k].points;
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+      pieces_.push_back({points[i], points[i + 1], lines[k].elements, k});
+      most_elements_ = std::max(most_elements_, lines[k].elements);
+      boxes.push_back(Box::of(points[i], points[i + 1]));
     }
   }
   if (!boxes.empty()) tree_ = BoxTree(boxes, BoxTree::Order::Hilbert);
@@ -140,9 +141,31 @@ bool LineZone::holds(const Point& a, const Point& b, const Point& c, double reac
   for (const Point& p : {a, b, c}) box.add(p);
   bool found = false;
   tree_.visit(box, [&](std::uint32_t i) {
-    const auto& [p, q, elements] = pieces_[i];
+    const auto& [p, q, elements, line] = pieces_[i];
     const double far = elements * reach;
     found = found || squaredDistanceToSegment(centre, p, q) <= far * far || meets(p, q, a, b, c);
+  });
+  return found;
+}
+
+std::optional<std::size_t> LineZone::firstAt(const Point& a, const Point& b, const Point& c) const {
+  std::optional<std::size_t> first;
+  if (pieces_.empty()) return first;
+  Box box = Box::of(a, b);
+  box.add(c);
+  tree_.visit(box, [&](std::uint32_t i) {
+    const Piece& piece = pieces_[i];
+    if ((!first || piece.line < *first) && meets(piece.a, piece.b, a, b, c)) first = piece.line;
+  });
+  return first;
+}
+
+bool LineZone::hasAnotherNear(const Point& x, double reach, std::size_t own) const {
+  if (pieces_.empty()) return false;
+  bool found = false;
+  tree_.visit(Box::of(x, x).grownBy(reach), [&](std::uint32_t i) {
+    const Piece& piece = pieces_[i];
+    found = found || (piece.line != own && squaredDistanceToSegment(x, piece.a, piece.b) <= reach * reach);
   });
   return found;
 }
@@ -228,19 +251,13 @@ namespace {
 
 // Finds ends of barriers that water goes around.
 void findOpenEnds(const std::vector<ShoreLine>& barriers, const std::vector<std::vector<LineSample>>& sampled,
-                  Helpers& helpers, std::vector<OpenBarrier>& open) {
-  const auto isAtAnother = [&](std::size_t own, const LineSample& end) {
-    for (std::size_t line = 0; line < barriers.size(); ++line)
-      for (std::size_t i = 0; line != own && i + 1 < barriers[line].points.size(); ++i)
-        if (squaredDistanceToSegment(end.at, barriers[line].points[i], barriers[line].points[i + 1]) <=
-            end.size * end.size)
-          return true;
-    return false;
-  };
+                  const LineZone& zone, Helpers& helpers, std::vector<OpenBarrier>& open) {
   for (std::size_t line = 0; line < barriers.size(); ++line) {
     if (sampled[line].empty() || barriers[line].points.front() == barriers[line].points.back()) continue;
     for (const LineSample* end : {&sampled[line].front(), &sampled[line].back()}) {
-      if (end->water == kUnlabelled || !helpers.isFree(end->at, end->size) || isAtAnother(line, *end)) continue;
+      if (end->water == kUnlabelled || !helpers.isFree(end->at, end->size) ||
+          zone.hasAnotherNear(end->at, end->size, line))
+        continue;
       open.push_back({line, end->at});
       break;
     }
@@ -256,24 +273,31 @@ void closeBarriers(ShoreTriangles& triangles, const ShoreSizes& sizes, const Sho
   std::vector<std::vector<LineSample>> sampled;
   for (const ShoreLine& line : guides.barriers) sampled.push_back(samplesOf(line.points, sizes.wanted));
   locateSamples(sampled, elementsOf(guides.barriers), triangles);
-  findOpenEnds(guides.barriers, sampled, helpers, open);
+  const LineZone zone(guides.barriers);
+  findOpenEnds(guides.barriers, sampled, zone, helpers, open);
   for (const std::vector<LineSample>& samples : sampled) helpers.addAround(samples, kBarrier);
   helpers.finish(sizes.wanted);
+  struct Closed {
+    Point place;
+    RegionId water;
+  };
+  std::vector<std::optional<Closed>> closed(guides.barriers.size());  // the first triangle that each barrier closes
+  for (TriId t = 0; t < triangles.mesh.triangles.size(); ++t) {
+    RegionId& water = triangles.mesh.regions[t];
+    if (water == triangles.land) continue;
+    const auto& v = triangles.mesh.triangles[t].v;
+    const Point& a = triangles.mesh.point(v[0]);
+    const auto line = zone.firstAt(a, triangles.mesh.point(v[1]), triangles.mesh.point(v[2]));
+    if (!line) continue;
+    if (!closed[*line]) closed[*line] = {a, water};
+    water = triangles.land;
+  }
   for (std::size_t line = 0; line < guides.barriers.size(); ++line) {
-    const LineZone zone({guides.barriers[line]});
-    bool any = false;
-    for (TriId t = 0; t < triangles.mesh.triangles.size(); ++t) {
-      const RegionId water = triangles.mesh.regions[t];
-      if (water == triangles.land) continue;
-      const auto& v = triangles.mesh.triangles[t].v;
-      const Point &a = triangles.mesh.point(v[0]), &b = triangles.mesh.point(v[1]), &c = triangles.mesh.point(v[2]);
-      if (!zone.holds(a, b, c, 0.0)) continue;
-      triangles.mesh.regions[t] = triangles.land;
-      if (!any) edit(EditKind::Barrier, a, water);
-      any = true;
+    if (closed[line]) {
+      edit(EditKind::Barrier, closed[line]->place, closed[line]->water);
+    } else if (std::ranges::none_of(sampled[line], isWet)) {  // in water closed by another, it meets water too
+      open.push_back({line, std::nullopt});
     }
-    // A barrier in water that another has just closed meets water too.
-    if (!any && std::ranges::none_of(sampled[line], isWet)) open.push_back({line, std::nullopt});
   }
   settleShores(triangles, sizes.wanted);
 }

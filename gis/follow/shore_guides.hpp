@@ -37,10 +37,17 @@ class LineZone {
   // True if a line meets the triangle, or is within `reach` times its elements of the triangle's centroid.
   bool holds(const Point& a, const Point& b, const Point& c, double reach) const;
 
+  // The first of the lines that meet the triangle, by index; nullopt: none.
+  std::optional<std::size_t> firstAt(const Point& a, const Point& b, const Point& c) const;
+
+  // True if a line other than `own` is within `reach` of x.
+  bool hasAnotherNear(const Point& x, double reach, std::size_t own) const;
+
  private:
   struct Piece {
     Point a, b;
     double elements;
+    std::size_t line;
   };
   std::vector<Piece> pieces_;
   double most_elements_ = 0.0;

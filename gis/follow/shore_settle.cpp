@@ -224,7 +224,7 @@ TriId locateIn(const ShoreTriangles& triangles, const Point& x, TriId from) {
     while (k < 3 && holds(t, (step + k) % 3)) ++k;
     if (k == 3) return t;
     const EdgeRef onward = mesh.twin(edgeRef(t, (step + k) % 3));
-    if (onward == kNone) break;
+    if (onward == kNone) return kNone;  // the triangulation is convex
     t = triOf(onward);
   }
   for (t = 0; t < mesh.triangles.size(); ++t)

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/delaunay.hpp"
 #include "core/metric.hpp"
@@ -206,6 +208,56 @@ TEST(FollowSizes, ABarrierThatClosesNothingIsSaidTo) {
   EXPECT_TRUE(notesOf({{{{25, 4}, {25, 16}}, ""}, {{{25, 30}, {25, 40}}, ""}}).empty());
   ASSERT_EQ(idle.size(), 1u);
   EXPECT_EQ(idle[0].find("barrier 2 meets no water"), 0u) << idle[0];
+}
+
+// One search among all lines answers as one line after another does.
+TEST(LineZone, FindsTheFirstLineAtATriangleAndOthersNearAPlace) {
+  std::vector<ShoreLine> lines;
+  for (int i = 0; i < 60; ++i) {
+    const Point from{static_cast<double>((37 * i) % 50), static_cast<double>((23 * i) % 50)};
+    lines.push_back({{from, from + Point{3.0, static_cast<double>(i % 5)}, from + Point{6.0, 0.0}}, ""});
+  }
+  const LineZone all(lines);
+  std::size_t met = 0, near = 0;
+  for (double x = 0.0; x < 50.0; x += 1.0) {
+    for (double y = 0.0; y < 50.0; y += 1.0) {
+      const Point a{x, y}, b{x + 1.3, y + 0.1}, c{x + 0.2, y + 0.9};
+      std::optional<std::size_t> first;
+      bool is_near = false;
+      for (std::size_t line = 0; line < lines.size(); ++line) {
+        if (!first && LineZone({lines[line]}).holds(a, b, c, 0.0)) first = line;
+        for (std::size_t i = 0; i + 1 < lines[line].points.size() && line != 7; ++i)
+          is_near = is_near || squaredDistanceToSegment(a, lines[line].points[i], lines[line].points[i + 1]) <= 1.0;
+      }
+      EXPECT_EQ(all.firstAt(a, b, c), first);
+      EXPECT_EQ(all.hasAnotherNear(a, 1.0, 7), is_near);
+      met += first ? 1 : 0;
+      near += is_near ? 1 : 0;
+    }
+  }
+  EXPECT_GT(met, 100u);
+  EXPECT_GT(near, 100u);
+  EXPECT_LT(met, 2000u);
+  EXPECT_LT(near, 2000u);
+}
+
+// Where barriers cross, the first closes the common triangles; the other is neither idle nor open.
+TEST(FollowSizes, EachOfManyBarriersIsListed) {
+  Domain domain;
+  addShore(domain, {{0, 0}, {200, 0}, {200, 200}, {0, 200}});
+  ShoreGuides guides;
+  for (int i = 0; i < 10; ++i)
+    for (int j = 0; j < 10; ++j) {
+      const Point from{10.0 + 19.0 * i, 10.0 + 19.0 * j};
+      guides.barriers.push_back({{from, from + Point{4.0, 3.0}}, ""});
+    }
+  guides.barriers.push_back({{{300, 300}, {310, 300}}, ""});
+  CleanReport report;
+  followSizes(std::move(domain), ConstantSize(2.0), {.land_min = 0.0}, oneFeature(), report, guides);
+  EXPECT_EQ(countOf(report, EditKind::Barrier), 100u);
+  EXPECT_EQ(std::ranges::count_if(report.notes, [](const std::string& note) { return note.starts_with("barrier "); }),
+            100);
+  EXPECT_EQ(report.idle.size(), 1u);
 }
 
 }  // namespace
