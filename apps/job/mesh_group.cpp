@@ -350,6 +350,7 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
   if (!follows) {
     sized = makeSizes(domain, SizeAccuracy::Fine);
   } else {
+    labelSegments(domain.pslg);  // .poly files have no labels, which areas and openings need
     const FollowOptions follow = followOptionsOf(job);
     labelSegments(domain.pslg);  // plane graphs have no labels, by which the area is found
     const double area_m2 = result.input_area_m2 ? *result.input_area_m2 : geodesicArea(domain, Crs{});
@@ -361,6 +362,7 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
     FollowStart start;
     if (const double least = leastWanted(wanted, sizes); least > 0.0)
       domain = thinToLeast(std::move(domain), least, follow, input.coastline(), guides, coarser, start, loop);
+    if (sizes.opened) domain = sizes.opened(std::move(domain), wanted, loop);
     sized = makeSizes(domain, SizeAccuracy::Rough);
     domain = followShore(std::move(domain), sized, makeSizes, follow, wishes, guides, input.coastline(), followed,
                          std::move(start), loop);

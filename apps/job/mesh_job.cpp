@@ -441,10 +441,16 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   RasterHelpers rasters(job.mesh.helpers, RunControl{control.cancelled, {}});
   sizes.readers = rasters.readers();
   finish.depth.readers = rasters.pixelReaders();
+  const auto lengthsOf = [](const SizeOptions& options) {
+    return ElementLengths{std::min(options.shore_m, options.size_m), std::min(options.most_m, options.size_m)};
+  };
   sizes.shoreOf = [&](const Domain& domain, const SizeOptions& options, const ItemLoop& loop) {
-    return shoreForSizes(domain, input.coastline().crs, finish.boundaries, finish.depth,
-                         {std::min(options.shore_m, options.size_m), std::min(options.most_m, options.size_m)},
+    return shoreForSizes(domain, input.coastline().crs, finish.boundaries, finish.depth, lengthsOf(options),
                          RunControl{control.cancelled, {}}, loop);
+  };
+  sizes.opened = [&](Domain&& domain, const SizeOptions& options, const ItemLoop& loop) {
+    return withOpenings(std::move(domain), input.coastline().crs, finish.boundaries, finish.depth, lengthsOf(options),
+                        RunControl{control.cancelled, {}}, loop);
   };
   giveBackFreeMemory();
   result.seconds.read = whole.seconds();

@@ -125,42 +125,58 @@ std::vector<double> depthsAt(const std::vector<Point>& places, const Crs& crs, c
   return std::move(nodes.z);
 }
 
-// The graph without the open pieces. `open` has a flag for each piece.
-Pslg without(const Pslg& pslg, const std::vector<Piece>& pieces, const std::vector<bool>& open) {
-  std::vector<bool> opens(pslg.segments.size(), false);
+// The pieces of a boundary that files or depths open.
+struct Openings {
+  std::vector<Piece> pieces;
+  std::vector<bool> opened;  // of each piece
+};
+
+struct DividedGraph {
+  Pslg pslg;
+  std::vector<bool> opened;  // of each segment
+};
+
+// The graph with segments divided where openings begin or end. New points follow those of `pslg`.
+DividedGraph divided(const Pslg& pslg, const Openings& openings) {
+  const std::vector<Piece>& pieces = openings.pieces;
+  std::vector<bool> has_opening(pslg.segments.size(), false);
   for (std::size_t p = 0; p < pieces.size(); ++p)
-    if (open[p]) opens[pieces[p].segment] = true;
-  Pslg left;
-  left.points = pslg.points;
-  left.holes = pslg.holes;
+    if (openings.opened[p]) has_opening[pieces[p].segment] = true;
+  DividedGraph result;
+  result.pslg.points = pslg.points;
+  result.pslg.holes = pslg.holes;
   for (SegmentId s = 0; s < pslg.segments.size(); ++s)
-    if (!opens[s]) left.segments.push_back(pslg.segments[s]);
+    if (!has_opening[s]) result.pslg.segments.push_back(pslg.segments[s]);
+  result.opened.assign(result.pslg.segments.size(), false);
+  VertexId end = kNone;  // of the run before
   for (std::size_t p = 0; p < pieces.size(); ++p) {
     const SegmentId s = pieces[p].segment;
-    if (s == kNone || !opens[s] || open[p]) continue;
+    if (s == kNone || !has_opening[s]) continue;
     Piece run = pieces[p];
-    while (p + 1 < pieces.size() && pieces[p + 1].segment == s && !open[p + 1]) run.end = pieces[++p].end;
-    const auto pointAt = [&](double share) {
-      if (share <= 0.0) return run.from;
-      if (share >= 1.0) return run.to;
-      left.points.push_back(along(pslg, run, share));
-      return static_cast<VertexId>(left.points.size() - 1);
-    };
+    const bool opened = openings.opened[p];
+    while (p + 1 < pieces.size() && pieces[p + 1].segment == s && openings.opened[p + 1] == opened)
+      run.end = pieces[++p].end;
+    const VertexId begin = run.begin <= 0.0 ? run.from : end;
+    if (run.end >= 1.0) {
+      end = run.to;
+    } else {
+      end = static_cast<VertexId>(result.pslg.points.size());
+      result.pslg.points.push_back(along(pslg, run, run.end));
+    }
     Segment segment = pslg.segments[s];
     const bool same = segment.a == run.from;
-    const VertexId begin = pointAt(run.begin), end = pointAt(run.end);
     segment.a = same ? begin : end;
     segment.b = same ? end : begin;
-    left.segments.push_back(segment);
+    result.pslg.segments.push_back(segment);
+    result.opened.push_back(opened);
   }
-  return left;
+  return result;
 }
 
-}  // namespace
-
-std::optional<Pslg> shoreForSizes(const Domain& domain, const Crs& crs, const BoundaryOptions& boundaries,
-                                  const DepthOptions& depths, const ElementLengths& lengths, const RunControl& control,
-                                  const ItemLoop& loop) {
+// What files or depths open in addition to what is open by its tag; nullopt if nothing.
+std::optional<Openings> openingsOf(const Domain& domain, const Crs& crs, const BoundaryOptions& boundaries,
+                                   const DepthOptions& depths, const ElementLengths& lengths, const RunControl& control,
+                                   const ItemLoop& loop) {
   const bool has_rules = !boundaries.of_input.empty() || (boundaries.of_files && !boundaries.of_files->empty());
   const bool by_depth = boundaries.opensByDepth() && !depths.files.empty();
   if (domain.closed() || (!has_rules && !by_depth)) return std::nullopt;
@@ -183,7 +199,35 @@ std::optional<Pslg> shoreForSizes(const Domain& domain, const Crs& crs, const Bo
   mergeShort(at, options.least_length_m, edges);
   for (std::size_t e = 0; e < open.size(); ++e) open[e] = open[e] && isOpened(e);
   if (std::ranges::none_of(open, [](bool each) { return each; })) return std::nullopt;
-  return without(domain.pslg, boundary.pieces, open);
+  return Openings{std::move(boundary.pieces), std::move(open)};
+}
+
+}  // namespace
+
+std::optional<Pslg> shoreForSizes(const Domain& domain, const Crs& crs, const BoundaryOptions& boundaries,
+                                  const DepthOptions& depths, const ElementLengths& lengths, const RunControl& control,
+                                  const ItemLoop& loop) {
+  const auto openings = openingsOf(domain, crs, boundaries, depths, lengths, control, loop);
+  if (!openings) return std::nullopt;
+  DividedGraph graph = divided(domain.pslg, *openings);
+  std::vector<Segment> shore;
+  for (SegmentId s = 0; s < graph.opened.size(); ++s)
+    if (!graph.opened[s]) shore.push_back(graph.pslg.segments[s]);
+  graph.pslg.segments = std::move(shore);
+  return std::move(graph.pslg);
+}
+
+Domain withOpenings(Domain&& domain, const Crs& crs, const BoundaryOptions& boundaries, const DepthOptions& depths,
+                    const ElementLengths& lengths, const RunControl& control, const ItemLoop& loop) {
+  const auto openings = openingsOf(domain, crs, boundaries, depths, lengths, control, loop);
+  if (!openings) return std::move(domain);
+  DividedGraph graph = divided(domain.pslg, *openings);
+  for (SegmentId s = 0; s < graph.opened.size(); ++s)
+    if (graph.opened[s]) graph.pslg.segments[s].tag = kOpenTag;
+  for (std::size_t v = domain.pslg.points.size(); v < graph.pslg.points.size(); ++v)
+    domain.input_points.push_back(domain.projection.inverse(graph.pslg.points[v]));
+  domain.pslg = std::move(graph.pslg);
+  return std::move(domain);
 }
 
 }  // namespace coastmesh

@@ -70,6 +70,8 @@ struct SizeInputs {
   // The domain's graph without the parts of its boundary that will be open although their tags do not say so; nullopt
   // if there are none. The function may be empty.
   std::function<std::optional<Pslg>(const Domain& domain, const SizeOptions& options, const ItemLoop& loop)> shoreOf;
+  // The domain with these parts tagged as open. The function may be empty.
+  std::function<Domain(Domain&& domain, const SizeOptions& options, const ItemLoop& loop)> opened;
 };
 
 // Throws InputError.

@@ -13,6 +13,7 @@ namespace coastmesh::test {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 using Json = nlohmann::json;
 using Roles = std::map<std::string, int>;  // number of edges of each role
 
@@ -255,6 +256,26 @@ TEST_F(BoundaryTypes, OpeningsDoNotDrawTheSizeOfTheShore) {
   EXPECT_EQ(vertices("lake.geojson", {"--boundaries", put("river.geojson", Json::array({river}))}), all);
   // The same applies to a coast that follows the sizes.
   EXPECT_LT(vertices("lake.geojson", {"--boundaries", types, "--coast", "follow"}), 0.85 * all);
+  EXPECT_LT(rolesIn("a.gpkg")["open"], 40);
+}
+
+// A bay whose west is opened by a line, and behind a strait of 200 m a larger lagoon.
+TEST_F(BoundaryTypes, ACoastThatFollowsKeepsTheWaterAtOpenings) {
+  const Json ring = {{5, 50},      {5.1, 50},      {5.1, 50.049}, {5.13, 50.049}, {5.13, 50}, {5.5, 50}, {5.5, 50.1},
+                     {5.13, 50.1}, {5.13, 50.051}, {5.1, 50.051}, {5.1, 50.1},    {5, 50.1},  {5, 50}};
+  const std::string input =
+      put("lagoon.geojson", Json::array({feature(Json::object(), "Polygon", Json::array({ring}))}));
+  const std::string types =
+      put("types.geojson", Json::array({feature({{"type", "open"}}, "LineString", {{5, 50}, {5, 50.1}})}));
+  const ProgramRun run = runProgram({"mesh", input, "-o", file("a.gpkg"), "--report", file("r.json"), "--boundaries",
+                                     types, "--size", "1000", "--coast", "follow", "--keep-water", "open"});
+  EXPECT_EQ(run.code, 0);
+  EXPECT_THAT(run.errors, Not(HasSubstr("says nothing of the mesh's boundary")));
+  EXPECT_NEAR(rolesIn("a.gpkg")["open"], 11, 3);
+  const Json report = Json::parse(readText(file("r.json")));
+  const double bay = 0.1 / 0.47;  // of all water
+  EXPECT_NEAR(report["mesh"]["area_m2"].get<double>(), bay * report["input"]["area_m2"].get<double>(),
+              0.01 * report["input"]["area_m2"].get<double>());
 }
 
 TEST_F(BoundaryTypes, APlaneGraphHasNoColumn) {

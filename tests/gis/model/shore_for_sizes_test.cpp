@@ -126,6 +126,27 @@ TEST_F(ShoreForSizes, GraphsWithoutLabelsToo) {
   EXPECT_EQ(shore->segments.size(), 4u);  // the island's
 }
 
+// The same parts as open segments of a domain, which is divided where they begin and end.
+TEST_F(ShoreForSizes, OpeningsAreTaggedForCoastsThatFollow) {
+  const auto west = of("open", "Polygon", "[[[-10,-10],[5020,-10],[5020,6010],[-10,6010],[-10,-10]]]");
+  const std::optional<Pslg> shore = shoreForSizes(domain, {}, west, {}, {50.0, 1000.0});
+  ASSERT_TRUE(shore.has_value());
+  const Domain opened = withOpenings(Domain(domain), {}, west, {}, {50.0, 1000.0});
+  const auto lengthOf = [](const Pslg& pslg, bool with_open) {
+    double length = 0.0;
+    for (const Segment& s : pslg.segments)
+      if (with_open || s.tag != kOpenTag) length += distance(pslg.points[s.a], pslg.points[s.b]);
+    return length;
+  };
+  EXPECT_NEAR(lengthOf(opened.pslg, true), 36000.0, 1e-6);
+  EXPECT_NEAR(lengthOf(opened.pslg, false), lengthOf(*shore, true), 1e-6);
+  EXPECT_EQ(opened.pslg.points.size(), domain.pslg.points.size() + 2);
+  EXPECT_EQ(opened.input_points.size(), opened.pslg.points.size());
+  EXPECT_EQ(opened.input_points.back(), opened.pslg.points.back());  // the domain is in a plane
+  EXPECT_NO_THROW(constrainedDelaunay(opened.pslg));
+  EXPECT_EQ(withOpenings(Domain(domain), {}, {}, {}, {50.0, 1000.0}).pslg.segments.size(), 8u);
+}
+
 // A boundary in pieces as long as elements is opened like that of a mesh with these elements.
 TEST_F(ShoreForSizes, ItIsWhatTheGridsBoundaryBecomes) {
   Domain fine = planeDomain({});
