@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "core/delaunay.hpp"
+#include "core/hilbert.hpp"
 #include "core/links.hpp"
 #include "core/metric.hpp"
 #include "core/predicates.hpp"
@@ -242,7 +244,8 @@ void insertPoints(ShoreTriangles& triangles, const std::vector<Point>& points, c
   const TriMesh& mesh = triangles.mesh;
   ShoreFlips flips(triangles, size);
   TriId t = 0;
-  for (const Point& x : points) {
+  for (const std::uint32_t k : hilbertOrder(points)) {  // so that walks are short
+    const Point& x = points[k];
     const TriId found = locateIn(triangles, x, t);
     if (found == kNone) continue;
     t = found;
