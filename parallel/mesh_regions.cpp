@@ -25,6 +25,7 @@
 #include "parallel/recorder.hpp"
 #include "parallel/round_keeper.hpp"
 #include "parallel/rounds.hpp"
+#include "parallel/stage_progress.hpp"
 
 namespace coastmesh {
 
@@ -48,6 +49,22 @@ int optimiseSweeps(const MeshOptions& options) {
   if (options.smooth) return kMostOptimiseSweeps;
   return options.refine.size != nullptr && options.coarsen ? kOptimiseSweeps : 0;
 }
+
+// Progress of refinement, coarsening and optimisation, which take about as long as one another.
+class StageControls {
+ public:
+  StageControls(const MeshOptions& options, const RunControl& control)
+      : control_(control), stages_(1 + int{options.coarsen} + int{optimiseSweeps(options) > 0}) {}
+
+  RunControl next() {
+    const double from = begun_++;
+    return stageControl(control_, {from / stages_, (from + 1.0) / stages_});
+  }
+
+ private:
+  const RunControl& control_;
+  int stages_, begun_ = 0;
+};
 
 // The bounding box of a mesh.
 std::pair<Point, Point> extentOf(const TriMesh& mesh) {
@@ -164,20 +181,21 @@ void meshWhole(MeshedRegion& region, const Pslg& pslg, const MeshOptions& option
   Seeds seeds = seed(region, pslg, options, false, control);
   region.seconds.triangulate += watch.lap();
   Recorder recorder;
+  StageControls stages(options, control);
   // The overload without notes tries several variants on a small input, and needs a mesh without further vertices.
   region.stats = options.cap.empty() && region.mesh.points.size() == pslg.points.size()
-                     ? refine(region.mesh, pslg, options.refine, control)
-                     : refine(region.mesh, pslg, options.refine, std::move(seeds.notes), control);
+                     ? refine(region.mesh, pslg, options.refine, stages.next())
+                     : refine(region.mesh, pslg, options.refine, std::move(seeds.notes), stages.next());
   region.seconds.refine = watch.lap();
   // Input vertices are never removed.
   if (options.coarsen && region.mesh.points.size() > region.mesh.input_vertices) {
-    RefineStats coarsened = coarsen(region.mesh, pslg, options.refine, control);
+    RefineStats coarsened = coarsen(region.mesh, pslg, options.refine, stages.next());
     region.seconds.coarsen = watch.lap();
     region.stats.unresolved.clear();
     region.stats.add(coarsened);
   }
   if (const int sweeps = optimiseSweeps(options); sweeps > 0) {
-    RefineStats optimised = optimise(region.mesh, pslg, options.refine, sweeps, control);
+    RefineStats optimised = optimise(region.mesh, pslg, options.refine, sweeps, stages.next());
     region.seconds.optimise = watch.lap();
     region.stats.unresolved.clear();
     region.stats.add(optimised);
@@ -267,16 +285,18 @@ void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opt
     return true;
   };
   region.seconds.triangulate += watch.lap();
+  StageControls stages(options, control);
+  const RunControl refining = stages.next();
   if (begins(RoundsStage::Refine))
-    add(refineInRounds(region.mesh, pslg, around, std::move(seeds.notes), control, workspace));
+    add(refineInRounds(region.mesh, pslg, around, std::move(seeds.notes), refining, workspace));
   region.seconds.refine = watch.lap();
   giveBackFreeMemory();
   if (options.coarsen && begins(RoundsStage::Coarsen)) {
-    add(coarsenInRounds(region.mesh, pslg, around, control, workspace));
+    add(coarsenInRounds(region.mesh, pslg, around, stages.next(), workspace));
     region.seconds.coarsen = watch.lap();
   }
   if (const int sweeps = optimiseSweeps(options); sweeps > 0 && begins(RoundsStage::Optimise)) {
-    add(optimiseInRounds(region.mesh, pslg, around, sweeps, control, workspace));
+    add(optimiseInRounds(region.mesh, pslg, around, sweeps, stages.next(), workspace));
     region.seconds.optimise = watch.lap();
   }
   workspace = {};
@@ -287,7 +307,7 @@ void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opt
         trianglesInViolation(region.mesh, options.refine, seeds.input.corners.get(), stitch);
     insertCores(region.mesh, static_cast<VertexId>(pslg.points.size()), seeds.cores, stitch);
     region.log.append(recorder.finish("stitch"));
-    mendBesideCores(region, left, pslg, options.refine, seeds.input, helpers, control, add);
+    mendBesideCores(region, left, pslg, options.refine, seeds.input, helpers, {control.cancelled, {}}, add);
   }
   Recorder recorder;
   const ItemLoop label = recorder.loop("label", control);

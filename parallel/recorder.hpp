@@ -22,9 +22,11 @@ class Recorder {
   void forEach(std::string_view name, std::size_t count, const RunControl& control,
                const std::function<void(std::size_t)>& work);
 
-  // The same as a loop to pass on.
+  // The same as a loop to pass on, which can be cancelled but reports no progress: a stage consists of many loops.
   ItemLoop loop(std::string_view name, const RunControl& control = {}) {
-    return [this, name, control](std::size_t count, const auto& work) { forEach(name, count, control, work); };
+    return [this, name, inner = RunControl{control.cancelled, {}}](std::size_t count, const auto& work) {
+      forEach(name, count, inner, work);
+    };
   }
 
   // The records; `rest` is the name of the single-threaded work since the last loop.

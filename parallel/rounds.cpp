@@ -17,6 +17,7 @@
 #include "parallel/piece_task.hpp"
 #include "parallel/recorder.hpp"
 #include "parallel/round_keeper.hpp"
+#include "parallel/stage_progress.hpp"
 #include "parallel/stitch.hpp"
 
 namespace coastmesh {
@@ -153,14 +154,20 @@ class Rounds {
     if (workspace_.keeper != nullptr) workspace_.keeper->keep(next, whole_, tally_);
   }
 
+  // To be called before a round, which is this part of the stage. Throws Cancelled.
+  void begin(const ProgressPart& part) {
+    control_.checkpoint(part.from);
+    part_ = part;
+  }
+
   // Cuts, processes the pieces, stitches. `weigh(t)` is a triangle's weight. `taskOf(state, share)` is the task for a
   // piece with this share of the total weight; it is executed if anything in the piece is due.
   template <typename Weigh, typename TaskOf>
   void round(std::string_view name, const Weigh& weigh, Extent extent, const Pslg& pslg, const RefineOptions& options,
              const TaskOf& taskOf) {
-    const RunControl inner{control_.cancelled, {}};
+    const RunControl inner{control_.cancelled, {}}, pieces_control = stageControl(control_, part_);
     if (extent == Extent::Uncut) {
-      recorder_.forEach(name, 1, inner, [&](std::size_t) {
+      recorder_.forEach(name, 1, pieces_control, [&](std::size_t) {
         if (isDue(whole_)) tally_.stats.add(workOn(taskOf(whole_, 1.0), whole_, pslg, options, inner));
       });
       tally_.pieces = std::max<std::uint64_t>(tally_.pieces, 1);
@@ -202,7 +209,7 @@ class Rounds {
       dropSpareRoom(pieces[order[i]].state);
     };
     if (workspace_.helpers == nullptr || parts.pieces == 1) {
-      recorder_.forEach(name, parts.pieces, inner, [&](std::size_t i) {
+      recorder_.forEach(name, parts.pieces, pieces_control, [&](std::size_t i) {
         if (cutAt(i)) workAt(i);
       });
     } else {
@@ -256,6 +263,7 @@ class Rounds {
   const RunControl& control_;
   Recorder recorder_;
   RoundsTally tally_;
+  ProgressPart part_;  // of the next round
 };
 
 // The options of each step; those of the last are `options`. The first step works on the uncut mesh: it removes very
@@ -334,12 +342,23 @@ double expectedTriangles(const TriMesh& mesh, const RefineOptions& options) {
 
 namespace {
 
+// The part of a step that a round is: rounds leave less and less due.
+ProgressPart partOfRound(int round) { return {1.0 - std::exp2(-round), 1.0 - std::exp2(-round - 1)}; }
+
+// The part of refinement that a step is: each step makes about nine times as many triangles as the one before.
+ProgressPart partOfStep(std::size_t step, std::size_t steps) {
+  const auto before = [&](std::size_t s) {
+    return s == 0 ? 0.0 : std::pow(kSizeStep * kSizeStep, static_cast<double>(s) - static_cast<double>(steps));
+  };
+  return {before(step), before(step + 1)};
+}
+
 // The rounds of one step, from round `first` on. `whole_first`: the step is a single uncut round. `mends`: the step
-// must leave nothing due, and its last round is uncut. `checkpoint(share)` reports progress, `keep(round)` saves the
+// must leave nothing due, and its last round is uncut. The step is this part of the stage; `keep(round)` saves the
 // state before that round.
-template <typename Checkpoint, typename Keep>
+template <typename Keep>
 void refineStep(Rounds& run, const Pslg& pslg, const RefineOptions& options, int first, bool whole_first, bool mends,
-                const Checkpoint& checkpoint, const Keep& keep) {
+                const ProgressPart& part, const Keep& keep) {
   MeshState& whole = run.whole();
   const TriangleBound bound = boundOf(options);
   // Later rounds continue with the triangles that earlier ones left due.
@@ -350,7 +369,8 @@ void refineStep(Rounds& run, const Pslg& pslg, const RefineOptions& options, int
     // Steps other than the last may leave some triangles due.
     if (left == 0.0 || (whole_first && round > 0)) break;
     if (!mends && (left < kFewDue || round == kMostRounds)) break;
-    checkpoint(static_cast<double>(round) / (kMostRounds + 1));
+    const ProgressPart of_round = whole_first ? ProgressPart{} : partOfRound(round);
+    run.begin(part.part(of_round.from, of_round.to));
     const bool soon_done = mends && round > 0 && left < kFewDue && whole.mesh.triangles.size() < kSmallMesh;
     const bool uncut = whole_first || round == kMostRounds;
     const Extent extent = uncut ? Extent::Uncut : round == 0 ? Extent::All : Extent::NearDue;
@@ -377,15 +397,10 @@ RoundsReport refineInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions
   if (!before && wantsSplitSegments(whole.mesh, options)) splitSegments(whole.mesh, pslg, whole.notes, options);
   const RoundPlace from = before.value_or(RoundPlace{});
   for (std::uint32_t step = from.step; step < steps.size() && !run.stats().budget_reached; ++step) {
-    refineStep(
-        run, pslg, steps[step], step == from.step ? static_cast<int>(from.round) : 0, step == 0,
-        step + 1 == steps.size(),
-        [&](double share) {
-          control.checkpoint((static_cast<double>(step) + share) / static_cast<double>(steps.size()));
-        },
-        [&](int round) {
-          run.keep({step, static_cast<std::uint32_t>(round)});
-        });
+    refineStep(run, pslg, steps[step], step == from.step ? static_cast<int>(from.round) : 0, step == 0,
+               step + 1 == steps.size(), partOfStep(step, steps.size()), [&](int round) {
+                 run.keep({step, static_cast<std::uint32_t>(round)});
+               });
   }
   return run.finish(mesh);
 }
@@ -401,7 +416,7 @@ RoundsReport mendInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& 
     for (int round = 0; round < kRepairRounds; ++round) {
       markBad(run, strictBoundOf(options));
       if (!anyOf(whole.due_triangles)) break;
-      control.checkpoint(static_cast<double>(round) / kRepairRounds);
+      run.begin({static_cast<double>(round) / kRepairRounds, static_cast<double>(round + 1) / kRepairRounds});
       const auto weigh = [&](TriId t) { return whole.due_triangles[t] ? kOfARepair : kOfACopy; };
       const std::uint64_t vertices = whole.mesh.points.size();
       const Extent extent = round + 1 == kRepairRounds ? Extent::Uncut : Extent::All;
@@ -410,8 +425,7 @@ RoundsReport mendInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& 
       });
     }
   } else {
-    refineStep(
-        run, pslg, options, 0, false, true, [&](double share) { control.checkpoint(share); }, [](int) {});
+    refineStep(run, pslg, options, 0, false, true, {}, [](int) {});
   }
   return run.finish(mesh);
 }
@@ -430,7 +444,7 @@ RoundsReport sweepInRounds(std::string_view name, const PieceTask& task, TriMesh
     std::fill_n(whole.due_vertices.begin(), whole.mesh.input_vertices, std::uint8_t{0});
   }
   for (int r = before ? static_cast<int>(before->round) : 0; r < kRounds && anyOf(whole.due_vertices); ++r) {
-    control.checkpoint(static_cast<double>(r) / kRounds);
+    run.begin(partOfRound(r));
     const auto weigh = [&](TriId t) {
       const auto& v = whole.mesh.triangle(t).v;
       return kOfACopy + whole.due_vertices[v[0]] + whole.due_vertices[v[1]] + whole.due_vertices[v[2]];

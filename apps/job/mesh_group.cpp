@@ -34,6 +34,7 @@
 #include "gis/size/size_choice.hpp"
 #include "parallel/recorder.hpp"
 #include "parallel/region_checkpoint.hpp"
+#include "parallel/stage_progress.hpp"
 
 namespace coastmesh {
 
@@ -78,6 +79,10 @@ std::pair<double, double> measureRange(const Domain& domain) {
 // Estimates may be off by half; meshes that require more than this many times the budget are not begun.
 constexpr double kClearlyMore = 2.0;
 constexpr double kMostReported = 1e18;
+
+// The part of a group's progress that is meshing, after cleaning and sizes and before the check.
+constexpr ProgressPart kMeshing{0.1, 0.95};
+constexpr double kCleaned = 0.03;  // after cleaning
 
 // A group, and the context in which it is meshed.
 struct GroupTask {
@@ -396,7 +401,7 @@ MeshedRegion meshStage(const GroupTask& task, const Domain& domain, MeshOptions&
     options.checkpoint = &*checkpoint;
   }
   try {
-    region = meshRegion(domain.pslg, std::move(options), task.control);
+    region = meshRegion(domain.pslg, std::move(options), stageControl(task.control, kMeshing));
   } catch (const OutOfRoom& error) {
     result.refusal_place = domain.projection.inverse(error.place);
     result.lacks_memory = most < kMostVertices;
@@ -475,12 +480,14 @@ void startGlobe(const GroupTask& task, const Domain& domain, const SizeFunction*
 
 void fillGroup(const GroupTask& task, GroupResult& result) {
   Domain domain = cleanStage(task, result);
+  task.control.checkpoint(kCleaned);
   requireMemory(task, domain, result);
   MeshOptions options = optionsFor(task, domain, result.surface);
   const std::unique_ptr<SizeFunction> size = sizeStage(task, domain, result);
   options.refine.size = size.get();
   if (domain.closed()) startGlobe(task, domain, size.get(), options);
   const RefineOptions asked = options.refine;
+  task.control.checkpoint(kMeshing.from);
   MeshedRegion region = meshStage(task, domain, std::move(options), result);
   LoopsAfterMeshing loops(region, task.control);
   GroundPlaces ground = domain.projection.groundPlaces(region.mesh.points, loops.of("check"));

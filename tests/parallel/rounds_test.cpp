@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -124,6 +125,20 @@ TEST_P(InRounds, WritesDownItsWork) {
     EXPECT_LE(log->timeOn(64), log->timeOn(2));
     EXPECT_NEAR(log->timeOn(1), log->work(), 1e-9 * log->work());
   }
+}
+
+TEST_P(InRounds, ProgressRises) {
+  const Case& c = GetParam();
+  std::vector<double> shares;
+  const RunControl control{{}, [&](double share) { shares.push_back(share); }};
+  TriMesh mesh = constrainedDelaunay(c.pslg);
+  RoundsWorkspace workspace;
+  withThreads({.threads = 2}, [&] { refineInRounds(mesh, c.pslg, c.options, notesOf(mesh, c), control, workspace); });
+  EXPECT_TRUE(std::ranges::is_sorted(shares));
+  EXPECT_LT(shares.front(), 0.2);
+  EXPECT_GT(shares.back(), 0.5);
+  EXPECT_LE(shares.back(), 1.0);
+  EXPECT_GT(std::set(shares.begin(), shares.end()).size(), 5u);
 }
 
 TEST_P(InRounds, CanBeCancelled) {

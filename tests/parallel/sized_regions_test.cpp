@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "parallel/mesh_regions.hpp"
 #include "parallel/workers.hpp"
@@ -44,6 +46,23 @@ TEST_P(SizedRegion, InPiecesAsInOne) {
     EXPECT_GE(figures.share_within, 0.97);
     EXPECT_NEAR(figures.median, 1.0, 0.05);
     EXPECT_LE(figures.vertices_share, 1.15);
+  }
+}
+
+TEST_P(SizedRegion, ProgressRises) {
+  for (const bool one_piece : {false, true}) {
+    MeshOptions options = this->options();
+    options.one_piece = one_piece;
+    std::vector<double> shares;
+    const RunControl control{{}, [&](double share) { shares.push_back(share); }};
+    withThreads({.threads = 2}, [&] { meshRegion(pslg_, options, control); });
+    // Stages that need a share again report it again.
+    EXPECT_TRUE(one_piece || std::ranges::is_sorted(shares));
+    EXPECT_LT(shares.front(), 0.1);
+    EXPECT_GT(shares.back(), 0.8);
+    EXPECT_LE(std::ranges::max(shares), 1.0);
+    for (const double third : {0.0, 1.0 / 3.0, 2.0 / 3.0})
+      EXPECT_TRUE(std::ranges::any_of(shares, [&](double s) { return s > third && s < third + 1.0 / 3.0; })) << third;
   }
 }
 

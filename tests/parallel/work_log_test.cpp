@@ -55,6 +55,20 @@ TEST(Recorder, WritesDownEveryItem) {
   });
 }
 
+// A stage consists of many loops, each of which would report up to 1.
+TEST(Recorder, LoopsToPassOnReportNoProgress) {
+  withThreads({.threads = 2}, [] {
+    Recorder recorder;
+    int reports = 0;
+    bool is_cancelled = false;
+    const ItemLoop loop = recorder.loop("loop", {[&] { return is_cancelled; }, [&](double) { ++reports; }});
+    loop(100, [](std::size_t) {});
+    EXPECT_EQ(reports, 0);
+    is_cancelled = true;
+    EXPECT_THROW(loop(100, [](std::size_t) {}), Cancelled);
+  });
+}
+
 // Nested loops: a region is cut while others wait.
 TEST(ForEachItem, NestsWithoutMixing) {
   for (const int threads : {1, 2, 5}) {
