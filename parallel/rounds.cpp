@@ -353,9 +353,21 @@ ProgressPart partOfStep(std::size_t step, std::size_t steps) {
   return {before(step), before(step + 1)};
 }
 
+// True if the mesh has as many vertices as it may have and would take more.
+bool isFull(Rounds& run, const RefineOptions& options) {
+  return run.stats().budget_reached && run.whole().mesh.points.size() >= options.max_vertices;
+}
+
+// True if so few vertices are left that their shares would be of no use to pieces.
+bool isNearlyFull(Rounds& run, const RefineOptions& options) {
+  constexpr std::uint64_t kFewVertices = 1000;
+  const std::uint64_t vertices = run.whole().mesh.points.size();
+  return run.stats().budget_reached && options.max_vertices - std::min(options.max_vertices, vertices) < kFewVertices;
+}
+
 // The rounds of one step, from round `first` on. `whole_first`: the step is a single uncut round. `mends`: the step
 // must leave nothing due, and its last round is uncut. The step is this part of the stage; `keep(round)` saves the
-// state before that round.
+// state before that round. What ends the step depends on that state alone, so that a resumed run makes the same mesh.
 template <typename Keep>
 void refineStep(Rounds& run, const Pslg& pslg, const RefineOptions& options, int first, bool whole_first, bool mends,
                 const ProgressPart& part, const Keep& keep) {
@@ -369,10 +381,11 @@ void refineStep(Rounds& run, const Pslg& pslg, const RefineOptions& options, int
     // Steps other than the last may leave some triangles due.
     if (left == 0.0 || (whole_first && round > 0)) break;
     if (!mends && (left < kFewDue || round == kMostRounds)) break;
+    if (round > 0 && isFull(run, options)) break;
     const ProgressPart of_round = whole_first ? ProgressPart{} : partOfRound(round);
     run.begin(part.part(of_round.from, of_round.to));
     const bool soon_done = mends && round > 0 && left < kFewDue && whole.mesh.triangles.size() < kSmallMesh;
-    const bool uncut = whole_first || round == kMostRounds;
+    const bool uncut = whole_first || round == kMostRounds || (round > 0 && isNearlyFull(run, options));
     const Extent extent = uncut ? Extent::Uncut : round == 0 ? Extent::All : Extent::NearDue;
     const std::uint64_t unmended = run.stats().unmended;
     refineRound(run, pslg, options, bound, extent, mends);
@@ -381,6 +394,8 @@ void refineStep(Rounds& run, const Pslg& pslg, const RefineOptions& options, int
       markBad(run, bound);
       refineRound(run, pslg, options, bound, Extent::Uncut, mends);
     }
+    // Another round could not do more.
+    if (uncut && run.stats().budget_reached) round = kMostRounds;
     keep(round + 1);
   }
 }
@@ -396,11 +411,12 @@ RoundsReport refineInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions
   const std::optional<RoundPlace> before = run.goOn();
   if (!before && wantsSplitSegments(whole.mesh, options)) splitSegments(whole.mesh, pslg, whole.notes, options);
   const RoundPlace from = before.value_or(RoundPlace{});
-  for (std::uint32_t step = from.step; step < steps.size() && !run.stats().budget_reached; ++step) {
+  for (std::uint32_t step = from.step; step < steps.size(); ++step) {
     refineStep(run, pslg, steps[step], step == from.step ? static_cast<int>(from.round) : 0, step == 0,
                step + 1 == steps.size(), partOfStep(step, steps.size()), [&](int round) {
                  run.keep({step, static_cast<std::uint32_t>(round)});
                });
+    if (isFull(run, options)) break;
   }
   return run.finish(mesh);
 }
@@ -417,6 +433,7 @@ RoundsReport mendInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& 
       markBad(run, strictBoundOf(options));
       if (!anyOf(whole.due_triangles)) break;
       run.begin({static_cast<double>(round) / kRepairRounds, static_cast<double>(round + 1) / kRepairRounds});
+      run.stats().budget_reached = false;
       const auto weigh = [&](TriId t) { return whole.due_triangles[t] ? kOfARepair : kOfACopy; };
       const std::uint64_t vertices = whole.mesh.points.size();
       const Extent extent = round + 1 == kRepairRounds ? Extent::Uncut : Extent::All;

@@ -152,19 +152,30 @@ void mend(RefineRun& run, TriId t) {
   if (!isOutOfReach(run, t, shape)) insertPoint(run, t, shape.shortest);
 }
 
+bool isCurrent(const RefineRun& run, const BadTriangle& bad) {
+  return run.mesh.triangle(bad.triangle).v == bad.corners;
+}
+
+// In a piece, other pieces may leave vertices for what its share does not allow: its triangles wait for the next round.
+void endForLackOfVertices(RefineRun& run, const BadTriangle& next) {
+  run.stats.budget_reached = true;
+  if (!run.variant.clear_of_frozen) return;
+  defer(run, next.triangle);
+  while (!run.queue.empty())
+    if (const BadTriangle bad = run.queue.pop(); isCurrent(run, bad)) defer(run, bad.triangle);
+}
+
 void drainQueue(RefineRun& run, const RunControl& control) {
   EditMesh& mesh = run.mesh;
   std::uint64_t steps = 0;
   while (!run.queue.empty()) {
     if (++steps % 1024 == 0)
       control.checkpoint(static_cast<double>(steps) / static_cast<double>(steps + run.queue.size()));
-    if (mesh.vertexCount() >= run.options.max_vertices) {
-      run.stats.budget_reached = true;
-      return;
-    }
     const BadTriangle bad = run.queue.pop();
+    if (!isCurrent(run, bad)) continue;
+    if (mesh.vertexCount() >= run.options.max_vertices) return endForLackOfVertices(run, bad);
     if (mesh.vertexCount() > run.options.most_in_memory) throw OutOfRoom(mesh.point(bad.corners[0]));
-    if (mesh.triangle(bad.triangle).v == bad.corners) mend(run, bad.triangle);
+    mend(run, bad.triangle);
   }
 }
 

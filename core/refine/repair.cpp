@@ -219,14 +219,7 @@ class Surroundings {
   PatchNumbers scratch_;
 };
 
-}  // namespace
-
-void repair(RefineRun& run, const RunControl& control, std::span<const BadTriangle> given_up) {
-  const auto isGivenUp = [&](TriId t) {
-    const auto known = std::ranges::lower_bound(given_up, t, {}, &BadTriangle::triangle);
-    return known != given_up.end() && known->triangle == t && known->corners == run.mesh.triangle(t).v;
-  };
-  repairStrips(run, control, isGivenUp);
+void repairPlaces(RefineRun& run, const RunControl& control, const auto& isGivenUp) {
   const std::uint64_t most_work = mostWork(run.options.min_angle_deg, run.mesh.vertexCount());
   struct Tally {
     std::uint64_t places = 0;
@@ -268,6 +261,21 @@ void repair(RefineRun& run, const RunControl& control, std::span<const BadTriang
     }
     if (!again) return;
   }
+}
+
+}  // namespace
+
+void repair(RefineRun& run, const RunControl& control, std::span<const BadTriangle> given_up) {
+  const auto isGivenUp = [&](TriId t) {
+    const auto known = std::ranges::lower_bound(given_up, t, {}, &BadTriangle::triangle);
+    return known != given_up.end() && known->triangle == t && known->corners == run.mesh.triangle(t).v;
+  };
+  repairStrips(run, control, isGivenUp);
+  repairPlaces(run, control, isGivenUp);
+  if (!run.stats.budget_reached || !run.variant.clear_of_frozen) return;
+  // Other pieces may leave vertices for what this one's share did not allow.
+  for (TriId t = 0; t < run.mesh.triangleSlots(); ++t)
+    if (run.mesh.isLive(t) && violatesBound(run, t) && !isGivenUp(t)) defer(run, t);
 }
 
 }  // namespace coastmesh

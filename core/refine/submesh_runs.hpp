@@ -15,9 +15,9 @@ namespace coastmesh {
 // stays due until the mesh is cut elsewhere.
 
 // Processes the bad ones of the due triangles, and all that become bad; with `mends` also repairs the rest. Triangles
-// blocked by a frozen edge are due afterwards. Bad triangles that are not due, before or after, cannot be improved by
-// any point. `options.max_vertices` applies to the submesh. `steiner_points` and `unresolved` of the result stay empty.
-// Throws Cancelled.
+// blocked by a frozen edge, or by `options.max_vertices`, which applies to the submesh, are due afterwards. Bad
+// triangles that are not due, before or after, cannot be improved by any point. `steiner_points` and `unresolved` stay
+// empty. Throws Cancelled.
 RefineStats refineSubmesh(MeshState& state, const Pslg& pslg, const RefineOptions& options, bool mends,
                           const RunControl& control = {});
 

@@ -109,6 +109,29 @@ TEST_P(InRounds, KeepsToTheBudgetOfVertices) {
   }
 }
 
+// Shares of the budget that some pieces do not need are used by others.
+TEST_P(InRounds, UsesTheBudgetWhereverItIsNeeded) {
+  Case c = GetParam();
+  const auto refined = [&](TriMesh& mesh) {
+    RoundsWorkspace workspace;
+    RoundsReport report;
+    mesh = constrainedDelaunay(c.pslg);
+    withThreads({.threads = 2},
+                [&] { report = refineInRounds(mesh, c.pslg, c.options, notesOf(mesh, c), {}, workspace); });
+    return report;
+  };
+  TriMesh mesh;
+  refined(mesh);
+  const auto needed = static_cast<double>(mesh.points.size());
+  for (const double share : {0.99, 1.0, 1.003, 1.01, 1.03}) {
+    c.options.max_vertices = static_cast<std::uint64_t>(share * needed);
+    const RoundsReport report = refined(mesh);
+    EXPECT_LE(mesh.points.size(), c.options.max_vertices);
+    EXPECT_TRUE(report.stats.budget_reached || findBoundViolations(mesh, c.options).empty()) << share;
+    EXPECT_FALSE(share > 1.02 && report.stats.budget_reached);
+  }
+}
+
 TEST_P(InRounds, EndsWhereTheBoundIsOutOfReach) {
   Case c = GetParam();
   c.options.min_angle_deg = 44.5;
