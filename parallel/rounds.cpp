@@ -409,7 +409,8 @@ RoundsReport refineInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions
   MeshState& whole = run.whole();
   whole.notes = std::move(notes);
   const std::optional<RoundPlace> before = run.goOn();
-  if (!before && wantsSplitSegments(whole.mesh, options)) splitSegments(whole.mesh, pslg, whole.notes, options);
+  if (!before && wantsSplitSegments(whole.mesh, options))
+    run.stats().segment_splits += splitSegments(whole.mesh, pslg, whole.notes, options);
   const RoundPlace from = before.value_or(RoundPlace{});
   for (std::uint32_t step = from.step; step < steps.size(); ++step) {
     refineStep(run, pslg, steps[step], step == from.step ? static_cast<int>(from.round) : 0, step == 0,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -19,7 +20,7 @@ namespace {
 // Neither labels regions nor lists unresolved triangles.
 RefineStats refineOnce(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, VertexNotes notes,
                        const RefineVariant& variant, const RunControl& control) {
-  if (wantsSplitSegments(mesh, options)) splitSegments(mesh, pslg, notes, options);
+  const std::uint64_t splits = wantsSplitSegments(mesh, options) ? splitSegments(mesh, pslg, notes, options) : 0;
   RefineRun run(std::move(mesh), pslg, options, std::move(notes), variant);
   refineAll(run, control);
   if (options.algorithm == Algorithm::Relocate) {
@@ -27,6 +28,7 @@ RefineStats refineOnce(TriMesh& mesh, const Pslg& pslg, const RefineOptions& opt
     repair(run, control);
   }
   mesh = releaseMesh(run);
+  run.stats.segment_splits += splits;
   return std::move(run.stats);
 }
 

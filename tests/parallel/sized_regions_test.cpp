@@ -66,6 +66,20 @@ TEST_P(SizedRegion, ProgressRises) {
   }
 }
 
+TEST_P(SizedRegion, SplitsOfSegmentsCount) {
+  const Pslg square = squarePslg();
+  for (const bool one_piece : {false, true}) {
+    MeshOptions options = this->options();
+    options.one_piece = one_piece;
+    options.coarsen = false;
+    const MeshedRegion region = meshed(square, options, 2);
+    std::size_t on_segments = 0;
+    const auto isOnSide = [](double x) { return x == 0.0 || x == 1.0; };
+    for (const Point& p : region.mesh.points) on_segments += isOnSide(p.x) || isOnSide(p.y);
+    EXPECT_GE(region.stats.segment_splits, on_segments - square.points.size());
+  }
+}
+
 TEST_P(SizedRegion, ThreadsChangeNoBit) {
   const std::uint64_t digest = digestOf(meshed(pslg_, options(), 1).mesh);
   for (const int threads : {2, 3}) EXPECT_EQ(digestOf(meshed(pslg_, options(), threads).mesh), digest) << threads;
