@@ -7,8 +7,8 @@
 #include <iterator>
 #include <limits>
 #include <optional>
+#include <span>
 #include <sstream>
-#include <tuple>
 
 #include "apps/job/places.hpp"
 #include "apps/job/step_outcome.hpp"
@@ -51,28 +51,35 @@ Point centreOf(const Pslg& pslg) {
   return {low.x + (high.x - low.x) / 2, low.y + (high.y - low.y) / 2};
 }
 
-// Smallest and largest value of a scale, `Projection::scaleAt` or `measureAt`, at a sample of the points: a scale is
-// largest on the boundary of what is mapped.
-std::pair<double, double> scaleRange(const Domain& domain, double (Projection::*scale_at)(const Point&) const) {
+using ScaleAt = double (Projection::*)(const Point&) const;
+
+// Smallest and largest value of a scale, `Projection::scaleAt` or `measureAt`, at a sample of the points.
+std::pair<double, double> scaleRange(std::span<const Point> points, const Projection& projection, ScaleAt scale_at) {
   constexpr std::size_t kLeastSample = 16, kMostSample = 1024, kPointsForOne = 16;
-  const std::size_t count = domain.pslg.points.size();
   double least = std::numeric_limits<double>::infinity(), greatest = 0.0;
-  if (count == 0) return {(domain.projection.*scale_at)({}), (domain.projection.*scale_at)({})};
+  const std::size_t count = points.size();
   const std::size_t step =
       std::max<std::size_t>(1, count / std::clamp(count / kPointsForOne, kLeastSample, kMostSample));
   for (std::size_t i = 0; i < count; i += step) {
-    const double scale = (domain.projection.*scale_at)(domain.pslg.points[i]);
+    const double scale = (projection.*scale_at)(points[i]);
     least = std::min(least, scale);
     greatest = std::max(greatest, scale);
   }
   return {least, greatest};
 }
 
+// Extends the reported range of scales by those at the points.
+void addScales(std::span<const Point> points, const Projection& projection, GroupResult& result) {
+  const auto [least, greatest] = scaleRange(points, projection, &Projection::scaleAt);
+  result.least_scale = std::min(result.least_scale, least);
+  result.greatest_scale = std::max(result.greatest_scale, greatest);
+}
+
 // Smallest and largest measure in the domain, its centre included: in a conformal plane that is fitted to it, the
 // measure is smallest there.
 std::pair<double, double> measureRange(const Domain& domain) {
   const double centre = domain.projection.measureAt(centreOf(domain.pslg));
-  const auto [least, greatest] = scaleRange(domain, &Projection::measureAt);
+  const auto [least, greatest] = scaleRange(domain.pslg.points, domain.projection, &Projection::measureAt);
   return {std::min(centre, least), std::max(centre, greatest)};
 }
 
@@ -291,7 +298,9 @@ Domain cleanStage(const GroupTask& task, GroupResult& result) {
   result.projection = domain.projection.description();
   result.projection_reason = domain.projection.reason();
   result.surface = task.input.surfaceOf(domain.projection);
-  std::tie(result.least_scale, result.greatest_scale) = scaleRange(domain, &Projection::scaleAt);
+  constexpr Point kMiddle{};
+  addScales(domain.pslg.points.empty() ? std::span(&kMiddle, 1) : std::span(domain.pslg.points), domain.projection,
+            result);
   result.input_area_m2 = task.input.area(domain, loop);
   result.clean_s = stopwatch.seconds();
   result.log.append(recorder.finish("clean"));
@@ -489,6 +498,8 @@ void fillGroup(const GroupTask& task, GroupResult& result) {
   const RefineOptions asked = options.refine;
   task.control.checkpoint(kMeshing.from);
   MeshedRegion region = meshStage(task, domain, std::move(options), result);
+  // Away from the shore, a scale may be smaller than anywhere on it. Of a globe, the plane has no bounded part.
+  if (!domain.closed()) addScales(region.mesh.points, domain.projection, result);
   LoopsAfterMeshing loops(region, task.control);
   GroundPlaces ground = domain.projection.groundPlaces(region.mesh.points, loops.of("check"));
   checkStage(task, domain, asked, region, ground.space, loops.of("check"), result);

@@ -13,8 +13,9 @@ struct GroupResult {
   std::vector<Edit> edit_places;  // if the job keeps them
   std::string projection;
   std::string projection_reason;
-  SurfaceKind surface = SurfaceKind::Plane;        // on which `quality` and `short_of` are measured
-  double least_scale = 1.0, greatest_scale = 1.0;  // plane length over true length, at the vertices
+  SurfaceKind surface = SurfaceKind::Plane;  // on which `quality` and `short_of` are measured
+  // Plane length over true length, at vertices of the input and of the mesh.
+  double least_scale = std::numeric_limits<double>::infinity(), greatest_scale = 0.0;
   RefineStats refine;
   Shortfall short_of;
   MeshQuality quality;
