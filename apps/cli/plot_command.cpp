@@ -69,8 +69,8 @@ int runPlot(PlotUsage& usage, Run& run) {
       plotPage(grid, in_page, path);
     else if (globe)
       plotGlobe(grid, usage.plot, *globe, path);
-    else
-      plotMesh(grid, usage.plot, path);
+    else if (const std::string note = plotMeshOrGlobe(grid, usage.plot, path); !note.empty())
+      run.warn(note);
   });
   outputs.commit();
   return kExitDone;
@@ -94,7 +94,8 @@ Command declarePlot(CLI::App& root) {
       "part to show, in the mesh's CRS; default: the whole mesh");
   table.text(
       {"--view", "View"}, usage->view, "VIEW",
-      "plane: a conformal projection fitted to the mesh; orthographic=LON,LAT: a globe seen from above that point "
+      "plane: a conformal projection fitted to the mesh; for a mesh of most of the Earth without --bbox the same as "
+      "orthographic; orthographic=LON,LAT: a globe seen from above that point "
       "(default: the middle of the mesh); natural-earth=LON: a world map centred on that longitude (default: 0)");
   const auto on_plane = [usage = usage.get()] { return usage->view == "plane"; };
   table.option("--bbox").needs(on_plane, "with a globe as --view");

@@ -31,4 +31,8 @@ LonLat middleOnGlobe(const Grid& grid, const std::vector<SphereVector>& places);
 // a mesh in a plane.
 void plotGlobe(const Grid& grid, const PlotOptions& options, const GlobeView& view, const std::string& path);
 
+// Draws the grid in a plane like `plotMesh`. If it is too large for one, draws it on a globe from far above its middle,
+// and returns a note on that; otherwise returns nothing.
+std::string plotMeshOrGlobe(const Grid& grid, const PlotOptions& options, const std::string& path);
+
 }  // namespace coastmesh

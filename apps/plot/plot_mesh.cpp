@@ -12,6 +12,7 @@
 
 #include "apps/job/grid_pieces.hpp"
 #include "apps/plot/mesh_shape.hpp"
+#include "apps/plot/plot_box.hpp"
 #include "apps/plot/plot_canvas.hpp"
 #include "apps/plot/plot_lines.hpp"
 #include "apps/plot/plot_style.hpp"
@@ -71,27 +72,17 @@ Window windowOf(const GridPiece& piece, const PlotOptions& options) {
   return window;
 }
 
-// The triangles that the picture may show; the plane is fitted to these alone. The box is in the grid's CRS, the
-// picture in the plane, where it reaches further at its corners.
-std::vector<std::uint32_t> trianglesIn(const Grid& grid, const PlotOptions& options) {
-  constexpr double kReach = 0.3;  // of the box's sides
-  bool any = false;               // in the box itself
-  std::vector<std::uint32_t> shown;
-  for (std::uint32_t t = 0; t < grid.triangles.size(); ++t) {
-    Window extent;
-    for (std::uint32_t node : grid.triangles[t]) extent.add(grid.nodes[node]);
-    if (options.bbox) {
-      const auto& [west, south, east, north] = *options.bbox;
-      any = any || (extent.high.x >= west && extent.low.x <= east && extent.high.y >= south && extent.low.y <= north);
-      const double reach_x = kReach * (east - west);
-      const double reach_y = kReach * (north - south);
-      if (extent.high.x < west - reach_x || extent.low.x > east + reach_x) continue;
-      if (extent.high.y < south - reach_y || extent.low.y > north + reach_y) continue;
-    }
-    shown.push_back(t);
+// True if the plane's scale differs by more than this factor: in a mesh that reaches more than 120 degrees from its
+// middle.
+bool isTooLargeForAPlane(const GridPiece& piece) {
+  constexpr double kMostScales = 4.0;
+  if (piece.places.empty()) return false;
+  double least = std::numeric_limits<double>::infinity(), greatest = 0.0;
+  for (const Point& p : piece.mesh.points) {
+    const double scale = piece.projection.scaleAt(p);
+    least = std::min(least, scale), greatest = std::max(greatest, scale);
   }
-  if (options.bbox && !any) shown.clear();
-  return shown;
+  return greatest > kMostScales * least;
 }
 
 // "12.5 km" of a length in metres; bare numbers in a plane without a place on Earth.
@@ -188,7 +179,7 @@ class MeshPlot {
       case PlotColor::Piece:  // stored as regions: see `plotMesh`
         return featureColor(static_cast<std::size_t>(std::max(0, mesh_.regions[t])));
       case PlotColor::Size:
-        return rampColor((std::log(area(t)) - least_log_area_) / std::max(1e-12, most_log_area_ - least_log_area_));
+        return rampColor((log_areas_[t] - least_log_area_) / std::max(1e-12, most_log_area_ - least_log_area_));
       case PlotColor::Region:
         return featureColor(parts_[t]);
       case PlotColor::Depth: {
@@ -250,11 +241,21 @@ class MeshPlot {
     parts_ = partsOf(mesh_);
   }
 
+  // On the ground: the plane's scale varies over a large mesh.
+  double logArea(TriId t) const {
+    const auto& v = mesh_.triangles[t].v;
+    const Point middle = centroid(mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]]);
+    return std::log(area(t)) - 2.0 * std::log(piece_.projection.scaleAt(middle));
+  }
+
   // The range of colours: log areas of the triangles shown, without the smallest 2 %.
   void findAreas() {
     std::vector<double> shown;
+    log_areas_.assign(mesh_.triangles.size(), 0.0);
     for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
-      if (area(t) > 0.0 && shows(t)) shown.push_back(std::log(area(t)));
+      if (!shows(t)) continue;
+      log_areas_[t] = logArea(t);
+      if (area(t) > 0.0) shown.push_back(log_areas_[t]);
     }
     if (shown.empty()) return;
     std::ranges::sort(shown);
@@ -433,8 +434,7 @@ class MeshPlot {
       high = "1 quality";
     }
     if (options_.color == PlotColor::Size) {
-      const double scale = piece_.projection.scaleAt(centre_);
-      const auto sideOf = [scale](double log_area) { return std::sqrt(std::exp(log_area) * 2.309) / scale; };
+      const auto sideOf = [](double log_area) { return std::sqrt(std::exp(log_area) * 2.309); };
       const auto rounded = [](double value) {
         const double power = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
         return std::round(value / power) * power;
@@ -467,6 +467,7 @@ class MeshPlot {
   std::vector<Point> pixels_;              // per point of the mesh
   std::vector<std::vector<Point>> loops_;  // the boundary
   Point centre_;                           // of the window, in the plane
+  std::vector<double> log_areas_;          // per triangle, if shown as sizes; square metres
   double least_log_area_ = 0.0;
   double most_log_area_ = 0.0;
   double lowest_z_ = 0.0;  // metres, of the triangles shown
@@ -504,19 +505,21 @@ void requirePlotFormat(const std::string& path) {
   }
 }
 
-void plotMesh(const Grid& grid, const PlotOptions& options, const std::string& path) {
+bool plotMesh(const Grid& grid, const PlotOptions& options, const std::string& path) {
   requirePlotFormat(path);
   requireColors(grid, options);
-  std::vector<std::uint32_t> shown = trianglesIn(grid, options);
+  std::vector<std::uint32_t> shown = trianglesIn(grid, options.bbox);
   if (shown.empty()) throw InputError("the mesh has no triangle in the box asked for");
   const Projection projection = fitProjection(grid, shown);
   GridPiece piece = makePiece(grid, std::move(shown), projection, LineEdges(grid));
+  if (!options.bbox && isTooLargeForAPlane(piece)) return false;
   if (options.color == PlotColor::Piece) {
     for (std::size_t t = 0; t < piece.triangles.size(); ++t)
       piece.mesh.regions[t] = static_cast<RegionId>(grid.piece_of[piece.triangles[t]]);
   }
   const Window window = windowOf(piece, options);
   MeshPlot(grid, piece, options, window, path).draw();
+  return true;
 }
 
 }  // namespace coastmesh

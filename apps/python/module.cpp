@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/plot/plot_mesh.hpp"
+#include "apps/plot/plot_globe.hpp"
 #include "apps/plot/plot_page.hpp"
 #include "apps/python/arrays.hpp"
 #include "apps/python/pickle.hpp"
@@ -107,7 +107,7 @@ void plotFile(const MeshResult& mesh, const std::string& path, const std::string
     if (page)
       plotPage(mesh.grid, in_page, aside);
     else
-      plotMesh(mesh.grid, options, aside);
+      plotMeshOrGlobe(mesh.grid, options, aside);
   });
   picture.commit();
 }

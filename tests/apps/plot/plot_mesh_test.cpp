@@ -14,8 +14,12 @@
 #include <memory>
 #include <set>
 
+#include "apps/plot/plot_globe.hpp"
+#include "apps/plot/plot_style.hpp"
 #include "apps/usage/command_line.hpp"
 #include "gis/error.hpp"
+#include "tests/gis/globe_samples.hpp"
+#include "tests/support/gis_shapes.hpp"
 
 namespace coastmesh {
 
@@ -23,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class PlotMesh : public testing::Test {
+class PlotMesh : public ::testing::Test {
  protected:
   PlotMesh() {
     std::string name = (fs::temp_directory_path() / "coastmesh-plot-XXXXXX").string();
@@ -32,6 +36,11 @@ class PlotMesh : public testing::Test {
   ~PlotMesh() override { fs::remove_all(folder_); }
 
   std::string file(const std::string& name) const { return (folder_ / name).string(); }
+
+  std::string textOf(const std::string& name) const {
+    std::ifstream stream(file(name));
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
 
   // `n` by `n` squares of two triangles each, in a plane.
   static Grid board(std::uint32_t n) {
@@ -49,6 +58,25 @@ class PlotMesh : public testing::Test {
     return grid;
   }
 
+  std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> drawn(const Grid& grid, const PlotOptions& options) {
+    plotMesh(grid, options, file("a.png"));
+    return {cairo_image_surface_create_from_png(file("a.png").c_str()), cairo_surface_destroy};
+  }
+
+  // The colour of the pixel in the middle of the map.
+  std::uint32_t colorInTheMiddle(const Grid& grid, PlotColor color) {
+    PlotOptions options;
+    options.color = color;
+    options.size_px = 400;
+    options.edges = false;
+    const auto picture = drawn(grid, options);
+    const int x = cairo_image_surface_get_width(picture.get()) / 2;
+    const int y = (cairo_image_surface_get_height(picture.get()) - static_cast<int>(kStripPx)) / 2;
+    const unsigned char* row =
+        cairo_image_surface_get_data(picture.get()) + y * cairo_image_surface_get_stride(picture.get());
+    return reinterpret_cast<const std::uint32_t*>(row)[x] & 0xffffff;
+  }
+
   // The colours of all pixels of the map, each as 0xRRGGBB.
   std::set<std::uint32_t> colors(const Grid& grid, PlotColor color, std::uint64_t size, bool degrees = false) {
     PlotOptions options;
@@ -56,9 +84,7 @@ class PlotMesh : public testing::Test {
     options.size_px = size;
     options.edges = false;
     options.degrees = degrees;
-    plotMesh(grid, options, file("a.png"));
-    const std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> picture(
-        cairo_image_surface_create_from_png(file("a.png").c_str()), cairo_surface_destroy);
+    const std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> picture = drawn(grid, options);
     const int stride = cairo_image_surface_get_stride(picture.get());
     std::set<std::uint32_t> found;
     // The longer side of the map has `size` pixels; the legend is below the map.
@@ -118,6 +144,37 @@ TEST_F(PlotMesh, DepthColorsByHeightAndNeedsOne) {
   EXPECT_GE(colors(grid, PlotColor::Depth, 100).size(), 4u);
   grid.z.assign(grid.nodes.size(), std::numeric_limits<double>::quiet_NaN());
   EXPECT_THROW(colors(grid, PlotColor::Depth, 100), InputError);
+}
+
+// In the plane of the picture, the triangles at the corners are the larger ones.
+TEST_F(PlotMesh, SizesAreThoseOnTheGround) {
+  constexpr std::uint32_t kLargest = 0x2e7da8;
+  Grid grid;
+  grid.crs = wgs84();
+  const auto add = [&](const Point& middle, double size_deg) {
+    const double stretch = 1.0 / std::cos(middle.y * M_PI / 180.0);
+    const auto first = static_cast<std::uint32_t>(grid.nodes.size());
+    for (const Point& p : {Point{-0.5, -0.3}, Point{0.5, -0.3}, Point{0.0, 0.6}})
+      grid.nodes.push_back({middle.x + size_deg * stretch * p.x, middle.y + size_deg * p.y});
+    grid.triangles.push_back({first, first + 1, first + 2});
+  };
+  add({0.0, 0.0}, 6.0);
+  for (const double x : {-25.0, 25.0})
+    for (const double y : {-25.0, 25.0}) add({x, y}, 5.8);
+  EXPECT_TRUE(holds({colorInTheMiddle(grid, PlotColor::Size)}, kLargest));
+}
+
+TEST_F(PlotMesh, ATooLargeMeshIsDrawnOnAGlobe) {
+  const auto all = [](const testing::SpaceVector&) { return true; };
+  const Grid globe = testing::octahedralGlobe(3, all);
+  const PlotOptions options;
+  EXPECT_FALSE(plotMesh(globe, options, file("plane.png")));
+  const std::string note = plotMeshOrGlobe(globe, options, file("plane.png"));
+  EXPECT_NE(note.find("--view orthographic"), std::string::npos) << note;
+  plotGlobe(globe, options, {}, file("globe.png"));
+  EXPECT_TRUE(textOf("plane.png") == textOf("globe.png"));
+  const auto is_northern = [](const testing::SpaceVector& place) { return place[2] > 0.0; };
+  EXPECT_EQ(plotMeshOrGlobe(testing::octahedralGlobe(3, is_northern), options, file("half.png")), "");
 }
 
 // Blue is the end of the scale, reached only by equilateral triangles; halves of squares have 0.87.
@@ -192,8 +249,7 @@ TEST_F(PlotMesh, VeryManyTrianglesMakeASmallVectorDrawing) {
   options.size_px = 400;
   plotMesh(board(300), options, file("many.svg"));
   EXPECT_LT(fs::file_size(file("many.svg")), 3'000'000u);
-  std::ifstream stream(file("many.svg"));
-  const std::string text((std::istreambuf_iterator<char>(stream)), {});
+  const std::string text = textOf("many.svg");
   EXPECT_NE(text.find("<image"), std::string::npos);
   EXPECT_NE(text.find("</svg>"), std::string::npos);
 }
