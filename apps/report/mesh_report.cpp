@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <numeric>
 
+#include "apps/job/places.hpp"
 #include "apps/report/partition_report.hpp"
 #include "apps/report/report_sections.hpp"
 #include "apps/report/step_sections.hpp"
@@ -287,7 +288,9 @@ std::string meshSummary(const MeshJob& job, const MeshJobResult& result) {
     std::snprintf(bound, sizeof bound, asked.max_angle_deg < 180.0 ? "%g to %g degrees" : "at least %g degrees",
                   asked.min_angle_deg, asked.max_angle_deg);
     text += grouped(result.short_of.count) + forCount(result.short_of.count, " triangle misses", " triangles miss") +
-            " a requirement (" + bound + ")\n";
+            " a requirement (" + bound;
+    if (std::isfinite(job.sizes.most_m) && !job.sizes.any()) text += amount(", --size-max %g", job.sizes.most_m);
+    text += ")\n";
   }
   text += stepText(result.step.step, result.crs.isPlane()) + "\n";
   const auto isOpenRing = [](const Boundary& boundary) {

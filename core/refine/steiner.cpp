@@ -81,8 +81,12 @@ SteinerPoint SteinerSearch::find(const EditMesh& mesh, TriId t, unsigned apex) {
   // where lengths grow away from it, as beside every shore.
   const Point centre = 0.5 * q + 0.5 * kInverseRootOfThree * Point{-q.y, q.x};
   const double wanted = bound_.size == nullptr ? 0.0 : scale_ * bound_.size->at(frame.absolute(centre));
+  // On the circumcircle itself, rounding decides whether a point removes the triangle, which would not be tried again if
+  // its angles are good enough. Where vertices move as well, such triangles do not last.
+  constexpr double kClearlyInside = 1.0 - 1e-6;
+  const bool stays_inside = algorithm_ == Algorithm::Optimal && !bad_angle;
   const double circumradius = std::sqrt(squaredLength(own));
-  const double radius = petalRadius(length, circumradius, wanted, bound_,
+  const double radius = petalRadius(length, stays_inside ? kClearlyInside * circumradius : circumradius, wanted, bound_,
                                     sineInFrame(sin_place_, length, bound_, bound_.surface), bad_angle);
   const double height = std::sqrt(std::max(0.0, radius * radius - 0.25 * length * length));
   // Type I if the circumcentre is outside the petal; both are on the bisector of pq.

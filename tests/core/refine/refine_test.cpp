@@ -17,6 +17,7 @@
 #include "tests/support/excused_twin.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/mesh_figures.hpp"
+#include "tests/support/pslg_parts.hpp"
 #include "tests/support/pslgs.hpp"
 
 namespace coastmesh {
@@ -206,6 +207,18 @@ TEST(Refine, HopelessBoundsEnd) {
     for (int rays = 2; rays < 5; ++rays)
       for (const double angle : {25.0, 33.0, 38.0, 44.0})
         expectEnd(fanOfAngles(rays, step_deg), {.min_angle_deg = angle});
+}
+
+// The petal of a triangle with the angle aimed at has the triangle's own circumcircle, up to rounding.
+TEST(Refine, OptimalReachesTheLongestEdge) {
+  for (const double width : {60.0, 63.0, 66.0, 67.0}) {
+    Pslg pslg;
+    addRing(pslg, {{0.0, 0.0}, {width, 0.0}, {width, 67.0}, {0.0, 67.0}}, kUnlabelled, kUnlabelled);
+    const RefineOptions options{.size_max = 2.5, .algorithm = Algorithm::Optimal};
+    const Refined result = refined(pslg, options);
+    expectRefined(result.mesh, pslg, options, result.stats);
+    EXPECT_TRUE(result.stats.unresolved.empty()) << width;
+  }
 }
 
 TEST(Refine, BudgetJustEnoughIsNotReached) {
