@@ -29,15 +29,17 @@ const double kVerticesPerArea = 2.0 / std::sqrt(3.0);
 
 class Shores {
  public:
-  explicit Shores(const Pslg& pslg) : pslg_(pslg) {
+  Shores(const Pslg& pslg, bool labelled) : pslg_(pslg) {
     std::vector<Box> boxes;
     for (const Segment& s : pslg.segments) {
-      if (s.tag == kOpenTag) continue;
+      if (s.tag == kOpenTag || (labelled && !hasLandOnOneSide(s))) continue;
       shores_.push_back(s);
       boxes.push_back(Box::of(pslg.points[s.a], pslg.points[s.b]));
     }
     tree_ = BoxTree(boxes, BoxTree::Order::Hilbert);
   }
+
+  const std::vector<Segment>& segments() const { return shores_; }
 
   // The place on the shore that is nearest to x and within `radius`; nullopt if there is none.
   std::optional<Point> nearest(const Point& x, double radius) const {
@@ -111,6 +113,7 @@ std::vector<Fan> capesOf(const Pslg& pslg, bool labelled) {
   std::vector<End> ends;
   ends.reserve(2 * pslg.segments.size());
   for (const Segment& s : pslg.segments) {
+    if (labelled && !hasLandOnOneSide(s)) continue;
     const Point d = pslg.points[s.b] - pslg.points[s.a];
     const bool shore = s.tag != kOpenTag;
     ends.push_back({s.a, std::atan2(d.y, d.x), !labelled || s.left >= 0, shore});
@@ -138,7 +141,8 @@ class ChannelSearch {
   ChannelSearch(const Pslg& pslg, double elements, double rate, double least_m, double most_m,
                 const std::function<double(const Point&)>& scale, const ChannelRoom& room, const Surface& surface)
       : pslg_(pslg),
-        shores_(pslg),
+        labelled_(isLabelled(pslg)),
+        shores_(pslg, labelled_),
         elements_(elements),
         rate_(rate),
         least_m_(least_m),
@@ -150,24 +154,21 @@ class ChannelSearch {
   }
 
   ChannelLines run() {
-    const bool labelled =
-        std::ranges::any_of(pslg_.segments, [](const Segment& s) { return s.left >= 0 || s.right >= 0; });
     // Capes first: the narrowest places are there.
-    for (const Fan& fan : capesOf(pslg_, labelled)) {
+    for (const Fan& fan : capesOf(pslg_, labelled_)) {
       if (isTooMuch()) break;
       roundCape(fan);
     }
     const double at_capes = found_.vertices;
     double whole = 0.0;
-    for (const Segment& s : pslg_.segments) {
-      if (s.tag == kOpenTag) continue;
+    for (const Segment& s : shores_.segments()) {
       const Point &a = pslg_.points[s.a], &b = pslg_.points[s.b];
-      whole += distance(a, b) * (labelled ? (s.left >= 0) + (s.right >= 0) : 2);
+      whole += distance(a, b) * (labelled_ ? 1 : 2);
       if (isTooMuch()) continue;
       const Point d = (1.0 / distance(a, b)) * (b - a);
       // Water on the left, on the right; without labels, on both sides.
-      if (!labelled || s.left >= 0) alongSide(a, b, {-d.y, d.x});
-      if (!labelled || s.right >= 0) alongSide(b, a, {d.y, -d.x});
+      if (!labelled_ || s.left >= 0) alongSide(a, b, {-d.y, d.x});
+      if (!labelled_ || s.right >= 0) alongSide(b, a, {d.y, -d.x});
     }
     found_.complete = !isTooMuch();
     if (!found_.complete && walked_ > 0.0) {
@@ -231,6 +232,7 @@ class ChannelSearch {
   }
 
   const Pslg& pslg_;
+  bool labelled_;
   Shores shores_;
   double elements_, rate_, least_m_, most_m_;
   const std::function<double(const Point&)>& scale_;

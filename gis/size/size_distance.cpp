@@ -262,12 +262,15 @@ void DistanceField::bound(std::span<const SizeBox> boxes, std::span<SizeRange> r
   }
 }
 
+bool isLabelled(const Pslg& pslg) {
+  return std::ranges::any_of(pslg.segments, [](const Segment& s) { return s.left >= 0 || s.right >= 0; });
+}
+
 std::vector<SizedLine> shoreLines(const Pslg& pslg, double size_m, double rate) {
-  const bool labelled =
-      std::ranges::any_of(pslg.segments, [](const Segment& s) { return s.left >= 0 || s.right >= 0; });
+  const bool labelled = isLabelled(pslg);
   std::vector<SizedLine> lines;
   for (const Segment& s : pslg.segments)
-    if (!labelled || (s.tag != kOpenTag && (s.left >= 0) != (s.right >= 0)))
+    if (!labelled || (s.tag != kOpenTag && hasLandOnOneSide(s)))
       lines.push_back({pslg.points[s.a], pslg.points[s.b], size_m, rate});
   return lines;
 }

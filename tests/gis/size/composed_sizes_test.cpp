@@ -112,6 +112,24 @@ TEST(ChannelLines, OpenWaterBesideOneCapeIsNone) {
   EXPECT_TRUE(channelLines(pslg, 4.0, 0.2, 0.01, 100.0, one).lines.empty());
 }
 
+// A line along the middle of a wide channel, as a constraint or the border of two regions, and a line from a cape.
+TEST(ChannelLines, LinesInTheWaterAndBordersAreNoShores) {
+  Pslg pslg = twoCapes(60.0);
+  const auto linesOf = [](const Pslg& p) { return channelLines(p, 4.0, 0.2, 0.01, 100.0, one).lines; };
+  const std::vector<SizedLine> without = linesOf(pslg);
+  pslg.points.insert(pslg.points.end(), {{-99.0, 49.0}, {99.0, 49.0}, {3.0, 0.0}});
+  pslg.segments.push_back({10, 11, kFirstLineTag, 0, 0});
+  pslg.segments.push_back({10, 11, 0, 1, 0});
+  pslg.segments.push_back({4, 12, kFirstLineTag, 0, 0});
+  const std::vector<SizedLine> with = linesOf(pslg);
+  ASSERT_EQ(with.size(), without.size());
+  for (std::size_t i = 0; i < with.size(); ++i) {
+    EXPECT_EQ(with[i].a, without[i].a);
+    EXPECT_EQ(with[i].b, without[i].b);
+    EXPECT_EQ(with[i].size_m, without[i].size_m);
+  }
+}
+
 TEST(ComposedSizes, ShoreDistanceInThePlane) {
   SizeOptions options;
   options.shore_m = 0.05;
