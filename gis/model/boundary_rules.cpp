@@ -102,9 +102,11 @@ double distanceToSegment(const Point& p, const Point& a, const Point& b, double 
   return std::hypot(px - t * dx, py - t * dy);
 }
 
+constexpr double kTurn = 360.0;
+
 // Shifts to try, in degrees: longitudes of edge and layer may be in different turns.
 std::vector<double> turnsToTry(bool geographic) {
-  return geographic ? std::vector<double>{0.0, -360.0, 360.0} : std::vector<double>{0.0};
+  return geographic ? std::vector<double>{0.0, -kTurn, kTurn} : std::vector<double>{0.0};
 }
 
 }  // namespace
@@ -179,8 +181,10 @@ class BoundaryRules::Layer {
     const bool geographic = !crs.isPlane() && (crs_ ? crs_->geographic : crs.geographic);
     const std::vector<double> turns = turnsToTry(geographic);
     for (std::size_t e = 0; e < edges.size(); ++e) {
-      const Point a = place(edges[e][0]), b = place(edges[e][1]);
+      const Point a = place(edges[e][0]);
+      Point b = place(edges[e][1]);
       if (!std::isfinite(a.x + a.y + b.x + b.y)) continue;
+      if (geographic) b.x = a.x + std::remainder(b.x - a.x, kTurn);
       std::optional<std::size_t> last;
       for (const double turn : turns) {
         const PlacedEdge edge{{a.x + turn, a.y}, {b.x + turn, b.y}, share.empty() ? 1.0 : share[e]};

@@ -113,6 +113,21 @@ TEST(BoundaryRules, OfLinesAndPolygonsOfAnInputTheLastCounts) {
   EXPECT_EQ(kindsOfTwo(rules), (Kinds{BoundaryKind{BoundaryRole::Land, 10}, kRiver}));
 }
 
+// From 179.9 to -179.9, in a polygon or along a line of which longitudes go on to 181; the third edge is at 0.
+TEST(BoundaryRules, AnEdgeAcrossTheAntimeridianHasItsMiddleThere) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "rules.geojson";
+  for (const char* geometry :
+       {R"({"type":"LineString","coordinates":[[179,60],[181,60]]})",
+        R"({"type":"Polygon","coordinates":[[[179,59],[181,59],[181,61],[179,61],[179,59]]]})"}) {
+    std::ofstream(path) << R"({"type":"Feature","properties":{"kind":"open"},"geometry":)" << geometry << "}";
+    const std::vector<Point> places{{179.9, 60}, {-179.9, 60}, {0.1, 60}, {-0.1, 60}};
+    const Kinds kinds =
+        BoundaryRules::ofFile(path, "").kindsOf(wgs84(), places, {{0, 1}, {1, 0}, {2, 3}}, {true, true, true});
+    EXPECT_EQ(kinds, (Kinds{kOpen, kOpen, std::nullopt})) << geometry;
+  }
+}
+
 TEST(BoundaryRules, AnInputDefinesNothingUnlessItsColumnIsGiven) {
   RawLayer layer = layerOf(FeatureUse::Area);
   addPolygon(layer, "type", "reed", kSquare);  // a lake's column of this name may well contain this
