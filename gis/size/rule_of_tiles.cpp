@@ -1,6 +1,7 @@
 #include "gis/size/rule_of_tiles.hpp"
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "gis/error.hpp"
@@ -28,6 +29,19 @@ TileRule rawRule() {
       }};
 }
 
+// The smallest size wherever the raster has a value: smaller than any pixel, so that a tile keeps them apart.
+TileRule knownRule() {
+  constexpr float kLeast = std::numeric_limits<float>::min();
+  return {
+      0.0, [](const RasterTile& tile, std::span<float> sizes) {
+        for (int y = 0; y < tile.height; ++y)
+          for (int x = 0; x < tile.width; ++x)
+            if (!std::isnan(tile.at(x, y)))
+              sizes[static_cast<std::size_t>(y) * static_cast<std::size_t>(tile.width) + static_cast<std::size_t>(x)] =
+                  kLeast;
+      }};
+}
+
 }  // namespace
 
 TileRule tileRuleOf(const SizeRule& rule) {
@@ -36,6 +50,8 @@ TileRule tileRuleOf(const SizeRule& rule) {
       return depthRule(rule.depths);
     case SizeRule::Kind::Step:
       return courantRule(rule.time_step_s, rule.courant, rule.depths);
+    case SizeRule::Kind::Known:
+      return knownRule();
     default:
       return rawRule();
   }

@@ -202,11 +202,17 @@ void RasterField::bound(std::span<const SizeBox> boxes, std::span<SizeRange> ran
 
 void FirstOfFields::sample(std::span<const Point> places, std::span<double> sizes) const {
   std::ranges::fill(sizes, kInfinity);
-  std::vector<double> own(places.size());
-  for (const auto& field : fields_) {
-    field->sample(places, own);
-    for (std::size_t i = 0; i < sizes.size(); ++i)
-      if (!std::isfinite(sizes[i])) sizes[i] = own[i];
+  std::vector<double> own(places.size()), known(coverage_.empty() ? 0 : places.size());
+  std::vector<char> settled(places.size(), 0);
+  for (std::size_t f = 0; f < fields_.size(); ++f) {
+    fields_[f]->sample(places, own);
+    if (!coverage_.empty()) coverage_[f]->sample(places, known);
+    const std::vector<double>& covers = coverage_.empty() ? own : known;
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      if (settled[i] != 0 || !std::isfinite(covers[i])) continue;
+      sizes[i] = own[i];
+      settled[i] = 1;
+    }
   }
 }
 
@@ -218,15 +224,17 @@ double FirstOfFields::least() const {
 
 void FirstOfFields::bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const {
   std::ranges::fill(ranges, SizeRange{kInfinity, kInfinity});
-  std::vector<SizeRange> own(boxes.size());
+  std::vector<SizeRange> own(boxes.size()), known(coverage_.empty() ? 0 : boxes.size());
   // The part of a box covered by the fields so far.
   enum class Seen : char { Nothing, Part, All };
   std::vector<Seen> seen(boxes.size(), Seen::Nothing);
-  for (const auto& field : fields_) {
-    field->bound(boxes, own);
+  for (std::size_t f = 0; f < fields_.size(); ++f) {
+    fields_[f]->bound(boxes, own);
+    if (!coverage_.empty()) coverage_[f]->bound(boxes, known);
+    const std::vector<SizeRange>& covers = coverage_.empty() ? own : known;
     for (std::size_t i = 0; i < ranges.size(); ++i) {
-      if (seen[i] == Seen::All || own[i].low == kInfinity) continue;
-      const bool all = std::isfinite(own[i].high);
+      if (seen[i] == Seen::All || covers[i].low == kInfinity) continue;
+      const bool all = std::isfinite(covers[i].high);
       ranges[i] = {std::min(ranges[i].low, own[i].low), all && seen[i] == Seen::Nothing ? own[i].high : kInfinity};
       seen[i] = all ? Seen::All : Seen::Part;
     }

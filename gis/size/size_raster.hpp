@@ -46,17 +46,21 @@ class RasterField final : public SizeField {
   double least_ = std::numeric_limits<double>::infinity();
 };
 
-// The first of several fields with a value is used.
+// At each place the first of several fields that covers it is used. A field covers the places where its coverage, a
+// field too, is finite; without coverages, those where it is finite itself.
 class FirstOfFields final : public SizeField {
  public:
-  explicit FirstOfFields(std::vector<std::unique_ptr<SizeField>> fields) : fields_(std::move(fields)) {}
+  using Fields = std::vector<std::unique_ptr<SizeField>>;
+  // REQUIRES: `coverage` is empty, or has one for each field.
+  explicit FirstOfFields(Fields fields, Fields coverage = {})
+      : fields_(std::move(fields)), coverage_(std::move(coverage)) {}
 
   void sample(std::span<const Point> places, std::span<double> sizes) const override;
   void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const override;
   double least() const override;
 
  private:
-  std::vector<std::unique_ptr<SizeField>> fields_;
+  Fields fields_, coverage_;
 };
 
 }  // namespace coastmesh

@@ -54,7 +54,8 @@ struct SizeRule {
   enum class Kind : unsigned char {
     Raw,     // values are sizes
     Depths,  // see `depthRule`
-    Step     // see `courantRule`
+    Step,    // see `courantRule`
+    Known    // see `knownRule`
   };
   Kind kind = Kind::Raw;
   DepthRules depths;

@@ -152,7 +152,12 @@ class ComposedSizes final : public SizeSource {
   std::unique_ptr<SizeField> floor_;  // what the time step allows
 };
 
-// A field for each rule; where several rasters overlap, the first is used.
+// True if the rule may request no size where a raster knows the depth.
+bool mayRequestNothing(const SizeRule& rule) {
+  return rule.kind == SizeRule::Kind::Depths && !(rule.depths.wave_elements > 0.0);
+}
+
+// A field for each rule; where several rasters overlap, the first with a value is used.
 std::vector<std::unique_ptr<SizeField>> rasterFields(const std::vector<RasterGeometry>& rasters,
                                                      const SizeInputs& inputs, const Projection& projection,
                                                      const Box& box, const std::vector<SizeRule>& rules,
@@ -160,14 +165,23 @@ std::vector<std::unique_ptr<SizeField>> rasterFields(const std::vector<RasterGeo
   std::vector<std::shared_ptr<const RasterFrame>> frames;
   for (const RasterGeometry& raster : rasters)
     frames.push_back(std::make_shared<RasterFrame>(raster, inputs.crs, projection, box, loop));
-  FrameTiles tiles = readFrames(frames, std::span(rules), inputs.readers, loop);
-  std::vector<std::unique_ptr<SizeField>> by_rule;
-  for (std::vector<std::vector<SizeTile>>& of_rule : tiles) {
-    std::vector<std::unique_ptr<SizeField>> fields;
+  std::vector<SizeRule> read = rules;
+  const bool needs_coverage = frames.size() > 1 && std::ranges::any_of(rules, mayRequestNothing);
+  if (needs_coverage) read.push_back({SizeRule::Kind::Known, {}, 0.0, 0.0});
+  FrameTiles tiles = readFrames(frames, std::span<const SizeRule>(read), inputs.readers, loop);
+  const auto fieldsOf = [&](std::vector<std::vector<SizeTile>> of_rule) {
+    FirstOfFields::Fields fields;
     for (std::size_t f = 0; f < frames.size(); ++f)
       fields.push_back(std::make_unique<RasterField>(frames[f], std::move(of_rule[f])));
+    return fields;
+  };
+  std::vector<std::unique_ptr<SizeField>> by_rule;
+  for (std::size_t r = 0; r < rules.size(); ++r) {
+    FirstOfFields::Fields fields = fieldsOf(std::move(tiles[r]));
     if (fields.size() == 1)
       by_rule.push_back(std::move(fields.front()));
+    else if (needs_coverage && mayRequestNothing(rules[r]))
+      by_rule.push_back(std::make_unique<FirstOfFields>(std::move(fields), fieldsOf(tiles.back())));
     else
       by_rule.push_back(std::make_unique<FirstOfFields>(std::move(fields)));
   }

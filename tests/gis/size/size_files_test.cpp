@@ -140,6 +140,29 @@ TEST_F(SizeFiles, TheFirstRasterThatCoversAPlaceCounts) {
   EXPECT_NEAR(size->at({15.0, 2.5}), 0.5, 0.01);
 }
 
+// The first raster is too deep for the band, or flat: that it requests nothing there does not make room for the second.
+TEST_F(SizeFiles, ADepthThatAsksForNothingCountsToo) {
+  const std::array<double, 6> west{0.0, 100.0, 0.0, 10000.0, 0.0, -100.0};
+  const std::string deep = raster("a.tif", 100, 100, west, 0, [](double, double) { return 300.0; });
+  const std::string steep = raster("b.tif", 200, 100, west, 0, [](double x, double) { return 5.0 + 1e-3 * x; });
+  const Domain domain = planeDomain(rectangle(20000.0, 10000.0));
+  for (const bool bands : {true, false}) {
+    SizeOptions options;
+    options.bathymetry = {deep, steep};
+    options.depth.positive_down = true;
+    if (bands)
+      options.depth.bands = {{0.0, 50.0, 500.0}};
+    else
+      options.depth.slope_elements = 200.0;
+    options.least_m = 50.0;
+    options.most_m = options.size_m = 2000.0;
+    options.gradation = 0.3;
+    const auto size = sizesIn(options, domain);
+    EXPECT_NEAR(size->at({2000.0, 5000.0}), 2000.0, 20.0) << bands;  // 8 km from the second raster's sizes
+    EXPECT_LT(size->at({15000.0, 5000.0}), 700.0) << bands;
+  }
+}
+
 TEST_F(SizeFiles, NoDataAsksForNothing) {
   SizeOptions options;
   options.size_m = 0.7;
