@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "gis/model/stored_tiles.hpp"
+#include "gis/raster/raster_turn.hpp"
 
 namespace coastmesh {
 namespace {
@@ -15,14 +16,14 @@ namespace {
 // A triangle in pixels, with unwrapped longitudes.
 using PixelTriangle = std::array<Point, 3>;
 
-std::optional<PixelTriangle> pixelTriangle(const RasterBand& raster, std::span<const Point> pixels,
+// `turn`: see `columnsOfTurn`.
+std::optional<PixelTriangle> pixelTriangle(double turn, std::span<const Point> pixels,
                                            const std::array<std::uint32_t, 3>& nodes) {
   PixelTriangle corners;
   for (unsigned i = 0; i < 3; ++i) {
     corners[i] = pixels[nodes[i]];
     if (!std::isfinite(corners[i].x) || !std::isfinite(corners[i].y)) return std::nullopt;
-    if (raster.period() > 0.0)
-      corners[i].x += raster.period() * std::round((corners[0].x - corners[i].x) / raster.period());
+    if (turn > 0.0) corners[i].x += turn * std::round((corners[0].x - corners[i].x) / turn);
   }
   return corners;
 }
@@ -77,7 +78,12 @@ struct Overlap {
 class AverageSampler {
  public:
   AverageSampler(const RasterBand& raster, const Grid& grid, std::span<const Point> pixels, const ItemLoop& loop)
-      : raster_(raster), grid_(grid), pixels_(pixels), loop_(loop), sums_(grid.triangles.size()) {}
+      : raster_(raster),
+        grid_(grid),
+        pixels_(pixels),
+        loop_(loop),
+        turn_(columnsOfTurn(raster.geometry(), grid.crs)),
+        sums_(grid.triangles.size()) {}
 
   void run(const std::vector<bool>& wanted, double least_pixels, const RunControl& control) {
     findOverlaps(wanted, least_pixels);
@@ -101,6 +107,13 @@ class AverageSampler {
   const Sum& sumOf(std::size_t triangle) const { return sums_[triangle]; }
 
  private:
+  std::optional<PixelTriangle> triangleOf(std::size_t t) const {
+    return pixelTriangle(turn_, pixels_, grid_.triangles[t]);
+  }
+
+  // True if the raster covers all longitudes, to half a pixel.
+  bool coversTurn() const { return turn_ > 0.0 && static_cast<double>(raster_.columns()) > turn_ - 0.5; }
+
   PixelBox boxOf(const PixelTriangle& corners, std::int64_t shift) const {
     const auto [west, east] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
     const auto [north, south] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
@@ -115,7 +128,7 @@ class AverageSampler {
 
   void findOverlaps(const std::vector<bool>& wanted, double least_pixels) {
     forEachByStretches(loop_, grid_.triangles.size(), [&](std::size_t t) {
-      if (const auto corners = pixelTriangle(raster_, pixels_, grid_.triangles[t])) sums_[t].pixels = areaOf(*corners);
+      if (const auto corners = triangleOf(t)) sums_[t].pixels = areaOf(*corners);
     });
     std::vector<double> pixels_round(grid_.nodes.size(), 0.0);
     for (std::size_t t = 0; t < grid_.triangles.size(); ++t)
@@ -126,13 +139,13 @@ class AverageSampler {
       for (std::size_t t = first; t < last; ++t) {
         const auto& nodes = grid_.triangles[t];
         if (std::ranges::none_of(nodes, counts)) continue;
-        const auto corners = pixelTriangle(raster_, pixels_, nodes);
+        const auto corners = triangleOf(t);
         if (!corners) continue;
         const auto number = static_cast<std::uint32_t>(t);
         addOverlaps(number, *corners, 0, some);
-        if (!raster_.wraps()) continue;
-        addOverlaps(number, *corners, raster_.columns(), some);
-        addOverlaps(number, *corners, -raster_.columns(), some);
+        if (!coversTurn()) continue;
+        addOverlaps(number, *corners, std::llround(turn_), some);
+        addOverlaps(number, *corners, -std::llround(turn_), some);
       }
       return some;
     }));
@@ -161,8 +174,7 @@ class AverageSampler {
                       std::min(box.bottom, whole.bottom)};
     };
     for (std::size_t k = begin; k < end; ++k) {
-      const PixelBox box =
-          inTile(overlaps_[k], *pixelTriangle(raster_, pixels_, grid_.triangles[overlaps_[k].triangle]));
+      const PixelBox box = inTile(overlaps_[k], *triangleOf(overlaps_[k].triangle));
       part = {std::min(part.left, box.left), std::max(part.right, box.right), std::min(part.top, box.top),
               std::max(part.bottom, box.bottom)};
     }
@@ -171,7 +183,7 @@ class AverageSampler {
     const std::vector<double> values = raster.read(window);
     for (std::size_t k = begin; k < end; ++k) {
       Overlap& overlap = overlaps_[k];
-      PixelTriangle corners = *pixelTriangle(raster_, pixels_, grid_.triangles[overlap.triangle]);
+      PixelTriangle corners = *triangleOf(overlap.triangle);
       const PixelBox box = inTile(overlap, corners);
       for (Point& corner : corners) corner.x += static_cast<double>(overlap.shift);
       forEachRow(corners, box.top, box.bottom, [&](std::int64_t from, std::int64_t to, std::int64_t row) {
@@ -190,6 +202,7 @@ class AverageSampler {
   const Grid& grid_;
   std::span<const Point> pixels_;
   const ItemLoop& loop_;
+  double turn_;            // see `columnsOfTurn`; 0: none
   std::vector<Sum> sums_;  // of each triangle
   std::vector<Overlap> overlaps_;
 };

@@ -308,6 +308,24 @@ TEST_F(Depth, GoesRoundTheEarth) {
   }
 }
 
+// World rasters that GDAL does not know to wrap: in Mercator and without a CRS. Deep but at the antimeridian.
+TEST_F(Depth, TheMeanOfTrianglesAcrossTheAntimeridianIsTakenThere) {
+  constexpr double kHalf = 20037508.342789244;  // of the equator in Mercator
+  const auto shallowAt = [](double half) {
+    return [half](double x, double) { return std::abs(x) > 0.9 * half ? -100.0 : -5000.0; };
+  };
+  const std::vector<std::string> files{
+      raster("mercator.tif", "EPSG:3857", {1440, 1440, -kHalf, kHalf, kHalf / 720.0}, shallowAt(kHalf)),
+      raster("degrees.tif", "", {1440, 720, -180.0, 90.0, 0.25}, shallowAt(180.0))};
+  for (const std::string& file : files) {
+    Grid grid = squares("EPSG:4326", {176.3, -18.2}, 1.0, 8, 4);
+    const DepthReport report = setDepths(grid, {{file}, DepthMethod::Average});
+    EXPECT_EQ(report.averaged, grid.nodes.size()) << file;
+    EXPECT_EQ(report.partial, 0u) << file;
+    for (const double z : grid.z) EXPECT_NEAR(z, -100.0, 1e-6) << file;
+  }
+}
+
 TEST_F(Depth, LeastDepth) {
   Grid grid = squares("EPSG:4326", {10.0, 50.0}, 0.25, 8, 8);
   DepthOptions options{
