@@ -175,11 +175,10 @@ int marginOf(const TilePlace& tile, double margin_m, const std::string& file) {
 TileAnswer answerTask(const TileTask& task) {
   std::vector<TileRule> rules;
   for (const SizeRule& rule : task.rules) rules.push_back(tileRuleOf(rule));
-  return answerTask(task, rules);
+  return answerTask(RasterBand(task.path), task, rules);
 }
 
-TileAnswer answerTask(const TileTask& task, std::span<const TileRule> rules) {
-  const RasterBand band(task.path);
+TileAnswer answerTask(const RasterBand& band, const TileTask& task, std::span<const TileRule> rules) {
   requireSame(band, task.columns, task.rows);
   double margin_m = 0.0;
   for (const TileRule& rule : rules) margin_m = std::max(margin_m, rule.margin_m);

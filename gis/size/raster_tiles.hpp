@@ -57,8 +57,8 @@ struct TileAnswer {
 
 // Executes a task. Throws InputError.
 TileAnswer answerTask(const TileTask& task);
-// The same with these rules instead of the task's.
-TileAnswer answerTask(const TileTask& task, std::span<const TileRule> rules);
+// The same with these rules instead of the task's, and with the raster opened before.
+TileAnswer answerTask(const RasterBand& band, const TileTask& task, std::span<const TileRule> rules);
 
 // The pixels around a tile that a rule with this margin uses, and one more. 0 without a margin: files have blocks as
 // large as tiles, and any margin unpacks the blocks around it once more. Throws InputError if there are too many.

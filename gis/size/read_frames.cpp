@@ -49,7 +49,11 @@ class FrameReading {
   FrameTiles readAll(std::span<const TileRule> rules, const ItemLoop& loop) const {
     FrameTiles tiles = emptyTiles(rules.size());
     const std::vector<Chunk> chunks = chunksOf();
-    loop(chunks.size(), [&](std::size_t c) { put(chunks[c], answerTask(taskOf(chunks[c]), rules), tiles); });
+    const std::vector<std::span<const Chunk>> shares = sharesOf(chunks);
+    loop(shares.size(), [&](std::size_t s) {
+      const RasterBand band(frames_[shares[s].front().part->frame]->raster.path);
+      for (const Chunk& chunk : shares[s]) put(chunk, answerTask(band, taskOf(chunk), rules), tiles);
+    });
     return tiles;
   }
 
@@ -113,6 +117,23 @@ class FrameReading {
       for (std::size_t first = 0; first < part.tiles.size(); first += length)
         chunks.push_back({&part, first, std::min(first + length, part.tiles.size())});
     return chunks;
+  }
+
+  // Chunks for which a raster is opened once. That takes long for a raster of many files; a text is read from its
+  // beginning whenever it is opened.
+  std::vector<std::span<const Chunk>> sharesOf(const std::vector<Chunk>& chunks) const {
+    constexpr std::size_t kMostOfFiles = 16;
+    std::vector<std::span<const Chunk>> shares;
+    for (std::size_t first = 0, end = 0; first < chunks.size(); first = end) {
+      while (end < chunks.size() && chunks[end].part->frame == chunks[first].part->frame) ++end;
+      const RasterGeometry& raster = frames_[chunks[first].part->frame]->raster;
+      const bool is_of_files = raster.mosaic || !raster.is_exact;
+      const std::size_t most = raster.in_order ? 1 : is_of_files ? kMostOfFiles : end - first;
+      const std::size_t length = (end - first + most - 1) / most;
+      for (std::size_t at = first; at < end; at += length)
+        shares.push_back(std::span(chunks).subspan(at, std::min(length, end - at)));
+    }
+    return shares;
   }
 
   TileTask taskOf(const Chunk& chunk) const {

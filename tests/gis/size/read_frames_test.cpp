@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <functional>
 #include <memory>
 #include <set>
 #include <string>
@@ -17,6 +18,7 @@
 #include "gis/model/depth.hpp"
 #include "gis/raster/raster_mosaic.hpp"
 #include "gis/raster/raster_parts.hpp"
+#include "gis/size/rule_of_tiles.hpp"
 #include "tests/gis/grid_samples.hpp"
 #include "tests/support/rasters.hpp"
 
@@ -152,6 +154,34 @@ TEST(ReadFrames, SeveralReadersGiveWhatOneDoes) {
       EXPECT_EQ(three.asked.size() == 3, raster.mosaic != nullptr);
       EXPECT_EQ(three.strips > 0, raster.mosaic != nullptr);
     }
+  }
+}
+
+// Each item of the loop opens the raster once.
+TEST(ReadFrames, RastersOfManyFilesAndTextsAreOpenedAFewTimes) {
+  const TemporaryFolder folder;
+  std::vector<Piece> pieces;
+  for (int y = 0; y < kRows; y += 128) {
+    for (int x = 0; x < kColumns; x += 128) pieces.push_back({{x, y, 128, 128}, {x, y, 128, 128}});
+  }
+  const std::string text = folder / "text.asc";
+  std::ofstream out(text);
+  out << "ncols 1500\nnrows 1000\nxllcorner -180\nyllcorner -90\ncellsize 0.2\n";
+  for (int row = 0; row < 1000; ++row)
+    for (int column = 0; column < 1500; ++column) out << 100 + column << (column < 1499 ? ' ' : '\n');
+  out.close();
+  for (const auto& [path, most] : {std::pair{mosaicFile(folder, pieces), 16u}, {text, 1u}}) {
+    const auto frame = std::make_shared<const RasterFrame>(readRasterGeometry(path), Crs{}, Projection::plane(),
+                                                           Box{-180.0, -90.0, 180.0, 90.0}, inOrder);
+    const TileRule rule = tileRuleOf({SizeRule::Kind::Known, {}, 0.0, 0.0});
+    std::size_t opened = 0;
+    const ItemLoop counting = [&](std::size_t count, const std::function<void(std::size_t)>& work) {
+      opened += count;
+      inOrder(count, work);
+    };
+    const FrameTiles tiles = readFrames(std::span(&frame, 1), std::span(&rule, 1), counting);
+    EXPECT_GT(tiles.front().front().size(), 20u);
+    EXPECT_LE(opened, most) << path;
   }
 }
 
