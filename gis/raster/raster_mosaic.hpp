@@ -22,7 +22,9 @@ struct PixelRect {
     return {left, top, std::min(right(), other.right()) - left, std::min(bottom(), other.bottom()) - top};
   }
   PixelRect shifted(int columns) const { return {x + columns, y, width, height}; }
-  PixelRect grownBy(int margin) const { return {x - margin, y - margin, width + 2 * margin, height + 2 * margin}; }
+  PixelRect grownBy(int across, int down) const {
+    return {x - across, y - down, width + 2 * across, height + 2 * down};
+  }
 };
 
 // Divides a raster into cells by straight cuts through all of it: `columns[i]` to `columns[i + 1]`, rows likewise.

@@ -19,7 +19,7 @@ constexpr float kNothing = std::numeric_limits<float>::infinity();
 // `kFineShare` times that.
 constexpr float kAlike = 1.04F;
 constexpr double kFineShare = 0.5;
-// Widest margin, pixels; a wider one is an error.
+// The most rows of a margin; more are an error.
 constexpr int kMostMargin = 200;
 
 // Calls `visit(rect, shift)` for the parts of `window` in `within`, in columns of the raster. If the raster wraps
@@ -54,7 +54,7 @@ void readInto(const RasterBand& band, const PixelRect& part, const PixelRect& ti
 // Reads a tile's values with its margin, as far as the raster extends: around the Earth if it wraps.
 void readTile(const RasterBand& band, const TileTask& task, const PixelRect& pixels, RasterTile& tile) {
   const RasterGeometry& raster = band.geometry();
-  const PixelRect window = pixels.grownBy(tile.margin);
+  const PixelRect window = pixels.grownBy(tile.side, tile.end);
   tile.values.assign(tile.stride() * static_cast<std::size_t>(window.height), std::nanf(""));
   PixelRect inside = window.in({window.x, 0, window.width, raster.rows});
   if (!raster.wraps) inside = inside.in({0, 0, raster.columns, raster.rows});
@@ -163,13 +163,14 @@ SizeTile reduced(const RasterTile& tile, std::span<const float> sizes) {
 
 SizeTile emptyTile() { return {{kNothing, kNothing, kNothing, 0}}; }
 
-int marginOf(const TilePlace& tile, double margin_m, const std::string& file) {
-  if (!(margin_m > 0.0)) return 0;
-  const double margin = std::ceil(margin_m / std::min(tile.pixel_m[0], tile.pixel_m[1]));
-  if (margin > kMostMargin)
-    throw InputError(file +
+std::array<int, 2> marginOf(const TilePlace& tile, double margin_m, const RasterGeometry& raster) {
+  if (!(margin_m > 0.0)) return {0, 0};
+  const double columns = std::ceil(margin_m / tile.pixel_m[0]), rows = std::ceil(margin_m / tile.pixel_m[1]);
+  if (rows > kMostMargin)
+    throw InputError(raster.path +
                      ": its pixels are too fine for a filter that long: give a coarser raster, or filter over less");
-  return 1 + static_cast<int>(margin);
+  const int most = raster.wraps ? raster.columns / 2 : raster.columns;
+  return {static_cast<int>(std::min(1.0 + columns, std::max(1.0, 1.0 * most))), 1 + static_cast<int>(rows)};
 }
 
 TileAnswer answerTask(const TileTask& task) {
@@ -192,7 +193,9 @@ TileAnswer answerTask(const RasterBand& band, const TileTask& task, std::span<co
     tile.height = place.pixels.height;
     tile.pixel_m[0] = place.pixel_m[0];
     tile.pixel_m[1] = place.pixel_m[1];
-    tile.margin = marginOf(place, margin_m, task.path);
+    const auto [side, end] = marginOf(place, margin_m, band.geometry());
+    tile.side = side;
+    tile.end = end;
     readTile(band, task, place.pixels, tile);
     for (std::size_t r = 0; r < rules.size(); ++r) {
       sizes.assign(static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height), kNothing);

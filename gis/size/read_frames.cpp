@@ -25,7 +25,7 @@ struct PartTiles {
   std::size_t cell = 0;
   std::vector<std::size_t> tiles;
   std::uint64_t pixels = 0;
-  int margin = 0;  // the largest of its tiles
+  int side = 0, end = 0;  // the largest margins of its tiles
 };
 
 // Tiles of a part that are read at once: the unit of work of a reader's threads.
@@ -98,10 +98,12 @@ class FrameReading {
       const TilePlace& place = frame.places[t];
       if (!(place.pixel_m[0] > 0.0)) continue;
       cuts_[f].forEachCell({place.pixels.x, place.pixels.y, 1, 1}, [&](std::size_t cell) {
-        PartTiles& part = found.try_emplace(cell, PartTiles{f, cell, {}, 0, 0}).first->second;
+        PartTiles& part = found.try_emplace(cell, PartTiles{f, cell, {}, 0, 0, 0}).first->second;
         part.tiles.push_back(t);
         part.pixels += static_cast<std::uint64_t>(place.pixels.width) * static_cast<std::uint64_t>(place.pixels.height);
-        part.margin = std::max(part.margin, marginOf(place, margin_m_, frame.raster.path));
+        const auto [side, end] = marginOf(place, margin_m_, frame.raster);
+        part.side = std::max(part.side, side);
+        part.end = std::max(part.end, end);
       });
     }
     for (auto& each : found) parts_.push_back(std::move(each.second));
@@ -160,7 +162,7 @@ class FrameReading {
       top = std::min(top, pixels.y);
       bottom = std::max(bottom, pixels.bottom());
     }
-    const PixelRect seen = PixelRect{left, top, right - left, bottom - top}.grownBy(chunk.part->margin);
+    const PixelRect seen = PixelRect{left, top, right - left, bottom - top}.grownBy(chunk.part->side, chunk.part->end);
     for (int turn = frame.raster.wraps ? -1 : 0; turn <= (frame.raster.wraps ? 1 : 0); ++turn) {
       for (const PixelPatch& patch : patches) {
         const PixelRect at = patch.at.in(seen.shifted(turn * frame.raster.columns));
@@ -195,7 +197,8 @@ class FrameReading {
     const PixelCuts& cuts = cuts_[part.frame];
     const PixelRect all{0, 0, raster.columns, raster.rows};
     // If values depend on the window, each reader reads its margin itself.
-    const PixelRect seen = cuts.cell(part.cell).grownBy(raster.is_exact ? part.margin : 0);
+    const PixelRect seen =
+        cuts.cell(part.cell).grownBy(raster.is_exact ? part.side : 0, raster.is_exact ? part.end : 0);
     for (int turn = raster.wraps ? -1 : 0; turn <= (raster.wraps ? 1 : 0); ++turn) {
       const PixelRect inside = seen.shifted(turn * raster.columns).in(all);
       if (inside.isEmpty()) continue;

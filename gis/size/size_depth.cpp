@@ -98,7 +98,7 @@ void applySlope(const RasterTile& tile, const DepthRules& rules, std::span<float
   };
   smooth(depth, width, depth.size() / width, {radius(0), radius(1)});
   forEachDepth(tile, rules, [&](std::size_t pixel, int x, int y, double) {
-    const std::size_t k = static_cast<std::size_t>(y + tile.margin) * width + static_cast<std::size_t>(x + tile.margin);
+    const std::size_t k = tile.indexOf(x, y);
     const double dx = slopeBetween(depth[k - 1], depth[k], depth[k + 1], tile.pixel_m[0]);
     const double dy = slopeBetween(depth[k - width], depth[k], depth[k + width], tile.pixel_m[1]);
     const double slope = std::hypot(dx, dy);

@@ -11,15 +11,16 @@ namespace coastmesh {
 // A rectangle of pixels to be evaluated, with some of its surroundings.
 struct RasterTile {
   int width = 0, height = 0;       // pixels, without the margin
-  int margin = 0;                  // pixels on each side
+  int side = 0, end = 0;           // margin: columns on either side, rows above and below
   double pixel_m[2] = {0.0, 0.0};  // ground size of a pixel along columns and rows, metres
-  std::vector<float> values;       // rows of width + 2 margin from the top; NaN where there is no data
+  std::vector<float> values;       // rows of width + 2 side from the top; NaN where there is no data
   std::string file;
 
-  std::size_t stride() const { return static_cast<std::size_t>(width) + 2 * static_cast<std::size_t>(margin); }
-  float at(int x, int y) const {
-    return values[static_cast<std::size_t>(y + margin) * stride() + static_cast<std::size_t>(x + margin)];
+  std::size_t stride() const { return static_cast<std::size_t>(width) + 2 * static_cast<std::size_t>(side); }
+  std::size_t indexOf(int x, int y) const {
+    return static_cast<std::size_t>(y + end) * stride() + static_cast<std::size_t>(x + side);
   }
+  float at(int x, int y) const { return values[indexOf(x, y)]; }
 };
 
 // From values to sizes: `sizes` has one for each pixel, in rows without margin; infinite where nothing is requested.

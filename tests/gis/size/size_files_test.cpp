@@ -35,6 +35,16 @@ using testing::rectangle;
 using testing::SizeFiles;
 using testing::sizesIn;
 
+// A domain in degrees with this shore.
+Domain degreesDomain(const Ring& shore) {
+  Coastline coast;
+  coast.crs = wgs84();
+  coast.features.emplace_back();
+  coast.features.back().polygons.push_back({shore, {}});
+  CleanReport report;
+  return cleanFeatures(coast, {0}, Projection::fitted(coast, {0}), {}, report);
+}
+
 TEST(Wavelength, HoldsTheDispersionRelation) {
   for (const double period : {3.0, 10.0, 600.0, 44712.0}) {
     for (const double depth : {0.1, 1.0, 17.0, 200.0, 4000.0, 11000.0}) {
@@ -287,6 +297,29 @@ TEST_F(SizeFiles, TheSlopeFilterIsAsLongAlongBothAxes) {
     sizes[along_x ? 0 : 1] = least;
   }
   EXPECT_NEAR(sizes[0] / sizes[1], 1.0, 0.15);
+}
+
+// Columns of the world are narrow at the pole: more than the widest margin of rows, and at last more than there are.
+TEST_F(SizeFiles, TheSlopeFilterGoesRoundThePole) {
+  Ring ring;
+  for (int lon = -180; lon < 180; lon += 10) ring.push_back({static_cast<double>(lon), 78.0});
+  const Domain domain = degreesDomain(ring);
+  SizeOptions options;
+  options.bathymetry = {raster("d.tif", 1440, 720, {-180.0, 0.25, 0.0, 90.0, 0.0, -0.25}, 4326,
+                               [](double, double y) { return -1000.0 - 100.0 * (90.0 - y); })};
+  options.depth.slope_elements = 500.0;
+  options.depth.slope_filter_m = 100000.0;
+  options.least_m = 1000.0;
+  options.most_m = 40000.0;
+  const auto size = sizesIn(options, domain, wgs84());
+  for (const double lon : {-179.9, -90.0, 12.0, 179.0}) {
+    for (const double lat : {80.0, 84.0, 87.0}) {
+      const Point place = domain.projection.forward({lon, lat});
+      const double depth = 1000.0 + 100.0 * (90.0 - lat);
+      const double wanted = 2.0 * std::numbers::pi * depth / (500.0 * 100.0 / 111650.0);
+      EXPECT_NEAR(size->at(place) / domain.projection.scaleAt(place) / wanted, 1.0, 0.06) << lon << ", " << lat;
+    }
+  }
 }
 
 TEST_F(SizeFiles, FeaturesWithSizes) {
