@@ -15,12 +15,14 @@
 #include "gis/geometry/box.hpp"
 #include "gis/grid/grid_lines.hpp"
 #include "gis/model/depth.hpp"
+#include "gis/raster/raster_turn.hpp"
 
 namespace coastmesh {
 
 namespace {
 
-bool coversAny(const RasterGeometry& raster, const Grid& grid) {
+bool coversAny(const RasterGeometry& file, const Grid& grid) {
+  const RasterGeometry raster = asSeenFrom(grid.crs, file);
   const bool as_is = grid.crs.isPlane() || raster.crs.isPlane() || sameCrs(grid.crs, raster.crs);
   std::optional<CrsMap> map;
   if (!as_is) map.emplace(toOgr(grid.crs), toOgr(raster.crs));

@@ -9,6 +9,7 @@
 #include "gis/crs/crs_map.hpp"
 #include "gis/crs/ogr_support.hpp"
 #include "gis/model/stored_tiles.hpp"
+#include "gis/raster/raster_turn.hpp"
 
 namespace coastmesh {
 namespace {
@@ -188,18 +189,8 @@ std::vector<Point> pixelsOf(const Grid& grid, const RasterBand& raster, const It
   const bool as_is = grid.crs.isPlane() || raster.crs().isPlane() || sameCrs(grid.crs, raster.crs());
   std::optional<CrsMap> map;
   if (!as_is) map.emplace(toOgr(grid.crs), toOgr(raster.crs()));
-  // Columns of a raster without a CRS may be longitudes of another turn.
-  const bool tries_turns = grid.crs.geographic && raster.crs().isPlane();
-  const auto isInside = [&raster](const Point& pixel) {
-    return pixel.x >= 0.0 && pixel.x <= static_cast<double>(raster.columns());
-  };
-  const auto pixelOf = [&](const Point& node) {
-    const Point pixel = raster.pixelOf(map ? map->forward(node) : node);
-    if (!tries_turns || isInside(pixel)) return pixel;
-    for (const double turn : {-360.0, 360.0})
-      if (const Point turned = raster.pixelOf({node.x + turn, node.y}); isInside(turned)) return turned;
-    return pixel;
-  };
+  const RasterGeometry seen = asSeenFrom(grid.crs, raster.geometry());
+  const auto pixelOf = [&](const Point& node) { return seen.pixelOf(map ? map->forward(node) : node); };
   std::vector<Point> pixels;
   reserveOn(loop, pixels, grid.nodes.size());
   pixels.resize(grid.nodes.size());

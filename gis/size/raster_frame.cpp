@@ -8,6 +8,7 @@
 #include "gis/crs/crs_map.hpp"
 #include "gis/crs/ogr_support.hpp"
 #include "gis/raster/raster_mosaic.hpp"
+#include "gis/raster/raster_turn.hpp"
 
 namespace coastmesh {
 
@@ -41,16 +42,16 @@ TileAxis::TileAxis(int pixels, const std::vector<int>& cuts) : pixels_(pixels) {
 
 RasterFrame::RasterFrame(const RasterGeometry& of, const Crs& input, const Projection& projection, const Box& box,
                          const ItemLoop& loop)
-    : raster(of),
+    : raster(asSeenFrom(input, of)),
       columns(of.columns, cutsOf(of, &PixelCuts::columns, of.uneven_columns)),
       rows(of.rows, cutsOf(of, &PixelCuts::rows, of.uneven_rows)) {
   // Between the input's CRS and the raster's, if they differ.
   std::optional<CrsMap> map;
   if (!raster.crs.isPlane() && !input.isPlane() && !sameCrs(raster.crs, input))
     map.emplace(toOgr(input), toOgr(raster.crs));
-  const auto evenPixelOf = [of, map, projection](const Point& x) {
+  const auto evenPixelOf = [seen = raster, map, projection](const Point& x) {
     const Point ground = projection.inverse(x);
-    return of.evenPixelOf(map ? map->forward(ground) : ground);
+    return seen.evenPixelOf(map ? map->forward(ground) : ground);
   };
   constexpr double kPixelTolerance = 0.1;
   to_even_pixel_ = std::make_unique<PlaneTable>(evenPixelOf, box, kPixelTolerance);

@@ -173,6 +173,20 @@ TEST_F(SizeFiles, ADepthThatAsksForNothingCountsToo) {
   }
 }
 
+// Columns of a raster without a CRS are the input's longitudes, in whichever turn.
+TEST_F(SizeFiles, ARasterWithoutACrsIsFoundInAnotherTurn) {
+  const Domain domain = degreesDomain({{-60.0, 40.0}, {-58.0, 40.0}, {-58.0, 42.0}, {-60.0, 42.0}});
+  SizeOptions options;
+  options.gradation = 1.0;
+  options.rasters = {raster("a.tif", 80, 80, {299.0, 0.05, 0.0, 43.0, 0.0, -0.05}, 0,
+                            [](double x, double) { return x < 301.0 ? 3000.0 : 6000.0; })};
+  const auto size = sizesIn(options, domain, wgs84());
+  for (const auto& [lon, wanted] : {std::pair{-59.5, 3000.0}, {-58.3, 6000.0}}) {
+    const Point place = domain.projection.forward({lon, 41.0});
+    EXPECT_NEAR(size->at(place) / domain.projection.scaleAt(place) / wanted, 1.0, 0.02) << lon;
+  }
+}
+
 TEST_F(SizeFiles, NoDataAsksForNothing) {
   SizeOptions options;
   options.size_m = 0.7;
