@@ -29,6 +29,32 @@ std::vector<int> cutsOf(const RasterGeometry& raster, std::vector<int> PixelCuts
   return uneven ? uneven->cuts(kTile) : std::vector<int>{};
 }
 
+// Cuts tiles of rows further where a degree of longitude has become shorter or longer by a tenth since the last cut.
+// Tiles of a raster with fine pixels are not cut below a sixteenth of a degree, so that they do not become too many near
+// the poles.
+std::vector<int> cutByParallels(const RasterGeometry& raster, std::vector<int> cuts) {
+  constexpr double kAlike = 1.1, kLeastDegrees = 1.0 / 16.0;
+  if (!(raster.period > 0.0) || raster.to_place[5] == 0.0) return cuts;
+  const int least =
+      static_cast<int>(std::clamp(std::ceil(kLeastDegrees / std::abs(raster.to_place[5])), 1.0, 1.0 * kTile));
+  const auto lengthAt = [&](int row) {
+    return std::abs(std::cos(toRadians(raster.placeOf({0.5 * raster.columns, static_cast<double>(row)}).y)));
+  };
+  std::vector<int> all{0};
+  const std::vector<int> starts = startsBetween(cuts.empty() ? std::vector{0, raster.rows} : cuts);
+  for (std::size_t t = 0; t < starts.size(); ++t) {
+    if (t > 0) all.push_back(starts[t]);
+    const int end = t + 1 < starts.size() ? starts[t + 1] : raster.rows;
+    for (int row = starts[t] + least; row < end; row += least) {
+      const double before = lengthAt(all.back()), here = lengthAt(row);
+      if (here > kAlike * before || before > kAlike * here) all.push_back(row);
+    }
+  }
+  if (all.size() == starts.size()) return cuts;
+  all.push_back(raster.rows);
+  return all;
+}
+
 }  // namespace
 
 TileAxis::TileAxis(int pixels, const std::vector<int>& cuts) : pixels_(pixels) {
@@ -44,7 +70,7 @@ RasterFrame::RasterFrame(const RasterGeometry& of, const Crs& input, const Proje
                          const ItemLoop& loop)
     : raster(asSeenFrom(input, of)),
       columns(of.columns, cutsOf(of, &PixelCuts::columns, of.uneven_columns)),
-      rows(of.rows, cutsOf(of, &PixelCuts::rows, of.uneven_rows)) {
+      rows(of.rows, cutByParallels(raster, cutsOf(of, &PixelCuts::rows, of.uneven_rows))) {
   // Between the input's CRS and the raster's, if they differ.
   std::optional<CrsMap> map;
   if (!raster.crs.isPlane() && !input.isPlane() && !sameCrs(raster.crs, input))

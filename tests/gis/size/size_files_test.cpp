@@ -187,6 +187,27 @@ TEST_F(SizeFiles, ARasterWithoutACrsIsFoundInAnotherTurn) {
   }
 }
 
+// The bed slopes along parallels, by 100 m a degree. Tiles have 256 rows: here 21 degrees.
+TEST_F(SizeFiles, SlopesAlongParallelsHoldOnTheGround) {
+  Ring sea;
+  for (int lat = 42; lat < 79; ++lat) sea.push_back({-16.0, static_cast<double>(lat)});
+  for (int lat = 78; lat > 41; --lat) sea.push_back({-14.0, static_cast<double>(lat)});
+  const Domain domain = degreesDomain(sea);
+  SizeOptions options;
+  const double pixel = 1.0 / 12.0;
+  options.bathymetry = {raster("d.tif", 360, 480, {-30.0, pixel, 0.0, 80.0, 0.0, -pixel}, 4326,
+                               [](double x, double) { return -2000.0 - 100.0 * (x + 15.0); })};
+  options.depth.slope_elements = 200.0;
+  options.least_m = 1000.0;
+  const auto size = sizesIn(options, domain, wgs84());
+  for (const double lat : {77.0, 72.0, 66.0, 60.0, 50.0, 44.0}) {
+    const Point place = domain.projection.forward({-15.0, lat});
+    const double degree_m = 6378137.0 * toRadians(1.0) * std::cos(toRadians(lat));
+    const double wanted = 2.0 * std::numbers::pi * 2000.0 / (200.0 * 100.0 / degree_m);
+    EXPECT_NEAR(size->at(place) / domain.projection.scaleAt(place) / wanted, 1.0, 0.09) << lat;
+  }
+}
+
 TEST_F(SizeFiles, NoDataAsksForNothing) {
   SizeOptions options;
   options.size_m = 0.7;
