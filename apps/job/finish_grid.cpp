@@ -62,6 +62,8 @@ FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunContr
   if (!grid.triangles.empty()) report.depth = setDepths(grid, depth, control, loop);
   if (!grid.triangles.empty()) report.boundaries = assignBoundaries(grid, options.boundaries);
   if (options.drop_apart) report.dropped = dropApartWaters(grid);
+  // The report is of the water that is left.
+  if (report.dropped.waters > 0 && !depth.files.empty()) report.depth = setDepths(grid, depth, control, loop);
   report.mended = !targets.empty() || options.repair.time_step_s > 0.0;
   RepairMemory memory;
   if (!grid.triangles.empty() && report.mended)

@@ -1,0 +1,52 @@
+#include "apps/job/finish_grid.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdint>
+
+#include "tests/gis/grid_samples.hpp"
+#include "tests/support/rasters.hpp"
+
+namespace coastmesh {
+namespace {
+
+// Two separate squares of water; the first has an open boundary.
+Grid twoWaters() {
+  Grid grid;
+  for (const double west : {0.0, 20.0}) {
+    const auto first = static_cast<std::uint32_t>(grid.nodes.size());
+    for (const Point& p : {Point{west, 0}, Point{west + 10, 0}, Point{west + 10, 10}, Point{west, 10}})
+      grid.nodes.push_back(p);
+    for (const auto& corners : {std::array{first, first + 1, first + 2}, std::array{first, first + 2, first + 3}}) {
+      grid.triangles.push_back(corners);
+      grid.area_m2.push_back(50.0);
+    }
+    grid.boundaries.push_back(
+        {first == 0 ? BoundaryRole::Open : BoundaryRole::Land, true, {first, first + 1, first + 2, first + 3}});
+  }
+  return grid;
+}
+
+// The second square is deeper, and partly above the water.
+TEST(FinishGrid, DepthsAreThoseOfTheWaterThatIsLeft) {
+  const testing::TemporaryFolder folder;
+  const std::string path = folder / "bed.tif";
+  testing::writeRaster(path, "", {60, 40, -10.0, 25.0, 1.0}, [](double x, double y) {
+    return x < 15.0 ? -20.0 : y > 5.0 ? 3.0 : -400.0;
+  });
+  FinishOptions options;
+  options.depth.files = {path};
+  for (const bool drops : {false, true}) {
+    Grid grid = twoWaters();
+    options.drop_apart = drops;
+    const FinishReport report = finishGrid(grid, options);
+    EXPECT_EQ(report.dropped.waters, drops ? 1u : 0u);
+    EXPECT_EQ(report.depth.nodes_of_file.at(0), grid.nodes.size());
+    EXPECT_NEAR(report.depth.greatest_m, drops ? 20.0 : 400.0, 1e-6);
+    EXPECT_EQ(report.depth.above_water, drops ? 0u : 2u);
+  }
+}
+
+}  // namespace
+}  // namespace coastmesh
