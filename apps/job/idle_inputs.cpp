@@ -34,8 +34,8 @@ bool coversAny(const RasterGeometry& file, const Grid& grid) {
 
 Box boxOf(const SizedFeatures::Part& part) {
   Box box;
-  for (const Ring& ring : part.rings)
-    for (const Point& p : ring) box.add(p);
+  for (const Polygon& polygon : part.polygons)
+    for (const Point& p : polygon.outer) box.add(p);
   for (const auto& line : part.lines)
     for (const Point& p : line) box.add(p);
   return box;

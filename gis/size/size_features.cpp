@@ -8,6 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "core/metric.hpp"
+#include "gis/coast/turned_rings.hpp"
 #include "gis/crs/crs_map.hpp"
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
@@ -124,7 +126,9 @@ std::optional<double> numberOf(const OGRFeature& feature, int field, double leas
 class FeatureReader {
  public:
   FeatureReader(const Crs& crs, double usual_rate, SizedFeatures& features)
-      : crs_(crs), usual_rate_(usual_rate), features_(features) {}
+      : crs_(crs), balls_(crs), usual_rate_(usual_rate), features_(features) {
+    features_.crs = crs;
+  }
 
   void read(OGRLayer& layer, const std::string& source, bool one_of_several) {
     const int size_field = layer.GetLayerDefn()->GetFieldIndex("size");
@@ -151,10 +155,7 @@ class FeatureReader {
       SizedFeatures::Part part;
       part.size_m = *size;
       part.rate = numberOf(*feature, rate_field, 0.0, what).value_or(usual_rate_);
-      for (Polygon& polygon : parts.polygons) {
-        part.rings.push_back(std::move(polygon.outer));
-        std::move(polygon.holes.begin(), polygon.holes.end(), std::back_inserter(part.rings));
-      }
+      part.polygons = std::move(parts.polygons);
       part.lines = std::move(parts.lines);
       collectPoints(*geometry, part.lines);
       const auto move = [&](std::vector<Point>& points) {
@@ -165,17 +166,91 @@ class FeatureReader {
             throw InputError(what + ": has a place that the input's coordinate system does not reach; take it out");
         }
       };
-      for (auto& ring : part.rings) move(ring);
-      for (auto& line : part.lines) move(line);
+      std::vector<Point> all;
+      const auto moveAndKeep = [&](std::vector<Point>& points) {
+        move(points);
+        all.insert(all.end(), points.begin(), points.end());
+      };
+      for (Polygon& polygon : part.polygons) {
+        moveAndKeep(polygon.outer);
+        for (Ring& hole : polygon.holes) moveAndKeep(hole);
+      }
+      for (auto& line : part.lines) moveAndKeep(line);
+      part.ball = balls_.around(all);
       features_.parts.push_back(std::move(part));
     }
   }
 
  private:
   const Crs& crs_;
+  GroundBalls balls_;
   double usual_rate_;
   SizedFeatures& features_;
 };
+
+// Lines and rings of features in the working plane, with more points where an edge that is straight in the features' CRS
+// is bent there.
+class PlaneLines {
+ public:
+  // `scale` is plane length over metres.
+  PlaneLines(const Crs& crs, const Projection& projection, const std::function<double(const Point&)>& scale,
+             double size_m)
+      : geographic_(crs.geographic), projection_(projection), scale_(scale), size_m_(size_m) {}
+
+  // Empty if it leaves the area of the projection: it is too far away to matter.
+  std::vector<Point> of(const std::vector<Point>& points, bool closed) const {
+    std::vector<Point> plane;
+    const Turns turns = geographic_ ? turnsOf(points, closed) : Turns{};
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      plane.push_back(projection_.forward(points[i]));
+      if (!isFinite(plane.back())) return {};
+      if (i + 1 == points.size() && (!closed || i == 0)) continue;
+      const std::size_t next = (i + 1) % points.size();
+      Point end = points[next];
+      if (turns.any) end.x += 360.0 * ((next == 0 ? turns.round : turns.of[next]) - turns.of[i]);
+      if (!addBetween({points[i], plane.back()}, {end, projection_.forward(end)}, kMostHalvings, plane)) return {};
+    }
+    return plane;
+  }
+
+ private:
+  static constexpr int kMostHalvings = 10;
+
+  struct Place {
+    Point input, plane;
+  };
+
+  static bool isFinite(const Point& p) { return std::isfinite(p.x) && std::isfinite(p.y); }
+
+  // Returns false if a place is beyond the projection's area.
+  bool addBetween(const Place& from, const Place& to, int halvings, std::vector<Point>& plane) const {
+    // The bend that is allowed: a share of the size, and of the edge.
+    constexpr double kOfSize = 0.1, kOfLength = 1e-3;
+    const Point input = midpoint(from.input, to.input);
+    const Place middle{input, projection_.forward(input)};
+    if (!isFinite(middle.plane) || !isFinite(to.plane)) return false;
+    const double bend = distance(middle.plane, midpoint(from.plane, to.plane));
+    const double least = kOfLength * distance(from.plane, to.plane);
+    if (halvings == 0 || bend <= least || bend <= kOfSize * size_m_ * scale_(middle.plane)) return true;
+    if (!addBetween(from, middle, halvings - 1, plane)) return false;
+    plane.push_back(middle.plane);
+    return addBetween(middle, to, halvings - 1, plane);
+  }
+
+  bool geographic_;
+  const Projection& projection_;
+  const std::function<double(const Point&)>& scale_;
+  double size_m_;
+};
+
+// True if the part's size has grown to more than `most_m` everywhere in the scope. Distances in the plane may be shorter
+// than on the ground, hence `kSure`; how much shorter is unknown for large parts.
+bool isTooFar(const SizedFeatures::Part& part, const FeatureScope& scope) {
+  constexpr double kSure = 0.5, kLarge = 2e6;
+  if (!scope.ball || !(scope.ball->radius < kLarge) || !(part.ball.radius < kLarge)) return false;
+  const double gap_m = distance(part.ball.centre, scope.ball->centre) - part.ball.radius - scope.ball->radius;
+  return gap_m > 0.0 && kSure * gap_m * std::min(part.rate, scope.rate) > scope.most_m - part.size_m;
+}
 
 }  // namespace
 
@@ -197,31 +272,31 @@ SizedFeatures readSizedFeatures(const std::string& path, const Crs& crs, double 
 }
 
 std::vector<std::unique_ptr<SizeField>> featureFields(const SizedFeatures& features, const Projection& projection,
-                                                      const std::function<double(const Point&)>& scale) {
+                                                      const std::function<double(const Point&)>& scale,
+                                                      const FeatureScope& scope) {
   std::vector<SizedLine> lines;
   std::vector<PolygonField::SizedPolygon> polygons;
-  const auto toPlane = [&](const std::vector<Point>& points) {
-    std::vector<Point> plane;
-    for (const Point& p : points) {
-      plane.push_back(projection.forward(p));
-      // Lines beyond the reach of the domain's projection are too far away to matter.
-      if (!std::isfinite(plane.back().x) || !std::isfinite(plane.back().y)) return std::vector<Point>();
-    }
-    return plane;
-  };
   for (const SizedFeatures::Part& part : features.parts) {
+    if (isTooFar(part, scope)) continue;
+    const PlaneLines plane(features.crs, projection, scale, part.size_m);
     const auto addLine = [&](const std::vector<Point>& points, bool closed) {
       if (points.size() == 1) lines.push_back({points[0], points[0], part.size_m, part.rate});
       for (std::size_t i = 0; i + (closed ? 0 : 1) < points.size(); ++i)
         lines.push_back({points[i], points[(i + 1) % points.size()], part.size_m, part.rate});
     };
-    PolygonField::SizedPolygon polygon{{}, part.size_m};
-    for (const Ring& ring : part.rings) {
-      polygon.rings.push_back(toPlane(ring));
-      addLine(polygon.rings.back(), true);
+    PolygonField::SizedPolygon sized{{}, part.size_m};
+    for (const Polygon& polygon : part.polygons) {
+      Ring outer = plane.of(polygon.outer, true);
+      if (outer.empty()) continue;
+      addLine(outer, true);
+      sized.rings.push_back(std::move(outer));
+      for (const Ring& hole : polygon.holes) {
+        sized.rings.push_back(plane.of(hole, true));
+        addLine(sized.rings.back(), true);
+      }
     }
-    for (const auto& line : part.lines) addLine(toPlane(line), false);
-    if (!polygon.rings.empty()) polygons.push_back(std::move(polygon));
+    for (const auto& line : part.lines) addLine(plane.of(line, false), false);
+    if (!sized.rings.empty()) polygons.push_back(std::move(sized));
   }
   std::vector<std::unique_ptr<SizeField>> fields;
   fields.push_back(std::make_unique<DistanceField>(std::move(lines), scale, kInfinity, projection.surface()));

@@ -480,8 +480,14 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
     source.add("--channel-elements",
                std::make_unique<DistanceField>(std::move(channels.lines), scale, most_m, surface));
   }
-  for (const SizedFeatures& features : inputs.features)
-    for (auto& field : featureFields(features, projection, scale)) source.add("--size-features", std::move(field));
+  if (!inputs.features.empty()) {
+    // The gradation is lowered to half at most, see below, and slightly less.
+    FeatureScope scope{{}, most_m, 0.49 * options.gradation};
+    if (!surface.isCurved()) scope.ball = GroundBalls(inputs.crs).around(domain.input_points);
+    for (const SizedFeatures& features : inputs.features)
+      for (auto& field : featureFields(features, projection, scale, scope))
+        source.add("--size-features", std::move(field));
+  }
   if (!inputs.rasters.empty())
     source.add("--size-raster",
                std::move(rasterFields(inputs.rasters, inputs, projection, square, {SizeRule{}}, loop).front()));

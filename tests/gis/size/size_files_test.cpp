@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/metric.hpp"
+#include "gis/crs/ground_balls.hpp"
 #include "gis/error.hpp"
 #include "gis/size/size_depth.hpp"
 #include "gis/size/size_features.hpp"
@@ -377,6 +378,54 @@ TEST_F(SizeFiles, FeaturesWithSizes) {
   EXPECT_NEAR(size->at({11.0, 5.0}), 0.30, 0.02);
   EXPECT_NEAR(size->at({16.0, 5.0}), 0.1, 0.003);
   EXPECT_NEAR(size->at({13.0, 5.0}), 0.35, 0.02);
+}
+
+// The edges of the box are parallels: its corners alone would be a line from the pole.
+TEST_F(SizeFiles, LongEdgesOfFeaturesFollowParallels) {
+  Ring ring;
+  for (int lon = -180; lon < 180; lon += 10) ring.push_back({static_cast<double>(lon), 75.0});
+  const Domain domain = degreesDomain(ring);
+  std::ofstream(file("f.geojson"))
+      << R"({"type": "Feature", "properties": {"size": 30000}, "geometry": {"type": "Polygon",
+      "coordinates": [[[-180, 80], [180, 80], [180, 90], [-180, 90], [-180, 80]]]}})";
+  SizeOptions options;
+  options.features = {file("f.geojson")};
+  options.size_m = 90000.0;
+  const auto size = sizesIn(options, domain, wgs84());
+  for (const double lon : {-170.0, -100.0, 3.0, 90.0, 179.0}) {
+    for (const double lat : {80.3, 85.0, 89.0, 77.0}) {
+      const Point place = domain.projection.forward({lon, lat});
+      const double wanted = std::min(90000.0, 30000.0 + 0.3 * 111600.0 * std::max(0.0, 80.0 - lat));
+      EXPECT_NEAR(size->at(place) / domain.projection.scaleAt(place) / wanted, 1.0, 0.08) << lon << ", " << lat;
+    }
+  }
+}
+
+// Squares 5 and 35 km from the water, and one on the other side of the Earth.
+TEST_F(SizeFiles, FeaturesTooFarToCountAreLeftOut) {
+  const Domain domain = degreesDomain({{179.0, 50.0}, {180.2, 50.0}, {180.2, 51.0}, {179.0, 51.0}});
+  FeatureScope scope{GroundBalls(wgs84()).around(domain.input_points), 5000.0, 0.2};
+  const auto scale = [&](const Point& place) { return domain.projection.scaleAt(place); };
+  for (const auto& [west, counts] : {std::pair{-179.7, true}, {-179.3, true}, {0.0, false}}) {
+    std::ofstream text(file("f.geojson"));
+    text << R"({"type": "Feature", "properties": {"size": 1000, "rate": 0.3}, )"
+         << R"("geometry": {"type": "Polygon", "coordinates": [[)";
+    for (const auto& [x, y] : {std::pair{0.0, 0.0}, {0.1, 0.0}, {0.1, 0.1}, {0.0, 0.1}})
+      text << "[" << west + x << "," << 50.5 + y << "],";
+    text << "[" << west << ",50.5]]]}}";
+    text.close();
+    const SizedFeatures features = readSizedFeatures(file("f.geojson"), wgs84(), 0.3);
+    const auto some = featureFields(features, domain.projection, scale, scope);
+    const auto all = featureFields(features, domain.projection, scale);
+    EXPECT_EQ(some.size(), counts ? 2u : 1u) << west;
+    EXPECT_EQ(all.size(), 2u);
+    for (const Point& place : domain.pslg.points) {
+      double with = 0.0, without = 0.0;
+      some.front()->sample(std::span(&place, 1), std::span(&with, 1));
+      all.front()->sample(std::span(&place, 1), std::span(&without, 1));
+      EXPECT_EQ(std::min(with, 5000.0), std::min(without, 5000.0)) << west;
+    }
+  }
 }
 
 TEST_F(SizeFiles, FeaturesWithoutSizesAreRefused) {

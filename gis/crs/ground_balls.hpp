@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "core/point.hpp"
+#include "core/space_point.hpp"
+#include "gis/crs/crs.hpp"
+#include "gis/crs/geographic_map.hpp"
+
+namespace coastmesh {
+
+// Metres; on Earth from its centre.
+struct SpaceBall {
+  SpacePoint centre;
+  double radius = 0.0;
+};
+
+// Balls around places of a CRS, with the Earth as a sphere. They tell how far apart things are at least, across the
+// antimeridian and the poles too, within half a percent.
+class GroundBalls {
+ public:
+  // Throws InputError if PROJ has no transformation.
+  explicit GroundBalls(const Crs& crs);
+
+  // The radius is not finite if a place has no image on Earth.
+  SpaceBall around(std::span<const Point> places) const;
+
+ private:
+  SpacePoint inSpace(const Point& place) const;
+
+  std::optional<GeographicMap> map_;  // nullopt for a plane
+};
+
+}  // namespace coastmesh
