@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <type_traits>
 #include <vector>
 
 namespace coastmesh {
@@ -21,7 +22,9 @@ template <typename Make>
 auto overStretches(const ItemLoop& loop, std::size_t count, const Make& make, std::size_t least = 8192) {
   constexpr std::size_t kMostStretches = 256;
   const std::size_t stretches = std::clamp<std::size_t>(count / least, 1, kMostStretches);
-  std::vector<decltype(make(count, count))> made(stretches);
+  using Made = decltype(make(count, count));
+  static_assert(!std::is_same_v<Made, bool>, "elements of a std::vector<bool> cannot be written by several threads");
+  std::vector<Made> made(stretches);
   loop(stretches, [&](std::size_t s) { made[s] = make(count * s / stretches, count * (s + 1) / stretches); });
   return made;
 }

@@ -106,10 +106,11 @@ std::optional<std::vector<Point>> inOneTurn(std::span<const Point> nodes, std::s
   const auto [least, greatest] = std::ranges::minmax(nodes, {}, &Point::x);
   if (!(greatest.x - least.x > kTurn / 2)) return std::nullopt;  // skips the triangles of most meshes
   const auto any = overStretches(loop, triangles.size(), [&](std::size_t first, std::size_t last) {
-    return std::ranges::any_of(triangles.subspan(first, last - first),
-                               [nodes](const Corners& corners) { return longitudesJump(nodes, corners); });
+    return static_cast<char>(
+        std::ranges::any_of(triangles.subspan(first, last - first),
+                            [nodes](const Corners& corners) { return longitudesJump(nodes, corners); }));
   });
-  if (std::ranges::none_of(any, [](bool jumped) { return jumped; })) return std::nullopt;
+  if (std::ranges::none_of(any, [](char jumped) { return jumped != 0; })) return std::nullopt;
   const std::optional<std::vector<Arc>> arcs = arcsOf(nodes, triangles, loop);
   const std::optional<double> gap = arcs ? middleOfGap(*arcs) : std::nullopt;
   if (!gap) return std::nullopt;
