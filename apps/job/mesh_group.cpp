@@ -364,9 +364,8 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
   if (!follows) {
     sized = makeSizes(domain, SizeAccuracy::Fine);
   } else {
-    labelSegments(domain.pslg);  // .poly files have no labels, which areas and openings need
     const FollowOptions follow = followOptionsOf(job);
-    labelSegments(domain.pslg);  // plane graphs have no labels, by which the area is found
+    labelSegments(domain.pslg);  // plane graphs have no labels, which areas and openings need
     const double area_m2 = result.input_area_m2 ? *result.input_area_m2 : geodesicArea(domain, Crs{});
     const EdgeWishes wishes{kShoreMargin * StepOutcome::kUsualShare * job.sizes.least_m,
                             job.mesh.refine.max_angle_deg <= kNotObtuseDeg};

@@ -206,7 +206,7 @@ SizeGrowth growthOf(const Pslg& pslg, const SizeFunction& before, const SizeFunc
                             is = sizesAt(pslg.points, {}, after, nullptr, loop);
   std::vector<bool> on_shore(pslg.points.size(), false);
   for (const Segment& s : pslg.segments)
-    if (isBoundary(s) && s.tag != kOpenTag) on_shore[s.a] = on_shore[s.b] = true;
+    if (isBoundary(s) && !isOpenTag(s.tag)) on_shore[s.a] = on_shore[s.b] = true;
   SizeGrowth growth;
   for (VertexId v = 0; v < pslg.points.size(); ++v) {
     double& most = on_shore[v] ? growth.shore : growth.elsewhere;

@@ -38,7 +38,7 @@ void markBeyond(std::vector<std::vector<LineSample>>& lines, const ShoreTriangle
     for (unsigned k = 0; k < 3; ++k) {
       const EdgeRef e = edgeRef(i, k);
       const SegmentId s = t.mesh.segment(e);
-      if (s == kNone || t.tags[s] != kOpenTag) continue;
+      if (s == kNone || !isOpenTag(t.tags[s])) continue;
       const Point &a = t.mesh.point(t.mesh.origin(e)), &b = t.mesh.point(t.mesh.target(e));
       tree.visit(Box::of(a, b), [&](std::uint32_t item) {
         const auto& [line, wet, dry] = ends[item];

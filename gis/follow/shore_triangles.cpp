@@ -17,7 +17,7 @@ constexpr double kSampling = 3.0;       // samples per size wanted
 constexpr double kMostSamples = 256.0;  // per segment
 constexpr std::size_t kFollowing = 8;   // segments before and after one
 
-std::uint8_t useOf(const Segment& s) { return !isBoundary(s) ? kInWater : s.tag == kOpenTag ? kOnOpen : kOnShore; }
+std::uint8_t useOf(const Segment& s) { return !isBoundary(s) ? kInWater : isOpenTag(s.tag) ? kOnOpen : kOnShore; }
 
 // True if segment pq comes within `reach` of the inside of ab, across it: a segment that continues ab does not.
 bool isBeside(const Point& p, const Point& q, const Point& a, const Point& b, double reach) {
@@ -45,7 +45,7 @@ void sampleShores(ShoreGraph& graph, const SizeFunction& size, const BoxTree& li
   std::vector<char> on_shore;
   for (const Segment& s : pslg.segments) {
     middles.push_back(midpoint(pslg.points[s.a], pslg.points[s.b]));
-    on_shore.push_back(isBoundary(s) && s.tag != kOpenTag ? 1 : 0);
+    on_shore.push_back(isBoundary(s) && !isOpenTag(s.tag) ? 1 : 0);
   }
   const std::vector<double> sizes = sizesAt(middles, on_shore, size, even, loop);
   // The number of pieces of a segment.
@@ -162,7 +162,7 @@ std::uint8_t useOf(const ShoreTriangles& triangles, VertexId v) {
     const SegmentId s = mesh.segment(e);
     if (s == kNone) return;
     const bool is_shore = (mesh.regions[t] == triangles.land) != (mesh.regions[triOf(mesh.twin(e))] == triangles.land);
-    use |= !is_shore ? kInWater : triangles.tags[s] == kOpenTag ? kOnOpen : kOnShore;
+    use |= !is_shore ? kInWater : isOpenTag(triangles.tags[s]) ? kOnOpen : kOnShore;
   });
   return use != 0 ? use : std::uint8_t{kInWater | kLoose};
 }

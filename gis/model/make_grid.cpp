@@ -181,7 +181,7 @@ std::vector<NodePair> openEdges(const Domain& domain, const TriMesh& mesh, const
       for (unsigned i = 0; i < 3; ++i) {
         const SegmentId segment = triangle.seg[i];
         if (triangle.adj[i] != kNone || segment >= domain.pslg.segments.size()) continue;
-        if (domain.pslg.segments[segment].tag == kOpenTag) some.push_back({triangle.v[next3(i)], triangle.v[prev3(i)]});
+        if (isOpenTag(domain.pslg.segments[segment].tag)) some.push_back({triangle.v[next3(i)], triangle.v[prev3(i)]});
       }
     }
     return some;

@@ -76,7 +76,7 @@ class PiecedBoundary {
 
   void addEdge(VertexId from, VertexId to, bool outer) {
     const SegmentId segment = search_.between(from, to);
-    const bool open = segment != kNone && domain_.pslg.segments[segment].tag == kOpenTag;
+    const bool open = segment != kNone && isOpenTag(domain_.pslg.segments[segment].tag);
     const Point &a = domain_.pslg.points[from], &b = domain_.pslg.points[to];
     const double length_m = distance(a, b) / domain_.projection.scaleAt(a + 0.5 * (b - a));
     const double element_m = std::min(lengths_.most_m, length_m);
@@ -223,7 +223,7 @@ Domain withOpenings(Domain&& domain, const Crs& crs, const BoundaryOptions& boun
   if (!openings) return std::move(domain);
   DividedGraph graph = divided(domain.pslg, *openings);
   for (SegmentId s = 0; s < graph.opened.size(); ++s)
-    if (graph.opened[s]) graph.pslg.segments[s].tag = kOpenTag;
+    if (graph.opened[s]) graph.pslg.segments[s].tag = kOpenedTag;
   for (std::size_t v = domain.pslg.points.size(); v < graph.pslg.points.size(); ++v)
     domain.input_points.push_back(domain.projection.inverse(graph.pslg.points[v]));
   domain.pslg = std::move(graph.pslg);

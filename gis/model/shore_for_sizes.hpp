@@ -25,8 +25,8 @@ std::optional<Pslg> shoreForSizes(const Domain& domain, const Crs& crs, const Bo
                                   const DepthOptions& depths, const ElementLengths& lengths,
                                   const RunControl& control = {}, const ItemLoop& loop = inOrder);
 
-// The domain with these parts of its boundary tagged as open, for a coast that follows sizes: it keeps the water at
-// openings, and openings are as coarse as the water beside them.
+// The domain with these parts of its boundary tagged as open (`kOpenedTag`), for a coast that follows sizes: it keeps
+// the water at openings, and openings are as coarse as the water beside them.
 Domain withOpenings(Domain&& domain, const Crs& crs, const BoundaryOptions& boundaries, const DepthOptions& depths,
                     const ElementLengths& lengths, const RunControl& control = {}, const ItemLoop& loop = inOrder);
 

@@ -67,7 +67,7 @@ ShoreChains chainsOf(ShoreGraph&& graph, const SizeFunction& size, const ItemLoo
   }
   std::vector<char> on_shore(even != nullptr ? count : 0, 0);
   for (const Segment& s : chains.leaving)
-    if (even != nullptr && s.a != kNone && s.tag != kOpenTag) on_shore[s.a] = on_shore[s.b] = 1;
+    if (even != nullptr && s.a != kNone && !isOpenTag(s.tag)) on_shore[s.a] = on_shore[s.b] = 1;
   chains.size = sizesAt(chains.at, on_shore, size, even, loop);
   return chains;
 }

@@ -15,7 +15,7 @@ constexpr double kShort = 0.5;  // of the size wanted
 constexpr double kReach = 1.0;  // how far a piece reaches from its start
 constexpr double kStraight = 0.02;
 
-bool isOpen(const ShoreChains& c, VertexId v) { return c.leaving[v].tag == kOpenTag; }
+bool isOpen(const ShoreChains& c, VertexId v) { return isOpenTag(c.leaving[v].tag); }
 
 // True if the boundary changes between shore and open at v, and its water does not.
 bool isEnd(const ShoreChains& c, VertexId v) {
@@ -83,7 +83,7 @@ class EndMender {
       takeOut(c_, way_[i]);
     }
     c_.leaving[first] = open;
-    for (const VertexId v : {first, last}) c_.stays[v] = 0, c_.open[v] = 1;
+    for (const VertexId v : {first, last}) c_.stays[v] = 0, c_.open[v] = open.tag == kOpenTag ? 1 : 0;
   }
 
   ShoreChains& c_;

@@ -32,7 +32,7 @@ class Shores {
   Shores(const Pslg& pslg, bool labelled) : pslg_(pslg) {
     std::vector<Box> boxes;
     for (const Segment& s : pslg.segments) {
-      if (s.tag == kOpenTag || (labelled && !hasLandOnOneSide(s))) continue;
+      if (isOpenTag(s.tag) || (labelled && !hasLandOnOneSide(s))) continue;
       shores_.push_back(s);
       boxes.push_back(Box::of(pslg.points[s.a], pslg.points[s.b]));
     }
@@ -115,7 +115,7 @@ std::vector<Fan> capesOf(const Pslg& pslg, bool labelled) {
   for (const Segment& s : pslg.segments) {
     if (labelled && !hasLandOnOneSide(s)) continue;
     const Point d = pslg.points[s.b] - pslg.points[s.a];
-    const bool shore = s.tag != kOpenTag;
+    const bool shore = !isOpenTag(s.tag);
     ends.push_back({s.a, std::atan2(d.y, d.x), !labelled || s.left >= 0, shore});
     ends.push_back({s.b, std::atan2(-d.y, -d.x), !labelled || s.right >= 0, shore});
   }

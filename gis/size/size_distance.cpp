@@ -270,7 +270,7 @@ std::vector<SizedLine> shoreLines(const Pslg& pslg, double size_m, double rate) 
   const bool labelled = isLabelled(pslg);
   std::vector<SizedLine> lines;
   for (const Segment& s : pslg.segments)
-    if (!labelled || (s.tag != kOpenTag && hasLandOnOneSide(s)))
+    if (!labelled || (!isOpenTag(s.tag) && hasLandOnOneSide(s)))
       lines.push_back({pslg.points[s.a], pslg.points[s.b], size_m, rate});
   return lines;
 }

@@ -256,7 +256,20 @@ TEST_F(BoundaryTypes, OpeningsDoNotDrawTheSizeOfTheShore) {
   EXPECT_EQ(vertices("lake.geojson", {"--boundaries", put("river.geojson", Json::array({river}))}), all);
   // The same applies to a coast that follows the sizes.
   EXPECT_LT(vertices("lake.geojson", {"--boundaries", types, "--coast", "follow"}), 0.85 * all);
+}
+
+// An opening with many vertices, slightly off a line, at sizes that depend on the distance from the shore alone.
+TEST_F(BoundaryTypes, ACoastThatFollowsIsAsCoarseAtOpeningsAsTheWater) {
+  Json south, ring;
+  for (int i = 0; i <= 100; ++i) south.push_back({5 + 0.001 * i, 50 + 0.0001 * ((7 * i) % 3)});
+  ring = south;
+  for (const Json& corner : Json{{5.1, 50.05}, {5.0, 50.05}, {5.0, 50.0}}) ring.push_back(corner);
+  const std::string input = put("lake.geojson", Json::array({feature(Json::object(), "Polygon", Json::array({ring}))}));
+  const std::string types = put("types.geojson", Json::array({feature({{"type", "open"}}, "LineString", south)}));
+  done({"mesh", input, "-o", file("a.gpkg"), "--quiet", "--boundaries", types, "--size-shore", "100", "--shore-rate",
+        "0.2", "--grade", "0.2", "--size-max", "1500", "--coast", "follow"});
   EXPECT_LT(rolesIn("a.gpkg")["open"], 40);
+  EXPECT_GT(rolesIn("a.gpkg")["open"], 10);
 }
 
 // A bay whose west is opened by a line, and behind a strait of 200 m a larger lagoon.
