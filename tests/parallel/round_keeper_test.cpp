@@ -46,7 +46,7 @@ void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
 std::vector<Case> cases() {
   static const ConstantSize one(0.009);
-  std::vector<Case> all(4);
+  std::vector<Case> all(5);
   // Corners that excuse small angles; an angle bound only.
   all[0].name = "Coast", all[0].pslg = fractalCoast(1, 6, 8);
   // Size steps, lattices, and repairs beside the lattices.
@@ -55,6 +55,8 @@ std::vector<Case> cases() {
   all[2].name = "OneLength", all[2].pslg = fractalCoast(1, 6, 3), all[2].options.refine.size = &one;
   all[3].name = "Budget", all[3].pslg = twoRegions(), all[3].options.refine.size_max = 0.005;
   all[3].options.refine.max_vertices = 20000;
+  // Pieces use up their shares in several rounds of a step.
+  all[4].name = "BudgetInRounds", all[4].pslg = all[0].pslg, all[4].options.refine.max_vertices = 126000;
   for (Case& c : all) {
     c.options.refine.min_angle_deg = 28.0;
     c.options.mark_pieces = true;
