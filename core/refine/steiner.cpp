@@ -81,8 +81,8 @@ SteinerPoint SteinerSearch::find(const EditMesh& mesh, TriId t, unsigned apex) {
   // where lengths grow away from it, as beside every shore.
   const Point centre = 0.5 * q + 0.5 * kInverseRootOfThree * Point{-q.y, q.x};
   const double wanted = bound_.size == nullptr ? 0.0 : scale_ * bound_.size->at(frame.absolute(centre));
-  // On the circumcircle itself, rounding decides whether a point removes the triangle, which would not be tried again if
-  // its angles are good enough. Where vertices move as well, such triangles do not last.
+  // On the circumcircle itself, rounding decides whether a point removes the triangle, which would not be tried again
+  // if its angles are good enough. Where vertices move as well, such triangles do not last.
   constexpr double kClearlyInside = 1.0 - 1e-6;
   const bool stays_inside = algorithm_ == Algorithm::Optimal && !bad_angle;
   const double circumradius = std::sqrt(squaredLength(own));

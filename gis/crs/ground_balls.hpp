@@ -4,20 +4,14 @@
 #include <span>
 
 #include "core/point.hpp"
-#include "core/space_point.hpp"
 #include "gis/crs/crs.hpp"
 #include "gis/crs/geographic_map.hpp"
+#include "gis/crs/space_ball.hpp"
 
 namespace coastmesh {
 
-// Metres; on Earth from its centre.
-struct SpaceBall {
-  SpacePoint centre;
-  double radius = 0.0;
-};
-
-// Balls around places of a CRS, with the Earth as a sphere. They tell how far apart things are at least, across the
-// antimeridian and the poles too, within half a percent.
+// Balls around places of a CRS, with the Earth as a sphere: lower bounds of distances, across the antimeridian and the
+// poles too, accurate to half a percent.
 class GroundBalls {
  public:
   // Throws InputError if PROJ has no transformation.

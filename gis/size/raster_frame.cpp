@@ -30,8 +30,8 @@ std::vector<int> cutsOf(const RasterGeometry& raster, std::vector<int> PixelCuts
 }
 
 // Cuts tiles of rows further where a degree of longitude has become shorter or longer by a tenth since the last cut.
-// Tiles of a raster with fine pixels are not cut below a sixteenth of a degree, so that they do not become too many near
-// the poles.
+// Tiles of a raster with fine pixels are not cut below a sixteenth of a degree, so that they do not become too many
+// near the poles.
 std::vector<int> cutByParallels(const RasterGeometry& raster, std::vector<int> cuts) {
   constexpr double kAlike = 1.1, kLeastDegrees = 1.0 / 16.0;
   if (!(raster.period > 0.0) || raster.to_place[5] == 0.0) return cuts;

@@ -61,9 +61,9 @@ TileAnswer answerTask(const TileTask& task);
 TileAnswer answerTask(const RasterBand& band, const TileTask& task, std::span<const TileRule> rules);
 
 // The pixels around a tile that a rule with this margin uses, and one more: columns on either side and rows above and
-// below. Columns become narrow towards a pole: half of the raster suffices on either side if it wraps, all of it if not.
-// 0 without a margin: files have blocks as large as tiles, and any margin unpacks the blocks around it once more. Throws
-// InputError if there are too many rows.
+// below. Columns become narrow towards a pole: half of the raster suffices on either side if it wraps, all of it if
+// not. 0 without a margin: files have blocks as large as tiles, and any margin unpacks the blocks around it once more.
+// Throws InputError if there are too many rows.
 std::array<int, 2> marginOf(const TilePlace& tile, double margin_m, const RasterGeometry& raster);
 
 }  // namespace coastmesh

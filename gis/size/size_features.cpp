@@ -11,6 +11,7 @@
 #include "core/metric.hpp"
 #include "gis/coast/turned_rings.hpp"
 #include "gis/crs/crs_map.hpp"
+#include "gis/crs/ground_balls.hpp"
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
 #include "gis/geometry/box_tree.hpp"
@@ -188,8 +189,8 @@ class FeatureReader {
   SizedFeatures& features_;
 };
 
-// Lines and rings of features in the working plane, with more points where an edge that is straight in the features' CRS
-// is bent there.
+// Lines and rings of features in the working plane, with more points where an edge that is straight in the features'
+// CRS is bent there.
 class PlaneLines {
  public:
   // `scale` is plane length over metres.
@@ -243,8 +244,8 @@ class PlaneLines {
   double size_m_;
 };
 
-// True if the part's size has grown to more than `most_m` everywhere in the scope. Distances in the plane may be shorter
-// than on the ground, hence `kSure`; how much shorter is unknown for large parts.
+// True if the part's size has grown to more than `most_m` everywhere in the scope. Distances in the plane may be
+// shorter than on the ground, hence `kSure`; how much shorter is unknown for large parts.
 bool isTooFar(const SizedFeatures::Part& part, const FeatureScope& scope) {
   constexpr double kSure = 0.5, kLarge = 2e6;
   if (!scope.ball || !(scope.ball->radius < kLarge) || !(part.ball.radius < kLarge)) return false;

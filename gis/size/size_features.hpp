@@ -9,7 +9,7 @@
 
 #include "gis/coast/coastline.hpp"
 #include "gis/crs/crs.hpp"
-#include "gis/crs/ground_balls.hpp"
+#include "gis/crs/space_ball.hpp"
 #include "gis/projection/projection.hpp"
 #include "gis/size/size_distance.hpp"
 #include "gis/size/size_field.hpp"

@@ -9,6 +9,7 @@
 
 #include "core/metric.hpp"
 #include "core/size/on_surface.hpp"
+#include "gis/crs/ground_balls.hpp"
 #include "gis/error.hpp"
 #include "gis/long_wave.hpp"
 #include "gis/projection/scale_table.hpp"

@@ -148,7 +148,7 @@ TEST_F(PerFeature, WhereAllRequireTooManyVerticesItIsNotTheInputsFault) {
 
 TEST_F(PerFeature, DepthsThatOpenNothingAreWarnedOf) {
   write("shallow.asc", "ncols 4\nnrows 2\nxllcorner 4\nyllcorner 49\ncellsize 1\n-10 -10 -10 -10\n-10 -10 -10 -10\n");
-  const ProgramRun run = mesh(writeFeatures({square(5, 50, 0.03, {{"name", "a"}})}),
+  const ProgramRun run = mesh(writeFeatures(Json::array({square(5, 50, 0.03, {{"name", "a"}})})),
                               {"-o", file("{}.14"), "--bathymetry", file("shallow.asc"), "--open-deeper", "50"});
   EXPECT_EQ(run.code, 0) << run.errors;
   EXPECT_THAT(run.errors, HasSubstr("--open-deeper"));

@@ -74,7 +74,7 @@ TEST(HilbertIndices, KeepNeighboursNear) {
 }
 
 TEST(HilbertOrder, IsTheOrderOfTheIndicesAndKeepsThatOfEqualOnes) {
-  for (const int count : {1, 2, 20, 440, 448, 450, 3000}) {  // every seventh twice, which gives sizes below and above 512
+  for (const int count : {1, 2, 20, 440, 448, 450, 3000}) {  // every seventh twice: below, at and above 512
     std::mt19937_64 random(2);
     std::vector<Point> points;
     for (int i = 0; i < count; ++i) {

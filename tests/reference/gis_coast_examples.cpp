@@ -22,6 +22,7 @@
 #include "gis/crs/crs.hpp"
 #include "gis/crs/crs_definition.hpp"
 #include "gis/crs/resolution.hpp"
+#include "gis/crs/space_ball.hpp"
 #include "gis/error.hpp"
 #include "gis/file/output_files.hpp"
 #include "gis/file/staged_files.hpp"
@@ -229,6 +230,15 @@ TEST_F(GisCoastExamples, Resolution) {
   const Resolution resolution = resolutionOf(plane);
   //! [gis/crs/resolution.hpp]
   EXPECT_NEAR(resolution.grain, 6900100 * std::ldexp(1.0, -44), 1e-9);
+}
+
+// gis/crs/space_ball.hpp: A ball in space around places of the ground.
+TEST_F(GisCoastExamples, SpaceBall) {
+  //! [gis/crs/space_ball.hpp]
+  const SpaceBall harbour{{6371000.0, 0.0, 0.0}, 500.0}, lake{{6371000.0, 4000.0, 0.0}, 1500.0};
+  const double least_apart_m = distance(harbour.centre, lake.centre) - harbour.radius - lake.radius;
+  //! [gis/crs/space_ball.hpp]
+  EXPECT_EQ(least_apart_m, 2000.0);
 }
 
 // gis/error.hpp: Errors by cause: the options, the input, or the output.

@@ -49,8 +49,8 @@ TEST_P(PlotBoxAt180, OfAllLongitudesHoldsAll) {
 
 INSTANTIATE_TEST_SUITE_P(Longitudes, PlotBoxAt180,
                          ::testing::Values(std::vector{178.5, 179.5, -179.5, -178.5},
-                                         std::vector{178.5, 179.5, 180.5, 181.5},
-                                         std::vector{-181.5, -180.5, -179.5, -178.5}));
+                                           std::vector{178.5, 179.5, 180.5, 181.5},
+                                           std::vector{-181.5, -180.5, -179.5, -178.5}));
 
 TEST(PlotBox, InAPlaneHasNoTurns) {
   const Grid grid = gridFrom(Crs{}, {178.5, 179.5, 180.5, 181.5});

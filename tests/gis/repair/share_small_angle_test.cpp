@@ -68,7 +68,7 @@ TEST(ShareSmallAngle, TrianglesAroundGiveUpWhatTheyHaveAboveTheBound) {
         EXPECT_TRUE(!state.links.on_boundary[node] || grid.nodes[node] == given.nodes[node]);
     }
   }
-  EXPECT_GT(before, 100u);
+  EXPECT_GT(before, 40u);
   EXPECT_LE(after, before / 20);
 }
 
