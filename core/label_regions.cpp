@@ -60,6 +60,10 @@ void labelRegions(TriMesh& mesh, const Pslg& pslg, const ItemLoop& loop) {
   std::ranges::replace(mesh.regions, kUnlabelled, 0);
 }
 
+bool hasRegions(const Pslg& pslg) {
+  return std::ranges::any_of(pslg.segments, [](const Segment& s) { return s.left >= 0 || s.right >= 0; });
+}
+
 void labelSegments(Pslg& pslg) {
   const auto isLabelled = [](const Segment& s) { return s.left != kUnlabelled || s.right != kUnlabelled; };
   if (pslg.segments.empty() || std::ranges::any_of(pslg.segments, isLabelled)) return;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "apps/job/judge_mesh.hpp"
 #include "apps/job/mesh_job_options.hpp"
 #include "apps/job/mesh_job_result.hpp"

@@ -370,8 +370,8 @@ void plotGlobe(const Grid& grid, const PlotOptions& options, const GlobeView& vi
 std::string plotMeshOrGlobe(const Grid& grid, const PlotOptions& options, const std::string& path) {
   if (plotMesh(grid, options, path)) return {};
   plotGlobe(grid, options, {}, path);
-  return std::string("the mesh is too large for a plane: it is drawn as with --view orthographic") +
-         (options.degrees ? ", without the dots of --degrees" : "");
+  return std::string("the mesh is too large for a plane: it is drawn on a globe") +
+         (options.degrees ? ", without dots on irregular nodes" : "");
 }
 
 }  // namespace coastmesh

@@ -81,12 +81,13 @@ py::list writeFile(const MeshResult& mesh, const std::string& path, const std::s
     std::erase(warnings, std::string());
   }
   py::list texts;
-  for (const std::string& text : warnings) texts.append(textOf(text));
+  for (const std::string& text : warnings) texts.append(textOf(inKeywordsOfMesh(text)));
   return texts;
 }
 
-void plotFile(const MeshResult& mesh, const std::string& path, const std::string& color, std::int64_t size, bool edges,
-              bool overwrite) {
+// Returns a note if the picture is another than the one requested; otherwise an empty text.
+std::string plotFile(const MeshResult& mesh, const std::string& path, const std::string& color, std::int64_t size,
+                     bool edges, bool overwrite) {
   PlotOptions options;
   options.color = plotColorNamed(color);
   constexpr auto kLeast = static_cast<std::int64_t>(PlotOptions::kLeastSize),
@@ -103,13 +104,15 @@ void plotFile(const MeshResult& mesh, const std::string& path, const std::string
   if (!page) requirePlotFormat(path);
   const py::gil_scoped_release release;
   StagedFiles picture(path, overwrite);
+  std::string note;
   picture.make([&](const std::string& aside) {
     if (page)
       plotPage(mesh.grid, in_page, aside);
     else
-      plotMeshOrGlobe(mesh.grid, options, aside);
+      note = plotMeshOrGlobe(mesh.grid, options, aside);
   });
   picture.commit();
+  return note;
 }
 
 MeshResult readMesh(const std::string& path) {

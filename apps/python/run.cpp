@@ -230,6 +230,13 @@ MeshResult runFromPython(const py::dict& keywords, std::vector<std::string> file
   return result;
 }
 
+std::string inKeywordsOfMesh(const std::string& message) {
+  MeshUsage usage;
+  OptionTable options("mesh", "");
+  declareMeshOptions(options, usage);
+  return inKeywords(message, options);
+}
+
 std::string usageOfOptions() {
   MeshUsage usage;
   OptionTable options("mesh", "");

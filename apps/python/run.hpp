@@ -30,6 +30,9 @@ MeshResult runFromPython(const pybind11::dict& keywords, std::vector<std::string
                          std::optional<std::string> text, const pybind11::object& graph,
                          const pybind11::object& progress);
 
+// Rewords a message of the library: options as keywords.
+std::string inKeywordsOfMesh(const std::string& message);
+
 // The options as JSON, in the form of `coastmesh mesh --json-usage`.
 std::string usageOfOptions();
 

@@ -14,6 +14,7 @@
 #include "gis/follow/shore_patches.hpp"
 #include "gis/follow/shore_settle.hpp"
 #include "gis/geometry/box.hpp"
+#include "gis/geometry/union_find.hpp"
 
 namespace coastmesh {
 
@@ -181,9 +182,7 @@ class Opening {
   }
   WaterPart partOf(const std::vector<TriId>& patch, const ConnectedRegions& connected) const {
     WaterPart part;
-    const RegionId region = mesh().regions[patch.front()];
-    const auto found = connected.find(region);
-    part.whole = found != connected.end() ? found->second : region;
+    part.whole = connected[static_cast<std::size_t>(mesh().regions[patch.front()])];
     for (const TriId t : patch) {
       const double area = groundAreaOf(t);
       part.area += area;
@@ -370,26 +369,17 @@ void openLand(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGui
 
 ConnectedRegions connectedRegions(const ShoreTriangles& triangles) {
   const TriMesh& mesh = triangles.mesh;
-  ConnectedRegions first;
-  const auto firstOf = [&](RegionId region) {
-    auto at = first.try_emplace(region, region).first;
-    while (at->second != at->first) {
-      at->second = first.find(at->second)->second;  // shortens the way for later calls
-      at = first.find(at->second);
-    }
-    return at->first;
-  };
+  UnionFind sets(static_cast<std::size_t>(triangles.land));
   for (TriId t = 0; t < mesh.triangles.size(); ++t) {
     const RegionId region = mesh.regions[t];
     if (region == triangles.land) continue;
-    for (const EdgeRef e : mesh.triangles[t].adj) {
-      const RegionId beside = mesh.regions[triOf(e)];
-      if (beside == triangles.land || beside == region) continue;
-      const RegionId one = firstOf(region), other = firstOf(beside);
-      first[std::max(one, other)] = std::min(one, other);
-    }
+    for (const EdgeRef e : mesh.triangles[t].adj)
+      if (const RegionId beside = mesh.regions[triOf(e)]; beside != triangles.land)
+        sets.unite(static_cast<std::uint32_t>(region), static_cast<std::uint32_t>(beside));
   }
-  for (auto& [region, of] : first) of = firstOf(region);
+  ConnectedRegions first;
+  for (std::uint32_t r = 0; r < static_cast<std::uint32_t>(triangles.land); ++r)
+    first.push_back(static_cast<RegionId>(sets.find(r)));
   return first;
 }
 

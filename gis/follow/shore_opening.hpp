@@ -25,9 +25,8 @@ struct DroppedSpit {
 void openLand(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
               const ShoreEdit& edit, WaterAreas& gained, std::vector<DroppedSpit>& spits);
 
-// For each region whose water meets that of others: the first of all regions that it is connected with. Features with a
-// common border are one water.
-using ConnectedRegions = std::map<RegionId, RegionId>;
+// For each region of water, the first of those that it is connected with: features with a common border are one water.
+using ConnectedRegions = std::vector<RegionId>;
 
 ConnectedRegions connectedRegions(const ShoreTriangles& triangles);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/label_regions.hpp"
 #include "gis/geometry/planar_map.hpp"
 
 namespace coastmesh {
@@ -68,9 +69,7 @@ class HoleFinder {
 }  // namespace
 
 std::vector<Point> holePoints(const Pslg& pslg) {
-  const bool labelled = std::any_of(pslg.segments.begin(), pslg.segments.end(),
-                                    [](const Segment& s) { return s.left >= 0 || s.right >= 0; });
-  if (!labelled) return {};
+  if (!hasRegions(pslg)) return {};
   std::vector<std::pair<VertexId, VertexId>> edges;
   edges.reserve(pslg.segments.size());
   for (const Segment& s : pslg.segments) edges.emplace_back(s.a, s.b);

@@ -182,6 +182,44 @@ std::optional<PatchEdit> bestUnfolding(const RepairView& view, std::uint32_t nod
   return best;
 }
 
+// Moves of nodes that can be undone.
+class MovedNodes {
+ public:
+  explicit MovedNodes(RepairState& state) : state_(state) {}
+
+  void move(std::uint32_t node, const GridPatch& patch, const PatchEdit& edit) {
+    Grid& grid = state_.grid;
+    moves_.push_back({node, grid.nodes[node], grid.z.empty() ? 0.0 : grid.z[node]});
+    applyEdit(state_, patch, edit);
+    forgetMeasures(node);
+  }
+
+  void putBack() {
+    for (const auto& [node, place, z] : std::views::reverse(moves_)) {
+      state_.grid.nodes[node] = place;
+      if (!state_.grid.z.empty()) state_.grid.z[node] = z;
+      forgetMeasures(node);
+    }
+    moves_.clear();
+  }
+
+ private:
+  struct Move {
+    std::uint32_t node;
+    Point place;  // before
+    double z;
+  };
+
+  void forgetMeasures(std::uint32_t node) {
+    constexpr double kUnmeasured = std::numeric_limits<double>::quiet_NaN();
+    for (const std::uint32_t t : state_.links.triangles_at[node]) state_.smallest_angle[t] = kUnmeasured;
+    if (!state_.on_sphere.empty()) state_.on_sphere[node][0] = kUnmeasured;
+  }
+
+  RepairState& state_;
+  std::vector<Move> moves_;
+};
+
 }  // namespace
 
 void unfoldTriangle(RepairState& state, const FoundDefect& found) {
@@ -246,7 +284,7 @@ bool relaxTriangle(RepairState& state, std::uint32_t t) {
 
 void shareSmallAngle(RepairState& state, std::uint32_t t) {
   constexpr int kRings = 3, kMostSweeps = 80;
-  constexpr double kBeyondDeg = 1.0;  // neighbours give up only what is above the bound, less this
+  constexpr double kBeyondDeg = 1.0;  // above the bound: larger angles are free to become smaller
   const RepairView view = state.view();
   const double bound = state.options.min_angle_deg - kAngleSlackDeg, goal = state.options.min_angle_deg + kBeyondDeg;
   std::vector<std::uint32_t> around{t};
@@ -261,17 +299,7 @@ void shareSmallAngle(RepairState& state, std::uint32_t t) {
   };
   const auto small_before = countSmall();
   if (small_before == 0) return;
-  struct Moved {
-    std::uint32_t node;
-    Point place;
-    double z;
-  };
-  std::vector<Moved> moved;
-  const auto forget = [&state](std::uint32_t node) {
-    for (const std::uint32_t of : state.links.triangles_at[node])
-      state.smallest_angle[of] = std::numeric_limits<double>::quiet_NaN();
-    if (!state.on_sphere.empty()) state.on_sphere[node][0] = std::numeric_limits<double>::quiet_NaN();
-  };
+  MovedNodes moved(state);
   for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
     bool any = false;
     for (const std::uint32_t node : movable) {
@@ -280,20 +308,12 @@ void shareSmallAngle(RepairState& state, std::uint32_t t) {
       const GridPatch patch = patchRound(view, star);
       const std::optional<PatchEdit> chosen = bestSharing(view, node, goal, patch);
       if (!chosen) continue;
-      const double z = state.grid.z.empty() ? 0.0 : state.grid.z[node];
-      moved.push_back({node, state.grid.nodes[node], z});
-      applyEdit(state, patch, *chosen);
-      forget(node);
+      moved.move(node, patch, *chosen);
       any = true;
     }
     if (!any || countSmall() == 0) break;
   }
-  if (countSmall() < small_before) return;
-  for (const auto& [node, place, z] : std::views::reverse(moved)) {
-    state.grid.nodes[node] = place;
-    if (!state.grid.z.empty()) state.grid.z[node] = z;
-    forget(node);
-  }
+  if (countSmall() >= small_before) moved.putBack();
 }
 
 void mendValence(RepairState& state, const FoundDefect& found) {

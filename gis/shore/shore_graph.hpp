@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/label_regions.hpp"
 #include "core/pslg.hpp"
 
 namespace coastmesh {
@@ -12,7 +13,6 @@ struct ShoreGraph {
   std::vector<VertexId> source;  // of each point: index of the domain's point, or kNone
 };
 
-inline bool isBoundary(const Segment& s) { return (s.left >= 0) != (s.right >= 0); }
 inline RegionId waterOf(const Segment& s) { return s.left >= 0 ? s.left : s.right; }
 
 }  // namespace coastmesh

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/delaunay.hpp"
+#include "core/label_regions.hpp"
 #include "core/metric.hpp"
 #include "core/size/on_surface.hpp"
 
@@ -40,7 +41,7 @@ int levelsFor(const Pslg& pslg) {
 
 DomainMask::DomainMask(const Pslg& pslg, const SizeBox& square, const Surface& surface)
     : origin_(square.centre - Point{square.half, square.half}), side_(2.0 * square.half), surface_(surface) {
-  if (std::ranges::none_of(pslg.segments, [](const Segment& s) { return s.left >= 0 || s.right >= 0; })) {
+  if (!hasRegions(pslg)) {
     const Pslg boundary = labelledBoundary(pslg);
     measureShares(boundary);
     listBoundary(boundary);

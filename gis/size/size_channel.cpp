@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "core/label_regions.hpp"
 #include "core/metric.hpp"
 #include "gis/coast/segment_tags.hpp"
 #include "gis/geometry/box_tree.hpp"
@@ -32,7 +33,7 @@ class Shores {
   Shores(const Pslg& pslg, bool labelled) : pslg_(pslg) {
     std::vector<Box> boxes;
     for (const Segment& s : pslg.segments) {
-      if (isOpenTag(s.tag) || (labelled && !hasLandOnOneSide(s))) continue;
+      if (isOpenTag(s.tag) || (labelled && !isBoundary(s))) continue;
       shores_.push_back(s);
       boxes.push_back(Box::of(pslg.points[s.a], pslg.points[s.b]));
     }
@@ -113,7 +114,7 @@ std::vector<Fan> capesOf(const Pslg& pslg, bool labelled) {
   std::vector<End> ends;
   ends.reserve(2 * pslg.segments.size());
   for (const Segment& s : pslg.segments) {
-    if (labelled && !hasLandOnOneSide(s)) continue;
+    if (labelled && !isBoundary(s)) continue;
     const Point d = pslg.points[s.b] - pslg.points[s.a];
     const bool shore = !isOpenTag(s.tag);
     ends.push_back({s.a, std::atan2(d.y, d.x), !labelled || s.left >= 0, shore});
@@ -141,7 +142,7 @@ class ChannelSearch {
   ChannelSearch(const Pslg& pslg, double elements, double rate, double least_m, double most_m,
                 const std::function<double(const Point&)>& scale, const ChannelRoom& room, const Surface& surface)
       : pslg_(pslg),
-        labelled_(isLabelled(pslg)),
+        labelled_(hasRegions(pslg)),
         shores_(pslg, labelled_),
         elements_(elements),
         rate_(rate),

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/hilbert.hpp"
+#include "core/label_regions.hpp"
 #include "core/metric.hpp"
 #include "core/size/on_surface.hpp"
 #include "gis/coast/segment_tags.hpp"
@@ -262,15 +263,11 @@ void DistanceField::bound(std::span<const SizeBox> boxes, std::span<SizeRange> r
   }
 }
 
-bool isLabelled(const Pslg& pslg) {
-  return std::ranges::any_of(pslg.segments, [](const Segment& s) { return s.left >= 0 || s.right >= 0; });
-}
-
 std::vector<SizedLine> shoreLines(const Pslg& pslg, double size_m, double rate) {
-  const bool labelled = isLabelled(pslg);
+  const bool labelled = hasRegions(pslg);
   std::vector<SizedLine> lines;
   for (const Segment& s : pslg.segments)
-    if (!labelled || (!isOpenTag(s.tag) && hasLandOnOneSide(s)))
+    if (!labelled || (!isOpenTag(s.tag) && isBoundary(s)))
       lines.push_back({pslg.points[s.a], pslg.points[s.b], size_m, rate});
   return lines;
 }

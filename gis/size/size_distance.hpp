@@ -78,10 +78,6 @@ class DistanceField final : public SizeField {
   Surface surface_;
 };
 
-// True if segments say what is beside them.
-bool isLabelled(const Pslg& pslg);
-// For a labelled graph. False for lines in the water and for borders between regions.
-inline bool hasLandOnOneSide(const Segment& s) { return (s.left >= 0) != (s.right >= 0); }
 // The shore of a domain: the segments with land on one side that are not open; all segments if none is labelled.
 std::vector<SizedLine> shoreLines(const Pslg& pslg, double size_m, double rate);
 

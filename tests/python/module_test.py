@@ -286,7 +286,7 @@ class FilesTest(unittest.TestCase):
 
     def test_files_that_models_would_misread_are_warned_of(self):
         mesh = coastmesh.mesh(POLYGON)
-        with self.assertWarnsRegex(coastmesh.CoastmeshWarning, "says 0 everywhere"):
+        with self.assertWarnsRegex(coastmesh.CoastmeshWarning, "says 0 everywhere; give bathymetry"):
             mesh.write(self.path("fort.14"))
 
     def test_meshes_are_pickled_and_copied(self):
@@ -371,6 +371,11 @@ class FilesTest(unittest.TestCase):
         expected = [line.split("warning: ", 1)[1] for line in run.stderr.splitlines() if "warning: " in line]
         self.assertTrue(any("not counter-clockwise on the ground" in line for line in expected))
         self.assertEqual([str(w.message) for w in caught], expected)
+
+    def test_a_picture_on_a_globe_instead_of_a_plane_is_warned_of(self):
+        mesh = coastmesh.mesh(POLYGON, domain="globe", size=2e6)
+        with self.assertWarnsRegex(coastmesh.CoastmeshWarning, "too large for a plane"):
+            mesh.plot(self.path("globe.png"), size=100)
 
     def test_pictures_come_into_place_as_other_files_do(self):
         mesh = coastmesh.mesh(POLYGON)

@@ -12,6 +12,7 @@
 #include "core/ids.hpp"
 #include "core/input_corners.hpp"
 #include "core/item_loop.hpp"
+#include "core/label_regions.hpp"
 #include "core/linked_triangles.hpp"
 #include "core/metric.hpp"
 #include "core/point.hpp"
@@ -152,6 +153,17 @@ TEST(CoreExamples, Point) {
   std::ranges::sort(points, lexLess);
   //! [core/point.hpp]
   EXPECT_EQ(points, (std::vector<Point>{{0, 1}, {0, 2}, {1, 0}}));
+}
+
+// core/label_regions.hpp: The regions beside segments, and those of triangles.
+TEST(CoreExamples, LabelRegions) {
+  //! [core/label_regions.hpp]
+  Pslg square = unitSquare();
+  labelSegments(square);  // region 0 inside, kOutside beyond
+  const auto sides = std::ranges::count_if(square.segments, isBoundary);
+  //! [core/label_regions.hpp]
+  EXPECT_TRUE(hasRegions(square));
+  EXPECT_EQ(sides, 4);
 }
 
 // core/pslg.hpp: A planar straight-line graph, the input of the core.

@@ -139,7 +139,9 @@ class Mesh:
         if isinstance(size, (bool, np.bool_)) or not isinstance(size, (int, np.integer)) or abs(size) >= 2**63:
             raise OptionError(f"size: {size!r} is not a number of pixels")
         with _own_errors():
-            self._made._plot(os.fsencode(path), color, int(size), edges, overwrite)
+            note = self._made._plot(os.fsencode(path), color, int(size), edges, overwrite)
+        if note:
+            _warnings.warn(note, CoastmeshWarning, stacklevel=2)
 
     def __repr__(self):
         return f"<coastmesh.Mesh: {len(self.points)} points, {len(self.triangles)} triangles>"
