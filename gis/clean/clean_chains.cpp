@@ -34,14 +34,13 @@ std::vector<InputChain> gather(const Coastline& coastline, const std::vector<std
   using Role = CleanChain::Role;
   std::vector<InputChain> chains;
   std::optional<SmallIslands> small;
-  if (options.min_island_area_m2 > 0) small.emplace(coastline.crs, options.min_island_area_m2);
+  if (options.min_island_area_m2 > 0) small.emplace(coastline, members, options.min_island_area_m2);
   for (const std::size_t member : members) {
     const Feature& feature = coastline.features[member];
     const auto index = static_cast<std::uint32_t>(member);
     std::vector<Polygon> larger;
     if (small)
-      larger =
-          small->without(feature, [&](const Point& p) { report.add(EditKind::SmallIsland, p, coastline, member); });
+      larger = small->without(member, [&](const Point& p) { report.add(EditKind::SmallIsland, p, coastline, member); });
     // If a region has lines, they are its border, cleaned before.
     const bool by_lines = feature.use == FeatureUse::Region && !feature.lines.empty();
     for (const Polygon& polygon : small ? larger : feature.polygons) {

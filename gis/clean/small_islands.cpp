@@ -1,11 +1,14 @@
 #include "gis/clean/small_islands.hpp"
 
 #include <algorithm>
-#include <iterator>
-#include <utility>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <map>
 
 #include "gis/coast/turned_rings.hpp"
 #include "gis/geometry/chain_index.hpp"
+#include "gis/geometry/union_find.hpp"
 
 namespace coastmesh {
 
@@ -36,29 +39,115 @@ class TakenOut {
   ChainIndex index_{ChainIndex::Kind::Rings};
 };
 
-}  // namespace
+using PolygonId = std::pair<std::size_t, std::size_t>;  // a feature's index, its polygon's
 
-std::vector<Polygon> SmallIslands::without(const Feature& feature,
-                                           const std::function<void(const Point&)>& drop) const {
-  switch (feature.use) {
-    case FeatureUse::Land:
-    case FeatureUse::Coast:
-      return withoutLand(feature, drop);
-    case FeatureUse::Area:
-      return withoutHoles(feature, drop);
-    default:
-      return feature.polygons;
+bool isLand(const Feature& feature) { return feature.use == FeatureUse::Land || feature.use == FeatureUse::Coast; }
+
+// Both ends of an edge, the same from both sides and, of longitudes, on both sides of the antimeridian.
+using EdgeEnds = std::array<double, 4>;
+
+EdgeEnds endsOf(Point a, Point b, bool geographic) {
+  if (geographic) {
+    for (Point* p : {&a, &b})
+      if (p->x == -180) p->x = 180;
+  }
+  if (std::array{b.x, b.y} < std::array{a.x, a.y}) std::swap(a, b);
+  return {a.x, a.y, b.x, b.y};
+}
+
+// Calls `visit(ends)` for each edge of a ring, but not for points that repeat.
+template <typename Visit>
+void forEdges(const Ring& ring, bool geographic, const Visit& visit) {
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point &a = ring[i], &b = ring[i + 1 == ring.size() ? 0 : i + 1];
+    if (!(a == b)) visit(endsOf(a, b, geographic));
   }
 }
 
-std::vector<Polygon> SmallIslands::withoutLand(const Feature& feature,
+// Small polygons of land, united where they share edges. Only edges of small polygons are stored, since large ones may
+// have far more.
+class SmallPieces {
+ public:
+  explicit SmallPieces(bool geographic) : geographic_(geographic) {}
+
+  void add(PolygonId id, const Ring& ring, double area) {
+    const auto piece = static_cast<std::uint32_t>(ids_.size());
+    ids_.push_back(id);
+    areas_.push_back(area);
+    forEdges(ring, geographic_, [&](const EdgeEnds& ends) {
+      const auto [found, is_new] = pieces_.try_emplace(ends, piece);
+      if (!is_new) neighbours_.emplace_back(found->second, piece);
+    });
+  }
+  // Adds a polygon that is not small, so that islands which share an edge with it are not small either.
+  void joinLarge(const Ring& ring) {
+    forEdges(ring, geographic_, [&](const EdgeEnds& ends) {
+      const auto found = pieces_.find(ends);
+      if (found != pieces_.end()) areas_[found->second] = std::numeric_limits<double>::infinity();
+    });
+  }
+  bool has(const PolygonId& id) const { return std::ranges::binary_search(ids_, id); }
+
+  // Those whose islands have less than `least` area.
+  std::vector<PolygonId> ofSmallIslands(double least) const {
+    UnionFind islands(ids_.size());
+    for (const auto& [a, b] : neighbours_) islands.unite(a, b);
+    std::vector<double> sums(ids_.size(), 0.0);
+    for (std::uint32_t piece = 0; piece < ids_.size(); ++piece) sums[islands.find(piece)] += areas_[piece];
+    std::vector<PolygonId> small;
+    for (std::uint32_t piece = 0; piece < ids_.size(); ++piece)
+      if (sums[islands.find(piece)] < least) small.push_back(ids_[piece]);
+    return small;
+  }
+
+ private:
+  bool geographic_;
+  std::vector<PolygonId> ids_;  // ascending
+  std::vector<double> areas_;
+  std::map<EdgeEnds, std::uint32_t> pieces_;  // the first with an edge
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> neighbours_;
+};
+
+}  // namespace
+
+SmallIslands::SmallIslands(const Coastline& coastline, const std::vector<std::size_t>& members, double least_m2)
+    : coastline_(&coastline), area_(coastline.crs), least_m2_(least_m2) {
+  SmallPieces pieces(coastline.crs.geographic);
+  std::vector<std::size_t> ascending = members;
+  std::ranges::sort(ascending);
+  const auto forLand = [&](const auto& visit) {
+    for (const std::size_t member : ascending) {
+      const Feature& feature = coastline.features[member];
+      if (!isLand(feature)) continue;
+      for (std::size_t p = 0; p < feature.polygons.size(); ++p) visit(PolygonId{member, p}, feature.polygons[p]);
+    }
+  };
+  forLand([&](const PolygonId& id, const Polygon& polygon) {
+    if (polygon.outer.empty() || polygon.isOuterCut()) return;
+    const double area = area_.of(polygon.outer);
+    if (area < least_m2) pieces.add(id, polygon.outer, area);
+  });
+  forLand([&](const PolygonId& id, const Polygon& polygon) {
+    if (!pieces.has(id)) pieces.joinLarge(polygon.outer);
+  });
+  small_land_ = pieces.ofSmallIslands(least_m2);
+}
+
+std::vector<Polygon> SmallIslands::without(std::size_t member, const std::function<void(const Point&)>& drop) const {
+  const Feature& feature = coastline_->features[member];
+  if (isLand(feature)) return withoutLand(member, drop);
+  return feature.use == FeatureUse::Area ? withoutHoles(feature, drop) : feature.polygons;
+}
+
+std::vector<Polygon> SmallIslands::withoutLand(std::size_t member,
                                                const std::function<void(const Point&)>& drop) const {
   std::vector<Polygon> kept;
-  for (const Polygon& polygon : feature.polygons) {
-    if (polygon.isOuterCut() || !isSmall(polygon.outer)) {
-      kept.push_back(polygon);
+  const std::vector<Polygon>& polygons = coastline_->features[member].polygons;
+  for (std::size_t p = 0; p < polygons.size(); ++p) {
+    if (std::ranges::binary_search(small_land_, PolygonId{member, p})) {
+      drop(polygons[p].outer.front());
     } else {
-      drop(polygon.outer.front());
+      kept.push_back(polygons[p]);
     }
   }
   return kept;
@@ -67,7 +156,7 @@ std::vector<Polygon> SmallIslands::withoutLand(const Feature& feature,
 std::vector<Polygon> SmallIslands::withoutHoles(const Feature& feature,
                                                 const std::function<void(const Point&)>& drop) const {
   std::vector<Polygon> kept;
-  TakenOut taken_out(geographic_);
+  TakenOut taken_out(coastline_->crs.geographic);
   bool any = false;
   for (const Polygon& polygon : feature.polygons) {
     Polygon& larger = kept.emplace_back();

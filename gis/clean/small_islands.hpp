@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "gis/clean/geodesic_area.hpp"
@@ -9,23 +10,26 @@
 namespace coastmesh {
 
 // Takes islands smaller than `least_m2` square metres out of features: holes of areas, and polygons of land and coasts.
-// Islands that a frame cut stay, since their full area is unknown.
+// Polygons of land that share edges, such as countries or the pieces of an island that a data set cuts at tiles or at
+// the antimeridian, are one island. Islands that a frame cut stay, since their full area is unknown.
 class SmallIslands {
  public:
-  SmallIslands(const Crs& crs, double least_m2) : area_(crs), least_m2_(least_m2), geographic_(crs.geographic) {}
+  // Measures the land among the group's features.
+  SmallIslands(const Coastline& coastline, const std::vector<std::size_t>& members, double least_m2);
 
-  // Returns the feature's polygons without them. Rings inside a hole that is taken out, such as ponds, are taken out
-  // too. Calls `drop(place)` for each island.
-  std::vector<Polygon> without(const Feature& feature, const std::function<void(const Point&)>& drop) const;
+  // Returns the polygons of a feature of the group without them. Rings inside a hole that is taken out, such as ponds,
+  // are taken out too. Calls `drop(place)` for each polygon or hole.
+  std::vector<Polygon> without(std::size_t member, const std::function<void(const Point&)>& drop) const;
 
  private:
   bool isSmall(const Ring& ring) const { return !ring.empty() && area_.of(ring) < least_m2_; }
-  std::vector<Polygon> withoutLand(const Feature& feature, const std::function<void(const Point&)>& drop) const;
+  std::vector<Polygon> withoutLand(std::size_t member, const std::function<void(const Point&)>& drop) const;
   std::vector<Polygon> withoutHoles(const Feature& feature, const std::function<void(const Point&)>& drop) const;
 
+  const Coastline* coastline_;
   RingArea area_;
   double least_m2_;
-  bool geographic_;
+  std::vector<std::pair<std::size_t, std::size_t>> small_land_;  // features and their polygons, ascending
 };
 
 }  // namespace coastmesh

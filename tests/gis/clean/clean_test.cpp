@@ -258,6 +258,25 @@ TEST(Clean, FillsPondsOfSmallIslands) {
   EXPECT_EQ(cleaned.area(0), 400.0 - 16.0 + 1.0 + 1.0);
 }
 
+// Countries, and islands that a data set cuts at tiles.
+TEST(Clean, PolygonsOfLandThatShareEdgesAreOneIsland) {
+  const auto land = [](std::int64_t fid, std::vector<Ring> rings) {
+    Feature feature;
+    feature.fid = fid;
+    feature.use = FeatureUse::Land;
+    for (Ring& ring : rings) feature.polygons.push_back({std::move(ring), {}});
+    return feature;
+  };
+  Feature frame = polygonFeature(1, square(0, 0, 40));
+  frame.use = FeatureUse::Frame;
+  const Feature large = land(2, {{{5, 5}, {10, 5}, {10, 10}, {6, 10}, {5, 10}}, square(5, 10, 1)});
+  const Feature west = land(3, {square(20, 5, 2)}), east = land(4, {square(22, 5, 2)});    // 8 together
+  const Feature islets = land(5, {square(30, 5, 1), square(31, 5, 1), square(35, 5, 1)});  // 2 together, and 1
+  const Cleaned cleaned = cleanInPlane({frame, large, west, east, islets}, {.snap_m = 0, .min_island_area_m2 = 7.0});
+  EXPECT_EQ(cleaned.count(EditKind::SmallIsland), 3u);
+  EXPECT_EQ(cleaned.area(0), 1600.0 - 26 - 8);
+}
+
 TEST(Clean, KeepsOpenLinesInside) {
   // A wharf from the shore, a breakwater inside, a line outside, one that crosses the shore.
   const Cleaned cleaned = cleanInPlane({polygonFeature(1, square(0, 0, 10)), lineFeature(2, {{0, 5}, {3, 5}}),
