@@ -12,13 +12,16 @@ import tempfile
 import threading
 import time
 import unittest
+import zipfile
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 try:
+    from osgeo import gdal
     from qgis.core import (
         QgsApplication,
         QgsCoordinateReferenceSystem,
         QgsFeature,
+        QgsField,
         QgsGeometry,
         QgsGraduatedSymbolRenderer,
         QgsMeshLayer,
@@ -33,8 +36,12 @@ try:
         QgsProcessingModelParameter,
         QgsProcessingParameterFeatureSource,
         QgsProject,
+        QgsRasterLayer,
+        QgsRectangle,
+        QgsReferencedRectangle,
         QgsVectorLayer,
     )
+    from qgis.PyQt.QtCore import QVariant
 except ImportError as error:
     print(f"skipped: no QGIS for {sys.executable}: {error}")
     sys.exit(77)
@@ -215,6 +222,25 @@ class ProviderTest(unittest.TestCase):
         results = self.mesh(cleaned["PSLG"])
         self.assertGreater(results["TRIANGLE_COUNT"], 2)
 
+    def command(self):
+        """The last command in the log."""
+        return [line for line in self.log.lines if line.startswith("command: ")][-1]
+
+    def test_options_from_a_file(self):
+        with open(self.path("options.toml"), "w", encoding="utf-8") as file:
+            file.write("size-max = 5000\n")
+        parameter = QgsApplication.processingRegistry().algorithmById("coastmesh:mesh").parameterDefinition("CONFIG")
+        self.assertEqual(parameter.type(), "file")
+        coarse = self.mesh(memory_layer(LAKE))
+        fine = self.mesh(memory_layer(LAKE), CONFIG=self.path("options.toml"))
+        self.assertGreater(fine["TRIANGLE_COUNT"], 2 * coarse["TRIANGLE_COUNT"])
+
+    def test_a_null_is_no_value(self):
+        null = QVariant(QVariant.String)
+        self.mesh(memory_layer(LAKE), BBOX=null, CRS=null, SIZE_MAX=QVariant(QVariant.Double), WATER_AT=null)
+        for option in ("bbox", "crs", "size-max", "water-at"):
+            self.assertNotIn(option, self.command())
+
     def test_a_cancelled_run_leaves_nothing(self):
         layer = memory_layer("POLYGON((0 0, 8 0, 8 8, 0 8, 0 0))")
         stopped = []
@@ -281,6 +307,50 @@ class ProviderTest(unittest.TestCase):
         # The same with a point in the water.
         results = self.mesh(island, WATER_AT="11131.9,11131.9 [EPSG:3857]", BBOX=box, OUTPUT_LAYERS=self.path("a.gpkg"))
         self.assertAlmostEqual(QgsVectorLayer(results["TRIANGLES"], "", "ogr").extent().xMaximum(), 1.0, places=6)
+
+    def test_a_frame_across_the_antimeridian(self):
+        fiji = memory_layer("POLYGON((179.5 -17, 179.8 -17, 179.8 -16.5, 179.5 -16.5, 179.5 -17))")
+        pacific = QgsRectangle(3228265.233, -2024351.426, 3450904.214, -1792951.697)  # of the same box
+        for box in ("179,-179,-18,-16 [EPSG:4326]", "179,-179,-18,-16", "179,181,-18,-16 [EPSG:4326]",
+                    QgsReferencedRectangle(pacific, QgsCoordinateReferenceSystem("EPSG:3832"))):
+            self.run_algorithm("clean", INPUT=fiji, BBOX=box, DOMAIN="outside", OUTPUT=self.path("a.gpkg"))
+            sides = self.command().split("--bbox=")[1].split()[0].split(",")
+            west, south, east, north = map(float, sides)
+            self.assertAlmostEqual(west, 179, places=6)
+            self.assertAlmostEqual(south, -18, places=6)
+            self.assertAlmostEqual(east % 360, 181, places=6)
+            self.assertAlmostEqual(north, -16, places=6)
+
+    def test_frames_as_wide_as_the_earth_and_around_a_pole(self):
+        square = memory_layer("POLYGON((0 -80, 20 -80, 20 -70, 0 -70, 0 -80))")
+        for box, expected in (("-20037508,20037508,-20037508,0 [EPSG:3857]", [-180, -85.05, 180, 0]),
+                              ("-5e6,5e6,-5e6,5e6 [EPSG:3031]", [-180, -90, 180, -30.65]),
+                              ("0,5e6,1000,5e6 [EPSG:3031]", [0, -89.99, 90, -30.65])):
+            self.run_algorithm("clean", INPUT=square, BBOX=box, OUTPUT=self.path("a.gpkg"))
+            sides = [float(side) for side in self.command().split("--bbox=")[1].split()[0].split(",")]
+            for side, wanted in zip(sides, expected):
+                self.assertAlmostEqual(side, wanted, delta=0.02, msg=box)
+
+    def test_a_mesh_in_a_crs_without_a_code(self):
+        self.mesh(memory_layer(LAKE))
+        self.run_algorithm("convert", INPUT=self.path("lake.nc"), OUTPUT=self.path("lake.2dm"))
+        for name in os.listdir(self.folder):
+            if name.endswith(".prj"):
+                os.remove(self.path(name))
+        layer = QgsMeshLayer(self.path("lake.2dm"), "lake", "mdal")
+        layer.setCrs(QgsCoordinateReferenceSystem.fromProj("+proj=longlat +R=6371000 +no_defs"))
+        self.run_algorithm("convert", INPUT=layer, OUTPUT=self.path("back.nc"))
+        with open(self.path("back.nc"), "rb") as file:
+            self.assertIn(b'ELLIPSOID["unknown",6371000,0', file.read())
+
+    def test_checks_with_a_frame_in_another_crs_than_the_mesh(self):
+        island = memory_layer("POLYGON((0.4 0.4, 0.6 0.4, 0.6 0.6, 0.4 0.6, 0.4 0.4))")
+        box = "0,111319.4907932,0,111325.1428664 [EPSG:3857]"
+        mesh = self.mesh(island, DOMAIN="outside", BBOX=box)["OUTPUT"]
+        self.log.lines.clear()
+        checked = self.run_algorithm("check", INPUT=mesh, MADE_FROM=[island], DOMAIN="outside", BBOX=box)
+        self.assertEqual(checked["SOUND"], 1, self.log.text())
+        self.assertNotIn("warning: ", self.log.text())
 
     def test_check_and_convert_take_layers_and_files_that_qgis_cannot_open(self):
         layer = memory_layer(LAKE)

@@ -19,7 +19,7 @@ from qgis.core import (
     QgsProcessingUtils,
 )
 
-from .parameters import arguments_of, by_present_names, make_parameter
+from .parameters import arguments_of, by_present_names, crs_text, make_parameter
 from .program import ProgramError, find_program
 from .running import SHORT, run_program
 from .sources import Sources, takes_selection
@@ -186,7 +186,8 @@ class CoastmeshAlgorithm(QgsProcessingAlgorithm):
             outputs = self._output_paths(parameters, context)
             for path in outputs.values():
                 arguments += ["--output", path]
-            arguments.append("--overwrite")
+            if outputs:
+                arguments.append("--overwrite")
             if self.verb.progress:
                 arguments.append("--progress=json")
             report, made = self._report(arguments)
@@ -204,16 +205,18 @@ class CoastmeshAlgorithm(QgsProcessingAlgorithm):
     def _inputs(self, parameters, context, sources):
         """The program's arguments for what it reads, and the CRS that it is in."""
         if self.verb.reads_mesh:
+            # Extents and points are in the CRS of what the mesh was made from.
+            made_from = self.parameterAsLayerList(parameters, "MADE_FROM", context) if self.name() == "check" else []
             path = self._mesh_file(parameters)
             if path:
-                return [path], QgsCoordinateReferenceSystem()
+                return [path], made_from[0].crs() if made_from else QgsCoordinateReferenceSystem()
             layer = self.parameterAsLayer(parameters, "INPUT", context)
             if layer is None:
                 raise QgsProcessingException(f"'{parameters.get('INPUT')}' is neither a mesh layer nor a mesh file")
             arguments = [sources.path_of_layer(layer)]
-            if layer.crs().isValid() and layer.crs().authid():
-                arguments.append(f"--assume-crs={layer.crs().authid()}")
-            return arguments, layer.crs()
+            if layer.crs().isValid():
+                arguments.append(f"--assume-crs={crs_text(layer.crs())}")
+            return arguments, made_from[0].crs() if made_from else layer.crs()
         source = self.parameterAsSource(parameters, "INPUT", context)
         if source is None:
             raise QgsProcessingException(self.invalidSourceError(parameters, "INPUT"))

@@ -1,5 +1,10 @@
 """Options of the program as parameters of Processing, and back."""
+import re
+
 from qgis.core import (
+    QgsCoordinateReferenceSystem,
+    QgsCoordinateTransform,
+    QgsPointXY,
     QgsProcessing,
     QgsProcessingParameterBoolean,
     QgsProcessingParameterCrs,
@@ -7,20 +12,27 @@ from qgis.core import (
     QgsProcessingParameterDistance,
     QgsProcessingParameterEnum,
     QgsProcessingParameterExtent,
+    QgsProcessingParameterFile,
     QgsProcessingParameterFileDestination,
     QgsProcessingParameterMapLayer,
     QgsProcessingParameterMultipleLayers,
     QgsProcessingParameterNumber,
     QgsProcessingParameterPoint,
     QgsProcessingParameterString,
+    QgsRectangle,
+    QgsReferencedRectangle,
     QgsUnitTypes,
 )
+from qgis.PyQt.QtCore import QVariant
 
 from .verbs import BASIC
 
 EXTENT_UNIT = "W,S,E,N"
 POINT_UNIT = "LON,LAT"
 WORKING_PLANES = ("auto", "plane")  # what --crs takes besides a CRS
+NUMBER = r"\s*([-+0-9.eE]+)\s*"
+# XMIN,XMAX,YMIN,YMAX [CRS]
+BOX = re.compile(f"^{NUMBER},{NUMBER},{NUMBER},{NUMBER}(?:\\[(?P<crs>.*)\\])?\\s*$")
 
 
 def parameter_name(option):
@@ -102,6 +114,8 @@ def _file(option, name, title, optional):
     if option.get("role") == "output":
         # Without a path, the file is not written.
         return QgsProcessingParameterFileDestination(name, title, _filter_of(option), None, True, False)
+    if option.get("role") == "input":  # of the program's own: no layer
+        return QgsProcessingParameterFile(name, title, optional=optional)
     kinds = {"vector": QgsProcessing.TypeVector, "raster": QgsProcessing.TypeRaster}
     kind = kinds.get(option.get("role"), QgsProcessing.TypeMapLayer)
     if option.get("multiple"):
@@ -121,7 +135,7 @@ def arguments_of(option, algorithm, parameters, context, path_of_layer, crs):
     """
     name = parameter_name(option)
     value = parameters.get(name)
-    if value is None or value == "":
+    if value is None or value == "" or (isinstance(value, QVariant) and value.isNull()):
         return []
     flag, kind, unit = option["name"], option["type"], option.get("unit")
     if kind == "flag":
@@ -137,8 +151,7 @@ def arguments_of(option, algorithm, parameters, context, path_of_layer, crs):
     elif unit == "CRS":
         values = [_crs(algorithm, parameters, name, context)]
     elif unit == EXTENT_UNIT:
-        box = algorithm.parameterAsExtent(parameters, name, context, crs)
-        values = [",".join(repr(side) for side in (box.xMinimum(), box.yMinimum(), box.xMaximum(), box.yMaximum()))]
+        values = [",".join(repr(side) for side in _box(algorithm, parameters, name, context, crs))]
     elif unit == POINT_UNIT:
         point = algorithm.parameterAsPoint(parameters, name, context, crs)
         values = [f"{point.x()!r},{point.y()!r}"]
@@ -171,6 +184,62 @@ def _flag(option, on):
     return [next(name for name in option["names"] if name.startswith("--no-"))]
 
 
+def _box(algorithm, parameters, name, context, crs):
+    """West, south, east and north in `crs`. East is less than west if the box crosses the antimeridian; from
+    parameterAsExtent it would reach around the rest of the Earth."""
+    (west, south, east, north), own = _own_box(algorithm, parameters, name, context)
+    south, north = min(south, north), max(south, north)
+    if not (own if own.isValid() else crs).isGeographic():
+        west, east = min(west, east), max(west, east)
+    if not own.isValid() or not crs.isValid() or own == crs:
+        return west, south, east, north
+    to_crs = QgsCoordinateTransform(own, crs, context.transformContext())
+    own_box = QgsRectangle(west, south, east + 360 if east < west else east, north)
+    box = to_crs.transformBoundingBox(own_box)
+    west, south, east, north = box.xMinimum(), box.yMinimum(), box.xMaximum(), box.yMaximum()
+    if crs.isGeographic() and east - west > 180:
+        around = _longitudes_around(own_box, to_crs)
+        if abs(around[-1] - around[0]) > 180:  # it encloses a pole
+            west, east = -180.0, 180.0
+            south, north = (south, 90.0) if south + north > 0 else (-90.0, north)
+        elif max(around) - min(around) < 359:
+            west, east = (lon - 360 * round(lon / 360) for lon in (min(around), max(around)))
+    return west, south, east, north
+
+
+def _own_box(algorithm, parameters, name, context):
+    """West, south, east and north as the value of an extent states them, and its CRS, invalid if it states none."""
+    value = parameters[name]
+    stated = BOX.match(value) if isinstance(value, str) else None
+    if stated:
+        west, east, south, north = (float(stated[i]) for i in range(1, 5))
+        return (west, south, east, north), QgsCoordinateReferenceSystem(stated["crs"] or "")
+    box = algorithm.parameterAsExtent(parameters, name, context)
+    plain = isinstance(value, QgsRectangle) and not isinstance(value, QgsReferencedRectangle)
+    own = QgsCoordinateReferenceSystem() if plain else algorithm.parameterAsExtentCrs(parameters, name, context)
+    return (box.xMinimum(), box.yMinimum(), box.xMaximum(), box.yMaximum()), own
+
+
+def _longitudes_around(box, to_crs):
+    """Longitudes of places along the sides of a box and back to the first, without jumps at the antimeridian."""
+    corners = [(box.xMinimum(), box.yMinimum()), (box.xMaximum(), box.yMinimum()),
+               (box.xMaximum(), box.yMaximum()), (box.xMinimum(), box.yMaximum())]
+    steps = 20  # per side
+    longitudes = []
+    for (x, y), (next_x, next_y) in zip(corners, corners[1:] + corners[:1]):
+        for i in range(steps + 1):
+            share = i / steps
+            lon = to_crs.transform(QgsPointXY(x + share * (next_x - x), y + share * (next_y - y))).x()
+            longitudes.append(lon - 360 * round((lon - longitudes[-1]) / 360) if longitudes else lon)
+    return longitudes
+
+
+def crs_text(crs):
+    """A CRS as the program reads it; codes of the user's own are known to QGIS only."""
+    known = crs.authid() and not crs.authid().startswith("USER:")
+    return crs.authid() if known else crs.toWkt(QgsCoordinateReferenceSystem.WKT_PREFERRED)
+
+
 def _crs(algorithm, parameters, name, context):
     value = parameters[name]
     if value in WORKING_PLANES:
@@ -178,13 +247,15 @@ def _crs(algorithm, parameters, name, context):
     crs = algorithm.parameterAsCrs(parameters, name, context)
     if not crs.isValid():
         return str(value)  # the program reports what is wrong
-    return crs.authid() if crs.authid() and not crs.authid().startswith("USER:") else crs.toWkt()
+    return crs_text(crs)
 
 
 def _files(option, algorithm, parameters, context, path_of_layer):
     name = parameter_name(option)
     if option.get("role") == "output":
         return [algorithm.parameterAsFileOutput(parameters, name, context)]
+    if option.get("role") == "input":
+        return [algorithm.parameterAsFile(parameters, name, context)]
     if option.get("multiple"):
         layers = algorithm.parameterAsLayerList(parameters, name, context)
     else:
