@@ -226,6 +226,75 @@ class ProviderTest(unittest.TestCase):
         """The last command in the log."""
         return [line for line in self.log.lines if line.startswith("command: ")][-1]
 
+    def test_a_layer_of_one_type_of_geometry_is_meshed_without_the_rest_of_its_file(self):
+        line = {"type": "LineString", "coordinates": [[0.3, 0.1], [0.5, 0.1], [0.5, 0.3], [0.3, 0.1]]}
+        square = {"type": "Polygon", "coordinates": [[[0, 0], [0.2, 0], [0.2, 0.2], [0, 0.2], [0, 0]]]}
+        features = [{"type": "Feature", "properties": {}, "geometry": each} for each in (square, line)]
+        with open(self.path("mixed.geojson"), "w", encoding="utf-8") as file:
+            json.dump({"type": "FeatureCollection", "features": features}, file)
+        layer = QgsVectorLayer(self.path("mixed.geojson") + "|geometrytype=Polygon", "mixed", "ogr")
+        self.assertEqual(layer.featureCount(), 1)
+        results = self.mesh(layer, OUTPUT_LAYERS=self.path("a.gpkg"))
+        self.assertAlmostEqual(QgsVectorLayer(results["TRIANGLES"], "", "ogr").extent().xMaximum(), 0.2)
+
+    def test_a_field_of_the_project_is_a_column_like_those_of_the_file(self):
+        file = self.run_algorithm("clean", INPUT=memory_layer(LAKE), OUTPUT=self.path("lake.gpkg"))["PSLG"]
+        with open(self.path("lake.geojson"), "w", encoding="utf-8") as geojson:
+            geojson.write(json.dumps({"type": "Feature", "properties": {"name": "a"},
+                                      "geometry": json.loads(QgsGeometry.fromWkt(POND).asJson())}))
+        for source in (file, self.path("lake.geojson")):
+            layer = QgsVectorLayer(source, "lake", "ogr")
+            layer.addExpressionField("'open'", QgsField("shore", QVariant.String))
+            results = self.mesh(layer, BOUNDARY_COLUMN="shore", OUTPUT_LAYERS=self.path("a.gpkg"))
+            boundaries = QgsVectorLayer(results["BOUNDARIES"], "", "ogr")
+            self.assertEqual({f["role"] for f in boundaries.getFeatures()}, {"open"})
+
+    def test_fields_whose_names_differ_by_case_alone(self):
+        layer = QgsVectorLayer("Polygon?crs=EPSG:4326&field=name:string&field=Name:string", "my lakes", "memory")
+        feature = QgsFeature(layer.fields())
+        feature.setGeometry(QgsGeometry.fromWkt(LAKE))
+        feature.setAttributes(["first", "second"])
+        layer.dataProvider().addFeature(feature)
+        results = self.mesh(layer, OUTPUT_LAYERS=self.path("a.gpkg"))
+        triangles = QgsVectorLayer(results["TRIANGLES"], "", "ogr")
+        self.assertEqual({f["name"] for f in triangles.getFeatures()}, {"first"})
+
+    def depths_of(self, raster, layer):
+        """The least and the greatest z of the nodes of a mesh with that raster of depths."""
+        results = self.mesh(layer, BATHYMETRY=[raster], OUTPUT_LAYERS=self.path("a.gpkg"))
+        z = [f["z"] for f in QgsVectorLayer(results["NODES"], "", "ogr").getFeatures()]
+        return min(z), max(z)
+
+    def test_a_raster_with_a_crs_given_in_qgis(self):
+        with open(self.path("depths.asc"), "w", encoding="utf-8") as file:
+            rows = "\n".join(" ".join(["-30"] * 40) for _ in range(40))
+            file.write(f"ncols 40\nnrows 40\nxllcorner 490000\nyllcorner -10000\ncellsize 1000\n{rows}\n")
+        raster = QgsRasterLayer(self.path("depths.asc"), "depths")
+        raster.setCrs(QgsCoordinateReferenceSystem("EPSG:32631"))
+        # Longitude 3 is at 500000 m.
+        lake = memory_layer("POLYGON((3 0, 3.1 0, 3.1 0.1, 3 0.1, 3 0))")
+        self.assertEqual(self.depths_of(raster, lake), (-30, -30))
+        self.assertIn("--bathymetry=depths", self.command())
+        self.assertNotIn("no CRS", self.log.text())
+
+    def test_a_raster_that_is_a_part_of_a_file(self):
+        for name, depth in (("shallow", -5), ("deep", -50)):
+            grid = gdal.GetDriverByName("GTiff").Create(self.path(name + ".tif"), 30, 30, 1, gdal.GDT_Float32)
+            grid.SetGeoTransform((-1, 0.1, 0, 2, 0, -0.1))
+            grid.SetProjection(QgsCoordinateReferenceSystem("EPSG:4326").toWkt())
+            grid.GetRasterBand(1).Fill(depth)
+            gdal.Translate(self.path("both.gpkg"), grid, format="GPKG",
+                           creationOptions=["APPEND_SUBDATASET=YES", f"RASTER_TABLE={name}"])
+            del grid
+        with zipfile.ZipFile(self.path("deep.zip"), "w") as archive:
+            archive.write(self.path("deep.tif"), "deep.tif")
+        both, archive = self.path("both.gpkg"), self.path("deep.zip")
+        for source, depth in ((f"GPKG:{both}:shallow", -5), (f"GPKG:{both}:deep", -50),
+                              (f"/vsizip/{archive}/deep.tif", -50), (self.path("shallow.tif"), -5)):
+            raster = QgsRasterLayer(source, "depths")
+            self.assertTrue(raster.isValid(), source)
+            self.assertEqual(self.depths_of(raster, memory_layer(LAKE)), (depth, depth), source)
+
     def test_options_from_a_file(self):
         with open(self.path("options.toml"), "w", encoding="utf-8") as file:
             file.write("size-max = 5000\n")
@@ -330,6 +399,25 @@ class ProviderTest(unittest.TestCase):
             sides = [float(side) for side in self.command().split("--bbox=")[1].split()[0].split(",")]
             for side, wanted in zip(sides, expected):
                 self.assertAlmostEqual(side, wanted, delta=0.02, msg=box)
+
+    def test_triangles_are_converted_with_the_depths_and_boundaries_of_their_file(self):
+        grid = gdal.GetDriverByName("GTiff").Create(self.path("d.tif"), 30, 30, 1, gdal.GDT_Float32)
+        grid.SetGeoTransform((-1, 0.1, 0, 2, 0, -0.1))
+        grid.SetProjection(QgsCoordinateReferenceSystem("EPSG:4326").toWkt())
+        grid.GetRasterBand(1).Fill(-12)
+        del grid
+        island = memory_layer("POLYGON((0.4 0.4, 0.6 0.4, 0.6 0.6, 0.4 0.6, 0.4 0.4))")
+        results = self.mesh(island, DOMAIN="outside", BBOX="0,1,0,1", BATHYMETRY=[self.path("d.tif")],
+                            OUTPUT_LAYERS=self.path("a.gpkg"), OUTPUT_GRID=self.path("a.14"))
+        triangles = QgsVectorLayer(results["TRIANGLES"], "triangles", "ogr")
+        self.run_algorithm("convert", INPUT=triangles, OUTPUT=self.path("b.14"))
+        with open(self.path("a.14"), encoding="utf-8") as one, open(self.path("b.14"), encoding="utf-8") as other:
+            self.assertEqual(one.read(), other.read())
+        # With a filter the layer has another mesh than its file.
+        triangles.setSubsetString("fid <= 3")
+        self.run_algorithm("convert", INPUT=triangles, OUTPUT=self.path("c.14"))
+        with open(self.path("c.14"), encoding="utf-8") as file:
+            self.assertEqual(file.read().split()[1], "3")
 
     def test_a_mesh_in_a_crs_without_a_code(self):
         self.mesh(memory_layer(LAKE))

@@ -213,7 +213,7 @@ class CoastmeshAlgorithm(QgsProcessingAlgorithm):
             layer = self.parameterAsLayer(parameters, "INPUT", context)
             if layer is None:
                 raise QgsProcessingException(f"'{parameters.get('INPUT')}' is neither a mesh layer nor a mesh file")
-            arguments = [sources.path_of_layer(layer)]
+            arguments = [sources.path_of_mesh(layer)]
             if layer.crs().isValid():
                 arguments.append(f"--assume-crs={crs_text(layer.crs())}")
             return arguments, made_from[0].crs() if made_from else layer.crs()

@@ -2,8 +2,9 @@
 import os
 import re
 
-from osgeo import ogr
+from osgeo import gdal, ogr
 from qgis.core import (
+    QgsCoordinateReferenceSystem,
     QgsFeature,
     QgsFeatureRequest,
     QgsField,
@@ -59,11 +60,35 @@ class Sources:
         if isinstance(layer, QgsMeshLayer):
             return mesh_path(layer.source())
         if isinstance(layer, QgsRasterLayer):
-            parts = QgsProviderRegistry.instance().decodeUri(layer.providerType(), layer.source())
-            path = parts.get("path", "")
-            if path and os.path.exists(path):
-                return path
+            name = self._raster(layer)
+            if name:
+                return name
         raise QgsProcessingException(f"the layer '{layer.name()}' lies in no file: save it as one first")
+
+    def path_of_mesh(self, layer):
+        """The file of a mesh. For the triangles that `mesh` wrote it is their GeoPackage: other layers of it hold the
+        depths of nodes and the types of boundaries."""
+        if isinstance(layer, QgsVectorLayer):
+            path = _file_of(layer)
+            triangles = layer.source().endswith("|layername=triangles")
+            if path and triangles and {"triangles", "nodes"} <= _layers_in(path):
+                return path
+        return self.path_of_layer(layer)
+
+    def _raster(self, layer):
+        """GDAL's name of a raster: a file, a part of one, or a VRT file aside with the CRS that was set in QGIS."""
+        if layer.providerType() != "gdal":
+            return None
+        name = layer.source().split("|")[0]
+        if layer.crs() == layer.dataProvider().crs() or not layer.crs().isValid():
+            return name
+        path = QgsProcessingUtils.generateTempFilename("raster.vrt")
+        self.made[path] = layer.name()
+        wkt = layer.crs().toWkt(QgsCoordinateReferenceSystem.WKT_PREFERRED)
+        gdal.Translate(path, name, format="VRT", outputSRS=wkt)
+        if not os.path.exists(path):
+            raise QgsProcessingException(f"cannot set the CRS of '{layer.name()}': {gdal.GetLastErrorMsg()}")
+        return path
 
     def _write(self, source, name):
         """Writes features to a GeoPackage, with their ids, so that messages can name them."""
@@ -72,8 +97,10 @@ class Sources:
         fields = QgsFields()
         fields.append(QgsField("fid", QVariant.LongLong))
         kept = []  # indices of the source's fields
+        taken = {"fid", "geom"}  # a GeoPackage does not distinguish names by case
         for i, each in enumerate(source.fields()):
-            if each.name().lower() not in ("fid", "geom") and each.type() in PLAIN_TYPES:
+            if each.name().lower() not in taken and each.type() in PLAIN_TYPES:
+                taken.add(each.name().lower())
                 kept.append(i)
                 fields.append(each)
         options = QgsVectorFileWriter.SaveVectorOptions()
@@ -129,14 +156,28 @@ def mesh_path(uri):
 
 def _own_file(layer):
     """The file that holds what the layer shows and nothing else, or None."""
+    path = _file_of(layer)
+    return path if path and len(_layers_in(path)) == 1 else None
+
+
+def _file_of(layer):
+    """The file that holds the layer as QGIS shows it, perhaps beside others, or None."""
+    provider = layer.dataProvider()
     if layer.providerType() != "ogr" or layer.subsetString() or layer.isEditable():
         return None
     parts = QgsProviderRegistry.instance().decodeUri("ogr", layer.source())
+    # Other parts are a type of geometry, which selects features, or options of the driver.
+    if any(value for part, value in parts.items() if part not in ("path", "layerName", "layerId")):
+        return None
     path = parts.get("path", "")
     if not os.path.isfile(path) or path.lower().endswith((".zip", ".gz", ".tar", ".tgz")):
         return None
-    data = ogr.Open(path)
-    if data is None or data.GetLayerCount() != 1:
+    # Joined and virtual fields are in no file, nor is a CRS that was assigned to the layer in QGIS.
+    if layer.fields().names() != provider.fields().names() or layer.crs() != provider.crs():
         return None
-    # A CRS that was assigned to the layer in QGIS is in no file.
-    return path if QgsVectorLayer(layer.source(), "", "ogr").crs() == layer.crs() else None
+    return path
+
+
+def _layers_in(path):
+    data = ogr.Open(path)
+    return {data.GetLayer(i).GetName() for i in range(data.GetLayerCount())} if data is not None else set()
