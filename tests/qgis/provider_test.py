@@ -310,6 +310,26 @@ class ProviderTest(unittest.TestCase):
         for option in ("bbox", "crs", "size-max", "water-at"):
             self.assertNotIn(option, self.command())
 
+    def test_names_of_files_in_capitals(self):
+        parameters = {"INPUT": memory_layer(LAKE), "OUTPUT": self.path("A.NC"), "OUTPUT_LAYERS": self.path("A.GPKG")}
+        processing.runAndLoadResults("coastmesh:mesh", parameters, feedback=self.log)
+        loaded = {layer.name() for layer in QgsProject.instance().mapLayers().values()}
+        self.assertEqual(loaded, {"Mesh", "Triangles", "Boundaries"})
+
+    def test_layers_in_the_project_show_the_files_of_the_last_run(self):
+        for size, min_angle in ((8000, 0), (2000, 59)):
+            parameters = {"INPUT": memory_layer(LAKE), "SIZE_MAX": size, "OUTPUT": self.path("lake.nc"),
+                          "OUTPUT_LAYERS": self.path("lake.gpkg")}
+            results = processing.runAndLoadResults("coastmesh:mesh", parameters, feedback=self.log)
+            processing.runAndLoadResults("coastmesh:check", {"INPUT": results["OUTPUT"], "MIN_ANGLE": min_angle,
+                                                             "OUTPUT": self.path("defects.gpkg")}, feedback=self.log)
+            loaded = {layer.name(): layer for layer in QgsProject.instance().mapLayers().values()}
+            self.assertEqual(len(QgsProject.instance().mapLayers()), 4)
+            self.assertEqual(loaded["Triangles"].featureCount(), results["TRIANGLE_COUNT"])
+            self.assertEqual(len(list(loaded["Triangles"].getFeatures())), results["TRIANGLE_COUNT"])
+            self.assertEqual(loaded["Mesh"].dataProvider().faceCount(), results["TRIANGLE_COUNT"])
+            self.assertEqual(loaded["Defects"].featureCount() > 0, min_angle > 0)
+
     def test_a_cancelled_run_leaves_nothing(self):
         layer = memory_layer("POLYGON((0 0, 8 0, 8 8, 0 8, 0 0))")
         stopped = []

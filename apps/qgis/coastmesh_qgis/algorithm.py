@@ -257,10 +257,13 @@ class CoastmeshAlgorithm(QgsProcessingAlgorithm):
         elif code == SHORT:
             feedback.pushWarning("The result misses a requirement; the lines above and the report say where.")
         if self.name() == "check":
+            path = outputs.get("OUTPUT")
+            if path and context.willLoadLayerOnCompletion(path):
+                context.layerToLoadOnCompletionDetails(path).setPostProcessor(style_for("OUTPUT", context))
             return results
         for name, layer, _ in LAYERS.get(self.name(), []):
             file = outputs.get("OUTPUT_LAYERS" if self.name() == "mesh" else "OUTPUT", "")
-            if file.endswith(".gpkg"):
+            if file.lower().endswith(".gpkg"):
                 results[name] = f"{file}|layername={layer}"
         if self.parameterAsBoolean(parameters, "LOAD", context):
             self._load(context, feedback, outputs, results)
@@ -293,9 +296,7 @@ class CoastmeshAlgorithm(QgsProcessingAlgorithm):
 
     def _load_layer(self, context, path, title, output, hint):
         details = QgsProcessingContext.LayerDetails(title, context.project(), output, hint)
-        processor = style_for(output)
-        if processor is not None:
-            details.setPostProcessor(processor)
+        details.setPostProcessor(style_for(output, context))
         context.addLayerToLoadOnCompletion(path, details)
 
 

@@ -27,25 +27,32 @@ EDGE = QColor(30, 50, 70, 160)
 
 
 class _Style(QgsProcessingLayerPostProcessorInterface):
-    """Hands a layer to the function `paint`. Kept alive here: Processing does not own it."""
+    """Hands a layer to the function `paint`, if there is one. Kept alive here: Processing does not own it."""
 
     alive = []
 
-    def __init__(self, paint):
+    def __init__(self, paint, project):
         super().__init__()
         self.paint = paint
+        self.shown_before = set(project.mapLayers()) if project else set()
         _Style.alive.append(self)
 
     def postProcessLayer(self, layer, context, feedback):
         try:
-            self.paint(layer)
+            # Processing adds no second layer of a file: the one that is there still shows the file's former content.
+            if layer.id() in self.shown_before:
+                layer.reload()
+                if isinstance(layer, QgsVectorLayer):
+                    layer.updateExtents()
+            if self.paint:
+                self.paint(layer)
             layer.triggerRepaint()
         finally:
             _Style.alive.remove(self)
 
 
-def style_for(output):
-    """What paints the layer of that output, or None where QGIS's own style will do."""
+def style_for(output, context):
+    """What brings the layer of that output up to date and paints it."""
     paint = {
         "OUTPUT": paint_mesh,
         "TRIANGLES": paint_triangles,
@@ -53,7 +60,7 @@ def style_for(output):
         "EDITS": paint_edits,
         "PSLG": paint_plane_graph,
     }.get(output)
-    return _Style(paint) if paint else None
+    return _Style(paint, context.project())
 
 
 def paint_mesh(layer):
