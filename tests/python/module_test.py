@@ -4,6 +4,7 @@
 usage: module_test.py PROGRAM DATA   (the program coastmesh, the folder data/)
 """
 import copy
+import datetime
 import gc
 import json
 import os
@@ -265,6 +266,11 @@ class FilesTest(unittest.TestCase):
         mesh = coastmesh.mesh([Shape(0), Shape(1)])
         self.assertEqual(len(mesh.features), 2)
         self.assertAlmostEqual(areas(mesh).sum(), 0.08)
+        # GeoJSON as dicts and as texts, and arrays of shapes.
+        shapes = [Shape(0).__geo_interface__, Shape(1).__geo_interface__]
+        for given in (shapes, tuple(shapes), [json.dumps(shape) for shape in shapes], [Shape(0), shapes[1]],
+                      np.array([Shape(0), Shape(1)], dtype=object)):
+            np.testing.assert_array_equal(coastmesh.mesh(given).points, mesh.points)
         with self.assertRaisesRegex(TypeError, "number 1 of the list is a int"):
             coastmesh.mesh([Shape(0), 3])
         other = Shape(1)
@@ -283,6 +289,42 @@ class FilesTest(unittest.TestCase):
 
         with self.assertRaisesRegex(coastmesh.InputError, "no code"):
             coastmesh.mesh([Shape()])
+
+    def test_a_crs_is_that_of_the_shapes_however_they_name_it(self):
+        class Crs:
+            def to_authority(self):
+                return ("EPSG", "32633")
+
+        class Shape:
+            __geo_interface__ = {"type": "Polygon", "coordinates": [[[0, 0], [80, 0], [80, 80], [0, 80], [0, 0]]]}
+
+        named = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::32633"}}
+        shape = Shape()
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # so few metres could be degrees
+            for crs in (Crs(), "EPSG:32633", named):
+                shape.crs = crs
+                self.assertEqual(coastmesh.mesh(shape).crs, "EPSG:32633")
+                self.assertEqual(coastmesh.mesh([shape, shape], dissolve=True).crs, "EPSG:32633")
+            self.assertEqual(coastmesh.mesh({**Shape.__geo_interface__, "crs": named}).crs, "EPSG:32633")
+            self.assertEqual(coastmesh.mesh([{**Shape.__geo_interface__, "crs": named}]).crs, "EPSG:32633")
+        shape.crs = {"init": "epsg:32633"}
+        with self.assertRaisesRegex(coastmesh.InputError, "no code"):
+            coastmesh.mesh(shape)
+
+    def test_attributes_and_coordinates_of_any_type(self):
+        class Shape:
+            __geo_interface__ = POLYGON
+
+        ring = np.array(POLYGON["coordinates"][0])
+        properties = {"day": datetime.date(2024, 2, 29), "count": np.int64(3), "share": np.float32(0.5), "none": None}
+        feature = {"type": "Feature", "properties": properties, "geometry": {"type": "Polygon", "coordinates": [ring]}}
+        mesh = coastmesh.mesh(feature)
+        np.testing.assert_array_equal(mesh.points, coastmesh.mesh(POLYGON).points)
+        attributes = mesh.features[0]["attributes"]
+        self.assertEqual((attributes["count"], attributes["share"]), ("3", "0.5"))
+        self.assertIn("29", attributes["day"])
+        np.testing.assert_array_equal(coastmesh.mesh({**feature, "geometry": Shape()}).points, mesh.points)
 
     def test_files_that_models_would_misread_are_warned_of(self):
         mesh = coastmesh.mesh(POLYGON)
@@ -393,7 +435,7 @@ class FilesTest(unittest.TestCase):
         mesh.plot(self.path("lake.png"))
         with open(self.path(".part-lake.png"), encoding="utf-8") as file:
             self.assertEqual(file.read(), "precious")
-        with self.assertRaisesRegex(coastmesh.OptionError, "pieces"):
+        with self.assertRaisesRegex(coastmesh.OptionError, "pieces.* mark_pieces=True"):
             mesh.plot(self.path("other.png"), color="piece")
         with self.assertRaisesRegex(coastmesh.InputError, "depth"):
             mesh.plot(self.path("other.png"), color="depth")

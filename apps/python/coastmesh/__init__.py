@@ -53,7 +53,7 @@ def _own_errors():
     try:
         yield
     except _coastmesh.UsageError as error:
-        raise OptionError(str(error)) from None
+        raise OptionError(str(error).replace("--mark-pieces", "mark_pieces=True")) from None
     except _coastmesh.InputError as error:
         raise InputError(str(error)) from None
     except _coastmesh.OutputError as error:
@@ -162,7 +162,8 @@ def mesh(source, segments=None, holes=None, *, progress=None, **keywords):
     Args:
         source: what to mesh, one of
             - the path of a vector file that GDAL reads or of a .poly, or a list of paths,
-            - GeoJSON as a dict or a str, or whatever has a __geo_interface__ (shapely, geopandas), or a list of such,
+            - GeoJSON as a dict or a str, or whatever has a __geo_interface__ (shapely, geopandas), or a list or array of
+              such,
             - points in a plane as an array (n, 2), with `segments` and `holes`; also as a tuple of two or three
               arrays, or as a dict with "vertices", "segments" and perhaps "holes".
         segments: array (m, 2) of indices into the points; none: the convex hull is meshed.
@@ -203,12 +204,7 @@ def _split(source, segments, holes):
     if segments is not None or holes is not None:
         return [], None, (source, segments, holes)
     if isinstance(source, str):
-        if source.lstrip().startswith("{"):
-            try:
-                return [], _geojson_text(json.loads(source)), None
-            except json.JSONDecodeError as error:
-                raise InputError(f"GeoJSON: {error}") from None
-        return [source], None, None
+        return ([], _geojson_text(_geojson_of(source)), None) if _is_geojson(source) else ([source], None, None)
     if isinstance(source, os.PathLike):
         return [os.fspath(source)], None, None
     if isinstance(source, dict):
@@ -217,13 +213,15 @@ def _split(source, segments, holes):
         return [], _geojson_text(source), None
     if hasattr(source, "__geo_interface__"):
         return [], _geojson_text(source.__geo_interface__, getattr(source, "crs", None)), None
+    if isinstance(source, np.ndarray) and source.dtype == object and source.ndim == 1:
+        source = source.tolist()  # as shapely's functions return shapes
     if isinstance(source, (list, tuple)):
         if not source:
             raise InputError("there is nothing to mesh")
+        if any(_is_geojson(part) for part in source):
+            return [], _list_text(source), None
         if all(isinstance(part, (str, os.PathLike)) for part in source):
             return [os.fspath(part) for part in source], None, None
-        if any(hasattr(part, "__geo_interface__") for part in source):
-            return [], _list_text(source), None
         if isinstance(source, tuple) and len(source) in (2, 3) and np.ndim(source[0]) == 2:
             return [], None, (*source, None)[:3]
         return [], None, (source, None, None)
@@ -232,16 +230,36 @@ def _split(source, segments, holes):
     raise TypeError(f"cannot mesh a {type(source).__name__}: give a path, GeoJSON, or points and segments")
 
 
+def _is_geojson(part):
+    return isinstance(part, dict) or hasattr(part, "__geo_interface__") or (
+        isinstance(part, str) and part.lstrip().startswith("{"))
+
+
+def _geojson_of(part):
+    """GeoJSON as a dict, of anything that _is_geojson."""
+    if isinstance(part, dict):
+        return part
+    if not isinstance(part, str):
+        return part.__geo_interface__
+    try:
+        return json.loads(part)
+    except json.JSONDecodeError as error:
+        raise InputError(f"GeoJSON: {error}") from None
+
+
 def _list_text(shapes):
-    """A list of what has a __geo_interface__ as GeoJSON."""
+    """A list of GeoJSON as one."""
     features, crs = [], None
     for i, shape in enumerate(shapes):
-        if not hasattr(shape, "__geo_interface__"):
-            raise TypeError(f"number {i} of the list is a {type(shape).__name__}, which has no __geo_interface__")
+        if not _is_geojson(shape):
+            raise TypeError(f"number {i} of the list is a {type(shape).__name__}, which is no GeoJSON and has no "
+                            "__geo_interface__")
+        geojson = _geojson_of(shape)
         own = getattr(shape, "crs", None)
+        own = geojson.get("crs") if own is None else own
         if i > 0 and own != crs:
             raise InputError(f"number {i} of the list is in another CRS than those before it")
-        crs, geojson = own, shape.__geo_interface__
+        crs = own
         if geojson.get("type") == "FeatureCollection":
             features.extend(geojson["features"])
         else:
@@ -254,20 +272,34 @@ def _feature(geometry):
 
 
 def _geojson_text(geojson, crs=None):
-    kind = geojson.get("type")
-    if kind not in ("Feature", "FeatureCollection"):
+    """GeoJSON as text. `crs`: of pyproj, the name of one, or the "crs" of GeoJSON; None leaves what `geojson` says."""
+    crs = geojson.get("crs") if crs is None else crs
+    if geojson.get("type") not in ("Feature", "FeatureCollection"):
         geojson = _feature(geojson)
-    authority = crs.to_authority() if hasattr(crs, "to_authority") else None
-    if crs is not None and hasattr(crs, "to_authority") and not authority:
-        raise InputError("the CRS of the shapes has no code such as EPSG:32633, and GeoJSON can name no other: "
-                         "give them in a CRS that has one, with to_crs()")
-    if authority:
-        name = f"urn:ogc:def:crs:{authority[0]}::{authority[1]}"
-        geojson = {**geojson, "crs": {"type": "name", "properties": {"name": name}}}
+    if crs is not None:
+        geojson = {**geojson, "crs": crs if isinstance(crs, dict) and "type" in crs else _named_crs(crs)}
     try:
-        return json.dumps(geojson)
+        return json.dumps(geojson, default=_plain)
     except (TypeError, ValueError) as error:
         raise InputError(f"GeoJSON: {error}") from None
+
+
+def _named_crs(crs):
+    if isinstance(crs, str):
+        authority = crs.split(":")
+    else:
+        authority = crs.to_authority() if hasattr(crs, "to_authority") else None
+    if not authority or len(authority) != 2:
+        raise InputError("the CRS of the shapes has no code such as EPSG:32633, and GeoJSON can name no other: "
+                         "give them in a CRS that has one, with to_crs()")
+    return {"type": "name", "properties": {"name": f"urn:ogc:def:crs:{authority[0]}::{authority[1]}"}}
+
+
+def _plain(value):
+    """Shapes as GeoJSON, numbers and arrays of numpy as Python's, dates and other attributes as text."""
+    if hasattr(value, "__geo_interface__"):
+        return value.__geo_interface__
+    return value.tolist() if isinstance(value, (np.generic, np.ndarray)) else str(value)
 
 
 def _require_known(keywords):
