@@ -358,6 +358,45 @@ class Page(unittest.TestCase):
         self.browser.key("C", "C", modifiers=8)
         self.browser.wait(lambda: self.browser.evaluate("document.getElementById('color').value") == "quality", "the colours before")
 
+    def counts(self):
+        return self.browser.evaluate("[...document.querySelectorAll('#histogram .bin')].map(bin => Number(bin.dataset.count))")
+
+    def test_triangles_without_an_area_are_shown(self):
+        # A node on an edge, and two nodes at one place: sizes and time steps of 0 on a logarithmic scale.
+        nodes = [(0, 0), (1, 0), (1, 1), (0, 1), (0.5, 0), (1, 0)]
+        triangles = [(1, 2, 3), (1, 3, 4), (1, 5, 2), (2, 6, 3)]
+        flat = self.path("flat.14")
+        with open(flat, "w", encoding="utf-8") as file:
+            print("flat", f"{len(triangles)} {len(nodes)}", sep="\n", file=file)
+            for i, node in enumerate(nodes):
+                print(i + 1, *node, 5 + i, file=file)
+            for i, corners in enumerate(triangles):
+                print(i + 1, 3, *corners, file=file)
+            print(0, 0, 0, 0, sep="\n", file=file)
+        for color in ("size", "timestep"):
+            html = self.path(f"flat_{color}.html")
+            self.assertEqual(plot(flat, "-o", html, "--color", color).returncode, 0)
+            self.open(html)
+            self.settled()
+            self.assertEqual(sum(self.counts()), 4, color)
+            self.assertTrue(self.text("#histogram-text").startswith("least 0"), color)
+
+    def test_depths_that_no_triangle_has_are_unknown(self):
+        shore, depths, mesh = self.path("some.geojson"), self.path("some.asc"), self.path("some.nc")
+        with open(shore, "w", encoding="utf-8") as file:
+            json.dump({"type": "Polygon", "coordinates": [[[0, 0], [0.2, 0], [0.2, 0.2], [0, 0.2], [0, 0]]]}, file)
+        with open(depths, "w", encoding="utf-8") as file:  # of one corner
+            file.write("ncols 2\nnrows 2\nxllcorner -0.02\nyllcorner -0.02\ncellsize 0.02\n-5 -5\n-5 -5\n")
+        made = subprocess.run([PROGRAM, "mesh", shore, "-o", mesh, "--bathymetry", depths, "--depth-fill", "none", "--quiet"],
+                              check=False, timeout=300)
+        self.assertEqual(made.returncode, 0)
+        html = self.path("some.html")
+        self.assertEqual(plot(mesh, "-o", html, "--color", "depth").returncode, 0)
+        self.open(html)
+        self.settled()
+        self.assertEqual(self.counts(), [])
+        self.assertIn("2 triangles unknown", self.text("#histogram-text"))
+
     def test_triangles_of_a_pixel_have_their_colours(self):
         grid, html = self.path("many.14"), self.path("many.html")
         write_grid(grid, 400, 240, 5)

@@ -87,8 +87,9 @@ function scaleOf(mesh, color, values) {
   if (KINDS.includes(color)) return { kinds: true, palette: "kinds" };
   if (color === "angle") return { low: 0, high: 60, log: false, palette: "ramp" };
   if (color === "quality") return { low: mesh.facts.least_quality, high: 1, log: false, palette: "ramp" };
-  const known = values.filter(Number.isFinite).sort();
   const log = color !== "depth";
+  // A triangle without an area has no place on a logarithmic scale; it gets the colour of the lower end.
+  const known = values.filter(value => Number.isFinite(value) && (!log || value > 0)).sort();
   // The smallest 2 % are clipped, because they would take up half of the scale.
   const low = known[color === "size" ? Math.floor(known.length / 50) : 0], high = known[known.length - 1];
   return { low, high, log, palette: color === "depth" ? "depth" : "ramp" };
@@ -109,7 +110,7 @@ function shadesOf(mesh, coloring, least_angle, angles) {
     else if (scale.kinds) shades[i] = values[t] % SHADES;
     else {
       const share = shareOf(scale, values[t]);
-      shades[i] = Number.isFinite(share) ? Math.round(Math.min(1, Math.max(0, share)) * (SHADES - 1)) : UNKNOWN;
+      shades[i] = Number.isNaN(share) ? UNKNOWN : Math.round(Math.min(1, Math.max(0, share)) * (SHADES - 1));
     }
   }
   return shades;
@@ -126,15 +127,18 @@ function histogramOf(mesh, color, values, scale) {
     for (const kind of values) ++bins[Math.floor(kind / each)].count;
     return { bins, unknown: 0 };
   }
-  let least = Infinity, greatest = -Infinity, sum = 0, known = 0;
+  let least = Infinity, lowest = Infinity, greatest = -Infinity, sum = 0, known = 0;  // lowest: of the scale
   for (const value of values) {
     if (!Number.isFinite(value)) continue;
     if (value < least) least = value;
+    if (value < lowest && (!scale.log || value > 0)) lowest = value;
     if (value > greatest) greatest = value;
     sum += value;
     ++known;
   }
-  const whole = color === "angle" ? [0, 60] : [least, greatest];
+  const unknown = values.length - known;
+  if (lowest === Infinity) return { bins: [], unknown, least, greatest, mean: sum / known };
+  const whole = color === "angle" ? [0, 60] : [lowest, greatest];
   const at = scale.log ? Math.log : Number, back = scale.log ? Math.exp : Number;
   const low = at(whole[0]), step = (at(whole[1]) - low) / BINS;
   const count = step > 0 ? BINS : 1, bins = [];
@@ -144,7 +148,7 @@ function histogramOf(mesh, color, values, scale) {
     const bin = step > 0 ? Math.floor((at(value) - low) / step) : 0;
     ++bins[Math.min(count - 1, Math.max(0, bin))].count;
   }
-  return { bins, unknown: values.length - known, least, greatest, mean: sum / known };
+  return { bins, unknown, least, greatest, mean: sum / known };
 }
 
 async function colorBy(mesh, color) {

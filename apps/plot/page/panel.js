@@ -92,7 +92,7 @@ function showHistogram(mesh, { color, scale, histogram }, log) {
   const svg = byId("histogram"), text = byId("histogram-text"), { facts } = mesh;
   svg.replaceChildren();
   text.textContent = "";
-  if (!histogram || histogram.bins.length === 0) return;
+  if (!histogram) return;
   const { bins, unknown } = histogram, width = 288, height = 110;
   svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
   svg.setAttribute("preserveAspectRatio", "none");
