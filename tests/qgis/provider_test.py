@@ -364,7 +364,8 @@ class ProviderTest(unittest.TestCase):
 
     def test_what_falls_short_is_told_and_written(self):
         results = self.mesh(memory_layer(LAKE), SIZE_MAX=200, MAX_VERTICES=500)
-        self.assertIn("warning: ", self.log.text())
+        self.assertIn("warning: short of what was asked: ", self.log.text())
+        self.assertIn("the budget of points is used up", self.log.text())
         self.assertTrue(os.path.exists(results["OUTPUT"]))
 
     def test_sizes_that_require_too_many_vertices_are_an_error(self):

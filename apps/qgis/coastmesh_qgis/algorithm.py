@@ -189,7 +189,8 @@ class CoastmeshAlgorithm(QgsProcessingAlgorithm):
             if outputs:
                 arguments.append("--overwrite")
             if self.verb.progress:
-                arguments.append("--progress=json")
+                # A quiet run says on standard error what its result misses; with progress as JSON no other does.
+                arguments += ["--progress=json", "--quiet"]
             report, made = self._report(arguments)
             if made:
                 arguments.append(f"--report={report}")
@@ -255,7 +256,7 @@ class CoastmeshAlgorithm(QgsProcessingAlgorithm):
         if self.name() == "check":
             results["SOUND"] = int(code != SHORT)
         elif code == SHORT:
-            feedback.pushWarning("The result misses a requirement; the lines above and the report say where.")
+            feedback.pushWarning("The result misses a requirement; the lines above, and a report, say where.")
         if self.name() == "check":
             path = outputs.get("OUTPUT")
             if path and context.willLoadLayerOnCompletion(path):

@@ -57,7 +57,7 @@ class _Talk:
                 else:
                     report(text)
                 return
-        self.feedback.pushWarning(text)
+        self.feedback.pushWarning(text[len("coastmesh: "):] if text.startswith("coastmesh: ") else text)
 
     def _progress(self, said):
         phase, share = said["phase"], float(said["share"])
