@@ -368,6 +368,10 @@ class ProviderTest(unittest.TestCase):
         self.assertIn("the budget of points is used up", self.log.text())
         self.assertTrue(os.path.exists(results["OUTPUT"]))
 
+    def test_notes_are_told(self):
+        self.mesh(memory_layer(LAKE), BBOX="0,0.1,0,0.1")
+        self.assertIn("info: meshed inside the polygons; --domain outside meshes the water", self.log.text())
+
     def test_sizes_that_require_too_many_vertices_are_an_error(self):
         with self.assertRaises(QgsProcessingException) as caught:
             self.mesh(memory_layer(LAKE), SIZE=1, MAX_VERTICES=500)

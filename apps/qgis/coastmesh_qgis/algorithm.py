@@ -26,6 +26,7 @@ from .sources import Sources, takes_selection
 from .styles import style_for
 from .verbs import NEVER_SHOWN, VERBS
 
+NOTES_SHOWN = 20  # as many as the program prints
 MESH_ENDINGS = (".nc", ".2dm")  # formats that QGIS opens as a mesh layer
 LAYER_FILE = "GeoPackage (*.gpkg)"
 
@@ -197,7 +198,8 @@ class CoastmeshAlgorithm(QgsProcessingAlgorithm):
             code = run_program(program, [self.name(), *arguments], feedback, sources.in_words)
             if code is None:
                 return {}
-            return self._results(parameters, context, feedback, outputs, code, report)
+            said = self._said(report, feedback, sources.in_words) if report else {}
+            return self._results(parameters, context, feedback, outputs, code, said)
         finally:
             sources.close()
             if report and made and os.path.exists(report):
@@ -249,10 +251,8 @@ class CoastmeshAlgorithm(QgsProcessingAlgorithm):
         return QgsProcessingUtils.generateTempFilename("report.json"), True
 
     # Results ------------------------------------------------------------------------------------------------------
-    def _results(self, parameters, context, feedback, outputs, code, report):
-        results = dict(outputs)
-        if report:
-            results.update(self._figures(report, feedback))
+    def _results(self, parameters, context, feedback, outputs, code, figures):
+        results = {**outputs, **figures}
         if self.name() == "check":
             results["SOUND"] = int(code != SHORT)
         elif code == SHORT:
@@ -270,9 +270,15 @@ class CoastmeshAlgorithm(QgsProcessingAlgorithm):
             self._load(context, feedback, outputs, results)
         return results
 
-    def _figures(self, report, feedback):
+    def _said(self, report, feedback, in_words):
+        """Tells the user what the report says; returns its figures."""
         with open(report, encoding="utf-8") as file:
             said = json.load(file)
+        notes = said["input"]["notes"]
+        for note in notes[:NOTES_SHOWN]:
+            feedback.pushInfo(in_words(note))
+        if len(notes) > NOTES_SHOWN:
+            feedback.pushInfo(f"{len(notes) - NOTES_SHOWN} more notes, which a report lists")
         mesh, refine = said["mesh"], said["refine"]
         feedback.pushInfo(f"{mesh['vertices']} vertices, {mesh['triangles']} triangles; angles {mesh['min_angle_deg']:.2f} "
                           f"to {mesh['max_angle_deg']:.2f} degrees; {said['time_s']['total']:.1f} s")
