@@ -200,6 +200,7 @@ class ProviderTest(unittest.TestCase):
         self.assertGreaterEqual(box.xMinimum(), 1.0)
         chosen = layer.selectedFeatureIds()[0]
         self.assertEqual({f["src_fid"] for f in triangles.getFeatures()}, {chosen})
+        self.assertEqual({os.path.basename(f["source"]) for f in triangles.getFeatures()}, {"my lakes.gpkg"})
 
     def test_lines_a_subset_and_a_crs_given_in_qgis(self):
         ring = "LINESTRING(0 0, 1000 0, 1000 1000, 0 1000, 0 0)"
@@ -359,7 +360,7 @@ class ProviderTest(unittest.TestCase):
         with self.assertRaises(QgsProcessingException) as caught:
             self.mesh(layer)
         self.assertIn("my lakes", str(caught.exception))
-        self.assertNotIn("input.gpkg", str(caught.exception))
+        self.assertNotIn(".gpkg", str(caught.exception))
         self.assertEqual(os.listdir(self.folder), [])
 
     def test_what_falls_short_is_told_and_written(self):

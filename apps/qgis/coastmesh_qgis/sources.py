@@ -92,7 +92,9 @@ class Sources:
 
     def _write(self, source, name):
         """Writes features to a GeoPackage, with their ids, so that messages can name them."""
-        path = QgsProcessingUtils.generateTempFilename("input.gpkg")
+        # Results keep the name of the file as the source of their features.
+        stem = re.sub(r"[^A-Za-z0-9_ -]", "_", name).strip()[:100] or "input"
+        path = QgsProcessingUtils.generateTempFilename(stem + ".gpkg")
         crs = source.crs() if isinstance(source, QgsVectorLayer) else source.sourceCrs()
         fields = QgsFields()
         fields.append(QgsField("fid", QVariant.LongLong))
@@ -105,6 +107,7 @@ class Sources:
                 fields.append(each)
         options = QgsVectorFileWriter.SaveVectorOptions()
         options.driverName = "GPKG"
+        options.layerName = "input"
         options.fileEncoding = "UTF-8"
         options.layerOptions = ["FID=fid", "GEOMETRY_NAME=geom", "SPATIAL_INDEX=NO"]
         writer = QgsVectorFileWriter.create(
