@@ -358,6 +358,27 @@ class Page(unittest.TestCase):
         self.browser.key("C", "C", modifiers=8)
         self.browser.wait(lambda: self.browser.evaluate("document.getElementById('color').value") == "quality", "the colours before")
 
+    def test_the_worst_triangle_among_very_many_equal_ones(self):
+        across, grid, html = 90, self.path("regular.14"), self.path("regular.html")
+        with open(grid, "w", encoding="utf-8") as file:
+            print("regular", f"{2 * across**2} {(across + 1)**2}", sep="\n", file=file)
+            for i in range((across + 1)**2):
+                x, y = i % (across + 1), i // (across + 1)
+                moved = 0.2 if (x, y) == (across - 2, across - 2) else 0.0
+                print(i + 1, x + moved, y + moved / 2, 0, file=file)
+            for i in range(across**2):
+                a = i // across * (across + 1) + i % across + 1
+                print(2 * i + 1, 3, a, a + 1, a + across + 2, file=file)
+                print(2 * i + 2, 3, a, a + across + 2, a + across + 1, file=file)
+            print(0, 0, 0, 0, sep="\n", file=file)
+        self.assertEqual(plot(grid, "-o", html).returncode, 0)
+        places, corners = read_grid(grid)
+        worst = numpy.argsort(angles_of(places[corners][:, :, :2]).min(axis=1), kind="stable")[:3]
+        self.open(html)
+        for t in worst:
+            self.browser.key("w")
+            self.wait_picked(f"Triangle {t + 1}")
+
     def counts(self):
         return self.browser.evaluate("[...document.querySelectorAll('#histogram .bin')].map(bin => Number(bin.dataset.count))")
 

@@ -214,10 +214,13 @@ class Page {
       const values = shape ? await valuesOf(this.mesh, "angle") : this.coloring.values;
       const sign = !shape && color === "depth" ? -1 : 1;
       const known = values.filter(Number.isFinite).map(value => sign * value).sort();
-      const most = known[Math.min(99, known.length - 1)], found = [];
-      for (let t = 0; t < values.length && found.length < 10000; ++t) if (sign * values[t] <= most) found.push(t);
+      const most = known[Math.min(99, known.length - 1)], found = [], equal = [];  // equal: to the last of the hundred
+      for (let t = 0; t < values.length; ++t) {
+        if (sign * values[t] < most) found.push(t);
+        else if (sign * values[t] === most && equal.length < 100) equal.push(t);
+      }
       found.sort((a, b) => sign * (values[a] - values[b]) || a - b);
-      this.worst = { found: found.slice(0, 100), next: 0 };
+      this.worst = { found: [...found, ...equal].slice(0, 100), next: 0 };
     }
     const { found, next } = this.worst;
     if (found.length === 0) return;
