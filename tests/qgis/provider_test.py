@@ -445,6 +445,20 @@ class ProviderTest(unittest.TestCase):
         with open(self.path("c.14"), encoding="utf-8") as file:
             self.assertEqual(file.read().split()[1], "3")
 
+    def test_a_mesh_converted_to_a_geopackage_is_loaded(self):
+        self.mesh(memory_layer(LAKE))
+        self.run_algorithm("convert", INPUT=self.path("lake.nc"), OUTPUT=self.path("bare.2dm"))
+        for source in ("lake.nc", "bare.2dm"):
+            self.log.lines.clear()
+            results = processing.runAndLoadResults("coastmesh:convert", {"INPUT": self.path(source),
+                                                                         "OUTPUT": self.path(source + ".gpkg")},
+                                                   feedback=self.log)
+            layers = {layer.name(): layer for layer in QgsProject.instance().mapLayers().values()}
+            self.assertEqual(set(layers), {"Triangles", "Boundaries"}, source)
+            self.assertEqual(layers["Triangles"].source(), results["TRIANGLES"])
+            self.assertNotIn("only written", self.log.text())
+            QgsProject.instance().clear()
+
     def test_a_mesh_in_a_crs_without_a_code(self):
         self.mesh(memory_layer(LAKE))
         self.run_algorithm("convert", INPUT=self.path("lake.nc"), OUTPUT=self.path("lake.2dm"))

@@ -31,9 +31,11 @@ MESH_ENDINGS = (".nc", ".2dm")  # formats that QGIS opens as a mesh layer
 LAYER_FILE = "GeoPackage (*.gpkg)"
 
 # Layers inside the GeoPackages that verbs write, top one first: output, layer, title.
+MESH_LAYERS = [("BOUNDARIES", "boundaries", "Boundaries"), ("TRIANGLES", "triangles", "Triangles"),
+               ("NODES", "nodes", "Nodes")]
 LAYERS = {
-    "mesh": [("BOUNDARIES", "boundaries", "Boundaries"), ("TRIANGLES", "triangles", "Triangles"),
-             ("NODES", "nodes", "Nodes")],
+    "mesh": MESH_LAYERS,
+    "convert": MESH_LAYERS,
     "clean": [("EDITS", "edits", "Edits"), ("PSLG", "pslg", "Plane graph")],
 }
 SHOWN_LAYERS = ("BOUNDARIES", "TRIANGLES", "EDITS", "PSLG")  # nodes are too many to show
@@ -133,6 +135,7 @@ class CoastmeshAlgorithm(QgsProcessingAlgorithm):
     def _outputs_of_convert(self):
         self._add_file("OUTPUT", "Converted mesh", self._filters(first="ugrid"))
         self._add_load()
+        self._add_layer_outputs()
 
     def _add_file(self, name, title, filters, optional=False, by_default=True):
         self.addParameter(QgsProcessingParameterFileDestination(name, title, filters, None, optional, by_default))
@@ -295,7 +298,7 @@ class CoastmeshAlgorithm(QgsProcessingAlgorithm):
         mesh = outputs.get("OUTPUT", "")
         if mesh.lower().endswith(MESH_ENDINGS):
             self._load_layer(context, mesh, "Mesh", "OUTPUT", QgsProcessingUtils.LayerHint.Mesh)
-        elif self.name() in ("mesh", "convert"):
+        elif self.name() == "mesh" or self.name() == "convert" and "TRIANGLES" not in results:
             feedback.pushInfo(f"QGIS opens {' and '.join(MESH_ENDINGS)} as mesh layers; '{mesh}' was only written.")
         for name, _, title in reversed(LAYERS.get(self.name(), [])):
             if name in SHOWN_LAYERS and name in results:
