@@ -533,6 +533,11 @@ class RunTest(unittest.TestCase):
 
 
 class DocumentationTest(unittest.TestCase):
+    def test_without_docstrings_the_module_can_be_imported(self):
+        run = subprocess.run([sys.executable, "-OO", "-c", "import coastmesh; print(coastmesh.mesh.__doc__)"],
+                             capture_output=True, text=True, check=False)
+        self.assertEqual(run.stdout, "None\n", run.stderr)
+
     def test_every_option_is_in_docstring_and_stubs(self):
         usage = json.loads(subprocess.run([PROGRAM, "mesh", "--json-usage"], capture_output=True, check=True).stdout)
         with open(os.path.join(os.path.dirname(coastmesh.__file__), "__init__.pyi"), encoding="utf-8") as file:

@@ -337,4 +337,5 @@ def _options_text():
     return text
 
 
-mesh.__doc__ += _options_text()
+if mesh.__doc__:  # python -OO drops docstrings
+    mesh.__doc__ += _options_text()
