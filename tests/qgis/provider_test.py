@@ -20,6 +20,7 @@ try:
     from qgis.core import (
         QgsApplication,
         QgsCoordinateReferenceSystem,
+        QgsCoordinateTransform,
         QgsFeature,
         QgsField,
         QgsGeometry,
@@ -37,6 +38,7 @@ try:
         QgsProcessingParameterFeatureSource,
         QgsProject,
         QgsRasterLayer,
+        QgsRasterRange,
         QgsRectangle,
         QgsReferencedRectangle,
         QgsVectorLayer,
@@ -295,6 +297,41 @@ class ProviderTest(unittest.TestCase):
             raster = QgsRasterLayer(source, "depths")
             self.assertTrue(raster.isValid(), source)
             self.assertEqual(self.depths_of(raster, memory_layer(LAKE)), (depth, depth), source)
+
+    def test_pixels_that_have_no_data_by_the_properties_of_the_layer(self):
+        grid = gdal.GetDriverByName("GTiff").Create(self.path("d.tif"), 30, 30, 1, gdal.GDT_Float32)
+        grid.SetGeoTransform((-1, 0.1, 0, 2, 0, -0.1))
+        grid.SetProjection(QgsCoordinateReferenceSystem("EPSG:4326").toWkt())
+        grid.GetRasterBand(1).Fill(-9999)
+        grid.GetRasterBand(1).WriteRaster(0, 10, 12, 20, b"\x00\x00\x00\xc1" * 240, buf_type=gdal.GDT_Float32)  # -8
+        del grid
+        raster = QgsRasterLayer(self.path("d.tif"), "depths")
+        lake = memory_layer("POLYGON((0 0, 0.6 0, 0.6 0.6, 0 0.6, 0 0))")
+        self.assertEqual(self.depths_of(raster, lake)[0], -9999)
+        raster.dataProvider().setUserNoDataValue(1, [QgsRasterRange(-9999, -9999)])
+        self.assertEqual(self.depths_of(raster, lake), (-8, -8))
+        raster.dataProvider().setUserNoDataValue(1, [QgsRasterRange(-9999, -9000)])
+        with self.assertRaisesRegex(QgsProcessingException, "'depths' has several values"):
+            self.depths_of(raster, lake)
+        gdal.Translate(self.path("marked.tif"), self.path("d.tif"), noData=-9999)
+        marked = QgsRasterLayer(self.path("marked.tif"), "depths")
+        for values in ([], [QgsRasterRange(-9999, -9999)]):
+            marked.dataProvider().setUserNoDataValue(1, values)
+            self.assertEqual(self.depths_of(marked, lake), (-8, -8))
+        self.assertIn("marked.tif", self.command())
+        marked.dataProvider().setUserNoDataValue(1, [])
+        marked.dataProvider().setUseSourceNoDataValue(1, False)
+        self.assertEqual(self.depths_of(marked, lake)[0], -9999)
+
+    def test_edits_of_a_mesh_that_are_not_saved(self):
+        self.mesh(memory_layer(LAKE))
+        self.run_algorithm("convert", INPUT=self.path("lake.nc"), OUTPUT=self.path("lake.2dm"))
+        layer = QgsMeshLayer(self.path("lake.2dm"), "lake", "mdal")
+        self.assertTrue(layer.startFrameEditing(QgsCoordinateTransform()))
+        self.assertEqual(self.run_algorithm("check", INPUT=layer)["SOUND"], 1)
+        layer.meshEditor().changeZValues([0], [5.0])
+        with self.assertRaisesRegex(QgsProcessingException, "'lake' has edits"):
+            self.run_algorithm("check", INPUT=layer)
 
     def test_options_from_a_file(self):
         with open(self.path("options.toml"), "w", encoding="utf-8") as file:

@@ -58,6 +58,8 @@ class Sources:
         if isinstance(layer, QgsVectorLayer):
             return _own_file(layer) or self._write(layer, layer.name())
         if isinstance(layer, QgsMeshLayer):
+            if layer.isModified():
+                raise QgsProcessingException(f"the mesh layer '{layer.name()}' has edits: save them first")
             return mesh_path(layer.source())
         if isinstance(layer, QgsRasterLayer):
             name = self._raster(layer)
@@ -76,19 +78,39 @@ class Sources:
         return self.path_of_layer(layer)
 
     def _raster(self, layer):
-        """GDAL's name of a raster: a file, a part of one, or a VRT file aside with the CRS that was set in QGIS."""
+        """GDAL's name of a raster: a file, a part of one, or a VRT file aside with what was set in QGIS: the CRS, and
+        the value of pixels without data."""
         if layer.providerType() != "gdal":
             return None
         name = layer.source().split("|")[0]
-        if layer.crs() == layer.dataProvider().crs() or not layer.crs().isValid():
+        changes = {}
+        if layer.crs() != layer.dataProvider().crs() and layer.crs().isValid():
+            changes["outputSRS"] = layer.crs().toWkt(QgsCoordinateReferenceSystem.WKT_PREFERRED)
+        no_data = self._no_data(layer)
+        if no_data is not None:
+            changes["noData"] = no_data
+        if not changes:
             return name
         path = QgsProcessingUtils.generateTempFilename("raster.vrt")
         self.made[path] = layer.name()
-        wkt = layer.crs().toWkt(QgsCoordinateReferenceSystem.WKT_PREFERRED)
-        gdal.Translate(path, name, format="VRT", outputSRS=wkt)
+        gdal.Translate(path, name, format="VRT", **changes)
         if not os.path.exists(path):
-            raise QgsProcessingException(f"cannot set the CRS of '{layer.name()}': {gdal.GetLastErrorMsg()}")
+            raise QgsProcessingException(f"cannot pass on the settings of '{layer.name()}': {gdal.GetLastErrorMsg()}")
         return path
+
+    def _no_data(self, layer):
+        """The value of pixels without data where it is not the file's own: a number, "none", or None."""
+        provider = layer.dataProvider()
+        in_file = provider.sourceHasNoDataValue(1) and provider.useSourceNoDataValue(1)
+        values = {end for each in provider.userNoDataValues(1) for end in (each.min(), each.max())}
+        if in_file:
+            values.add(provider.sourceNoDataValue(1))
+        if len(values) > 1:
+            raise QgsProcessingException(f"the layer '{layer.name()}' has several values for pixels without data in "
+                                         "its properties: save it as a file with one")
+        if values and not in_file:
+            return values.pop()
+        return "none" if provider.sourceHasNoDataValue(1) and not in_file else None
 
     def _write(self, source, name):
         """Writes features to a GeoPackage, with their ids, so that messages can name them."""
