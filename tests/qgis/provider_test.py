@@ -5,6 +5,7 @@ usage: provider_test.py PROGRAM PLUGINS   (the program coastmesh, the folder tha
 """
 import json
 import os
+import shlex
 import shutil
 import subprocess
 import sys
@@ -347,6 +348,20 @@ class ProviderTest(unittest.TestCase):
         self.mesh(memory_layer(LAKE), BBOX=null, CRS=null, SIZE_MAX=QVariant(QVariant.Double), WATER_AT=null)
         for option in ("bbox", "crs", "size-max", "water-at"):
             self.assertNotIn(option, self.command())
+
+    def test_the_command_in_the_log_can_be_run(self):
+        odd = self.path("a|b>c#d`e`*é")
+        os.mkdir(odd)
+        with open(os.path.join(odd, "lake.geojson"), "w", encoding="utf-8") as file:
+            file.write(QgsGeometry.fromWkt(LAKE).asJson())
+        with open(os.path.join(odd, "c.toml"), "w", encoding="utf-8") as file:
+            file.write("min-angle = 30\n")
+        mesh = self.run_algorithm("mesh", INPUT=os.path.join(odd, "lake.geojson"), OUTPUT=os.path.join(odd, "a.nc"),
+                                  CONFIG=os.path.join(odd, "c.toml"))["OUTPUT"]
+        os.remove(mesh)
+        command = self.command().replace("command: coastmesh", shlex.quote(PROGRAM), 1)
+        subprocess.run(["bash", "-c", command], check=True, capture_output=True)
+        self.assertTrue(os.path.exists(mesh))
 
     def test_names_of_files_in_capitals(self):
         parameters = {"INPUT": memory_layer(LAKE), "OUTPUT": self.path("A.NC"), "OUTPUT_LAYERS": self.path("A.GPKG")}

@@ -1,5 +1,6 @@
 """Runs the program and passes on to the user what it says."""
 import json
+import shlex
 
 from qgis.core import QgsBlockingProcess, QgsProcessingException
 from qgis.PyQt.QtCore import QProcess
@@ -75,7 +76,7 @@ def run_program(program, arguments, feedback, in_words):
 
     Raises QgsProcessingException with the program's own message on any other.
     """
-    feedback.pushCommandInfo(in_words(" ".join(_quoted(word) for word in ["coastmesh", *arguments])))
+    feedback.pushCommandInfo(in_words(shlex.join(["coastmesh", *arguments])))
     if feedback.isCanceled():
         return None
     talk = _Talk(feedback, in_words)
@@ -99,7 +100,3 @@ def run_program(program, arguments, feedback, in_words):
     if code not in (0, SHORT) or talk.errors:
         raise QgsProcessingException("; ".join(talk.errors) or f"coastmesh ended with exit code {code}")
     return code
-
-
-def _quoted(word):
-    return "'" + word.replace("'", "'\\''") + "'" if not word or any(c in word for c in " '\"$&;()") else word
