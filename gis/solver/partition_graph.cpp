@@ -12,7 +12,7 @@
 
 // scotch.h uses FILE and is C.
 extern "C" {
-#include <scotch/scotch.h>
+#include <scotch.h>
 }
 
 namespace coastmesh {

@@ -55,6 +55,11 @@ class RecipesTest(unittest.TestCase):
         self.assertIn("#include <toml++/", read("apps/usage/config_entries.cpp"))
         self.assertEqual(asked | {"toml++"}, set(LIBRARIES))
 
+    def test_scotch_is_found_with_and_without_a_folder_of_its_headers(self):
+        """Debian has scotch/scotch.h, conda-forge and Spack scotch.h."""
+        self.assertIn("find_path(SCOTCH_HEADER_DIR scotch.h PATH_SUFFIXES scotch)", read("gis/CMakeLists.txt"))
+        self.assertIn("#include <scotch.h>", read("gis/solver/partition_graph.cpp"))
+
     def test_debian(self):
         source, *packages = [dict(re.findall(r"^([\w-]+): ?((?:.*)(?:\n .*)*)", paragraph, re.M))
                              for paragraph in read("debian/control").strip().split("\n\n")]
@@ -81,8 +86,13 @@ class RecipesTest(unittest.TestCase):
         needs = [word.split()[0] for place in ("build", "host") for word in recipe["requirements"][place]]
         self.assertLessEqual(names(1), set(needs))
         self.assertEqual(len(needs), len(set(need for need in needs if not need.startswith("$"))) + 3)  # three compilers
-        for file in recipe["tests"][0]["files"]["source"] + [recipe["about"]["license_file"]]:
+        tested = recipe["tests"][0]
+        for file in tested["files"]["source"] + [recipe["about"]["license_file"]]:
             self.assertTrue((SOURCES / file).exists(), file)
+        # The files of a test keep their folders.
+        self.assertLessEqual(set(re.findall(r"\S+\.geojson", " ".join(tested["script"]))), set(tested["files"]["source"]))
+        # In conda's lib, python3.1 is a link to the folder of the version.
+        self.assertNotIn("python*", " ".join(recipe["build"]["script"]))
         for option in re.findall(r"-D(COASTMESH_\w+)", " ".join(recipe["build"]["script"])):
             self.assertIn(option, read("CMakeLists.txt"))
 
