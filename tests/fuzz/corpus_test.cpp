@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -53,7 +54,7 @@ TEST(Property, RandomInputsHold) {
 }
 
 TEST(Property, ACaseComesBackFromItsFile) {
-  const std::string path = ::testing::TempDir() + "/case.poly";
+  const std::string path = ::testing::TempDir() + "/case_" + std::to_string(::getpid()) + ".poly";
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     Choices choices(seed);
     const RefineCase c = randomCase(choices);

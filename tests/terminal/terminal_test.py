@@ -25,9 +25,10 @@ def on_a_terminal(command, columns=60, **variables):
     """What a terminal receives on stderr and stdout, and the exit code."""
     pid, terminal = pty.fork()
     if pid == 0:
+        # Before the program starts: it may ask for the width at once.
+        fcntl.ioctl(0, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
         environment = {k: v for k, v in os.environ.items() if k != "CI"}
         os.execve(command[0], command, {**environment, "TERM": "xterm", **variables})
-    fcntl.ioctl(terminal, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
     received = b""
     while select.select([terminal], [], [], 60)[0]:
         try:

@@ -1,6 +1,7 @@
 #include "apps/cli/memory_lacked.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -23,9 +24,11 @@ class MemoryLackedDeathTest : public testing::Test {
  protected:
   void SetUp() override {
     GTEST_FLAG_SET(death_test_style, "threadsafe");
-    // The name is the same in the process that a death test starts.
+    // The process that a death test starts inherits the variable, and has the same folder.
+    constexpr const char* kOwner = "COASTMESH_MEMORY_LACKED_TEST";
+    ::setenv(kOwner, std::to_string(::getpid()).c_str(), /*overwrite=*/0);
     const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
-    folder_ = fs::path(testing::TempDir()) / ("memory_lacked_" + name);
+    folder_ = fs::path(testing::TempDir()) / ("memory_lacked_" + std::string(std::getenv(kOwner)) + name);
     fs::create_directories(folder_);
     std::ofstream(folder_ / "out.txt") << "before";
   }
