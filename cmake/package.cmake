@@ -23,7 +23,8 @@ set(CPACK_DEBIAN_PACKAGE_DEPENDS
   "python3 (>= ${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}), python3 (<< ${next_python}), python3-numpy, proj-data")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "fonts-dejavu-core")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS
-  "qgis (>= 3.22), libgdal-dev, libgeographiclib-dev, libnetcdf-dev, libscotch-dev, libtbb-dev, libcgal-dev")
+  "qgis (>= 3.22), libgdal-dev, libgeographiclib-dev, libnetcdf-dev, libscotch-dev, libtbb-dev, libcgal-dev, \
+pkg-config")
 # postinst compiles the Python modules, and prerm removes the compiled files.
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA
   ${PROJECT_SOURCE_DIR}/cmake/debian/postinst ${PROJECT_SOURCE_DIR}/cmake/debian/prerm)

@@ -79,6 +79,12 @@ class RecipesTest(unittest.TestCase):
     def test_install_packages(self):
         listed = set(re.findall(r"[\w+.-]+", read("scripts/install-packages")))
         self.assertLessEqual(names(0), listed)
+        for path in ("README.md", "CONTRIBUTING.md", "Containerfile", "scripts/quickstart", "scripts/test"):
+            for option in re.findall(r"scripts/install-packages (--[a-z]+)", read(path)):
+                self.assertIn(f"{option}) packages+=", read("scripts/install-packages"), path)
+        # The package is only complete with the Python module, which is left out if something is missing for it.
+        before = read("README.md").split("scripts/build release package")[0]
+        self.assertIn("scripts/install-packages --package", before)
 
     def test_conda(self):
         recipe = yaml.safe_load(read("recipes/conda/recipe.yaml"))
