@@ -79,6 +79,8 @@ class ReleaseTest(unittest.TestCase):
                 text = read(name)
             except UnicodeDecodeError:
                 continue
+            if "example." not in text:  # the search takes seconds for long lines
+                continue
             found += [f"{name}: {match}" for match in re.findall(r"\S*@(?:[\w-]+\.)*example\.\w+|\S*example\.(?:org|com|net)", text)]
         self.assertEqual(sorted(found), [])
 
