@@ -23,5 +23,6 @@ add_custom_target(reference
   COMMENT "API reference ${reference_dir}/html/index.html" VERBATIM)
 if(COASTMESH_TESTS AND NOT COASTMESH_SANITIZE)
   add_test(NAME reference.doxygen COMMAND ${CMAKE_COMMAND} --build ${PROJECT_BINARY_DIR} --target reference)
-  set_tests_properties(reference.doxygen PROPERTIES LABELS reference TIMEOUT 120)
+  # As python.wheel does, it runs Ninja in the build folder, which must be one process at a time.
+  set_tests_properties(reference.doxygen PROPERTIES LABELS reference TIMEOUT 120 RESOURCE_LOCK build)
 endif()
