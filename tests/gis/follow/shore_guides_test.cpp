@@ -201,6 +201,9 @@ TEST(FollowSizes, ABarrierThatClosesNothingIsSaidTo) {
   // Across the channel to the land beside it; then with an end that touches another barrier.
   EXPECT_TRUE(notesOf({{{{25, 4}, {25, 16}}, ""}}).empty());
   EXPECT_TRUE(notesOf({{{{10, -2}, {10, 10}}, ""}, {{{10.5, 10}, {10.5, 22}}, ""}}).empty());
+  // Twice at one place: the first closes the water that the second meets.
+  EXPECT_TRUE(notesOf({{{{25, 4}, {25, 16}}, ""}, {{{25, 4}, {25, 16}}, ""}}).empty());
+  EXPECT_TRUE(idle.empty());
   const auto short_of = notesOf({{{{10, -2}, {10, 10}}, "mole"}});
   ASSERT_EQ(short_of.size(), 1u);
   EXPECT_EQ(short_of[0].find("barrier 'mole' ends in the water, at (10, 10), an element or more"), 0u) << short_of[0];
@@ -239,25 +242,6 @@ TEST(LineZone, FindsTheFirstLineAtATriangleAndOthersNearAPlace) {
   EXPECT_GT(near, 100u);
   EXPECT_LT(met, 2000u);
   EXPECT_LT(near, 2000u);
-}
-
-// Where barriers cross, the first closes the common triangles; the other is neither idle nor open.
-TEST(FollowSizes, EachOfManyBarriersIsListed) {
-  Domain domain;
-  addShore(domain, {{0, 0}, {200, 0}, {200, 200}, {0, 200}});
-  ShoreGuides guides;
-  for (int i = 0; i < 10; ++i)
-    for (int j = 0; j < 10; ++j) {
-      const Point from{10.0 + 19.0 * i, 10.0 + 19.0 * j};
-      guides.barriers.push_back({{from, from + Point{4.0, 3.0}}, ""});
-    }
-  guides.barriers.push_back({{{300, 300}, {310, 300}}, ""});
-  CleanReport report;
-  followSizes(std::move(domain), ConstantSize(2.0), {.land_min = 0.0}, oneFeature(), report, guides);
-  EXPECT_EQ(countOf(report, EditKind::Barrier), 100u);
-  EXPECT_EQ(std::ranges::count_if(report.notes, [](const std::string& note) { return note.starts_with("barrier "); }),
-            100);
-  EXPECT_EQ(report.idle.size(), 1u);
 }
 
 }  // namespace
