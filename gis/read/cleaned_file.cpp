@@ -205,12 +205,12 @@ bool isReadWhole(const OpenSource& source) {
 
 }  // namespace
 
-std::optional<std::vector<RawLayer>> readCleaned(const OpenSource& source, FeatureUse use, const OgrErrors& errors,
+std::optional<std::vector<RawLayer>> readCleaned(const OpenSource& source, FeatureUse given_as, const OgrErrors& errors,
                                                  ReadReport& report) {
   if (!isReadWhole(source)) return std::nullopt;
   OGRLayer* const pslg = layerNamed(source, kPslgLayer);
   if (!pslg || !hasFields(*pslg, {"kind", "region", "left_fid", "right_fid"})) return std::nullopt;
-  if (use != FeatureUse::Area) refuseAsGuest(source, use);
+  if (given_as != FeatureUse::Area) refuseAsGuest(source, given_as);
   OGRLayer* const features = layerNamed(source, kFeatureLayer);
   OGRLayer* const attributes = layerNamed(source, kAttributeLayer);
   if (!features || !attributes || !hasFields(*pslg, {"left_id", "right_id", "line_id", "first", "last"}))
