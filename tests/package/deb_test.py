@@ -19,8 +19,9 @@ PLUGIN = "usr/share/qgis/python/plugins/coastmesh_qgis"
 PARTS = [
     "usr/bin/coastmesh", "usr/lib/libcoastmesh_core.a", "usr/lib/cmake/coastmesh/coastmeshConfig.cmake",
     "usr/include/coastmesh/core/pslg.hpp", "usr/share/man/man1/coastmesh-mesh.1",
-    "usr/share/bash-completion/completions/coastmesh", "usr/share/doc/coastmesh/copyright", PLUGIN + "/metadata.txt",
-    PLUGIN + "/__init__.py",
+    "usr/share/bash-completion/completions/coastmesh", "usr/share/zsh/vendor-completions/_coastmesh",
+    "usr/share/fish/vendor_completions.d/coastmesh.fish", "usr/share/doc/coastmesh/copyright",
+    "usr/share/doc/coastmesh/report.schema.json", PLUGIN + "/metadata.txt", PLUGIN + "/__init__.py",
 ]
 
 
@@ -49,7 +50,8 @@ class PackageTest(unittest.TestCase):
     def test_program_and_module_work_where_they_lie(self):
         subprocess.run([os.path.join(self.root, "usr/bin/coastmesh"), "--version"], check=True, stdout=subprocess.DEVNULL)
         modules = os.path.join(self.root, "usr/lib/python3/dist-packages")
-        if not os.path.exists(modules):
+        if not glob.glob(os.path.join(BUILD, "python/coastmesh/_coastmesh*")):
+            self.assertFalse(os.path.exists(modules))
             self.skipTest("the Python module was not built")
         script = ("import coastmesh; m = coastmesh.mesh([[0, 0], [1, 0], [0, 1]], [[0, 1], [1, 2], [2, 0]]);"
                   f"assert len(m.triangles) and coastmesh.__file__.startswith({modules!r})")
