@@ -24,5 +24,5 @@ add_custom_target(reference
 if(COASTMESH_TESTS AND NOT COASTMESH_SANITIZE)
   add_test(NAME reference.doxygen COMMAND ${CMAKE_COMMAND} --build ${PROJECT_BINARY_DIR} --target reference)
   # As python.wheel does, it runs Ninja in the build folder, which must be one process at a time.
-  set_tests_properties(reference.doxygen PROPERTIES LABELS reference TIMEOUT 120 RESOURCE_LOCK build)
+  set_tests_properties(reference.doxygen PROPERTIES LABELS reference TIMEOUT 600 RESOURCE_LOCK build)
 endif()
