@@ -9,7 +9,7 @@ if(NOT COASTMESH_SANITIZE)
     -DBUILD_DIR=${PROJECT_BINARY_DIR} -DSOURCE_DIR=${PROJECT_SOURCE_DIR} -DGENERATOR=${CMAKE_GENERATOR}
     -DCXX=${CMAKE_CXX_COMPILER} -DBUILD_TYPE=${CMAKE_BUILD_TYPE}
     -P ${PROJECT_SOURCE_DIR}/tests/package/run.cmake)
-  set_tests_properties(package.consumer PROPERTIES TIMEOUT 6000)
+  set_tests_properties(package.consumer PROPERTIES TIMEOUT 1200)
 endif()
 if(NOT COASTMESH_SANITIZE)
   add_test(NAME package.deb COMMAND ${COASTMESH_PYTHON} ${PROJECT_SOURCE_DIR}/tests/package/deb_test.py
