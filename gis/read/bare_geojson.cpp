@@ -157,6 +157,8 @@ class GeometryHandler final : public nlohmann::json_sax<nlohmann::json> {
     const Coordinates& coordinates = frame.coordinates;
     const std::size_t level = levelOf(frame.type);
     if (level == kUnknown || (coordinates.positionLevel() != 0 && coordinates.positionLevel() != level)) return false;
+    const bool has_empty_position = level > 0 && !coordinates.ends(level).empty();
+    if (has_empty_position) return false;
     parts_.coordinates += level > 1 ? coordinates.points().size() : 0;
     if (frame.type == "Polygon") {
       takePolygon(coordinates, 0, coordinates.ends(2).size(), 2);

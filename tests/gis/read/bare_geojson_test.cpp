@@ -107,6 +107,9 @@ TEST(BareGeojson, LeavesTheRestToOgr) {
       R"({"type":"Polygon","coordinates":[[[[0,0],[1,0],[0,0]]]]})",    // a level too many
       R"({"type":"Polygon","coordinates":[[[0],[1,0],[1,1],[0,0]]]})",  // no position
       R"({"type":"Polygon","coordinates":[[[0,[1,0]],[1,1]]]})",        // numbers and arrays mixed
+      R"({"type":"Polygon","coordinates":[[[]]]})",                     // empty positions
+      R"({"type":"Polygon","coordinates":[[[0,0],[1,0],[],[1,1]]]})",
+      R"({"type":"LineString","coordinates":[[]]})",
       R"({"type":"Polygon","coordinates":[[[0,null],[1,0],[1,1]]]})",
       R"({"type":"Polygon","coordinates":[[[0,1e999],[1,0],[1,1]]]})",
       R"({"coordinates":[[[0,0],[1,0],[1,1],[0,0]]]})",
