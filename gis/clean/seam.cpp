@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "gis/geometry/box.hpp"
+#include <limits>
 
 namespace coastmesh {
 
@@ -18,35 +17,87 @@ void addBetween(const Point& a, const Point& b, const std::vector<double>& latit
   if (a.y > b.y) std::reverse(points.begin() + begin, points.end());
 }
 
+constexpr double kTurn = 360;  // degrees
+
+// Degrees of longitude that the rings span.
+struct Span {
+  double west = std::numeric_limits<double>::infinity(), east = -west;
+
+  bool isTurn() const { return east - west >= kTurn; }
+  // True if the span holds the longitude a turn to the west or to the east of x.
+  bool repeats(double x) const { return x - west >= kTurn || east - x >= kTurn; }
+};
+
+Span spanOf(const std::vector<Ring*>& rings) {
+  Span span;
+  for (const Ring* ring : rings) {
+    for (const Point& p : *ring) span.west = std::min(span.west, p.x), span.east = std::max(span.east, p.x);
+  }
+  return span;
+}
+
+CutMeridians cutsOf(const std::vector<Ring*>& rings, const Span& span) {
+  std::vector<double> longitudes;
+  for (const Ring* ring : rings) {
+    for (std::size_t i = 0; i < ring->size(); ++i) {
+      const double x = (*ring)[i].x;
+      if (x == (*ring)[(i + 1) % ring->size()].x && span.repeats(x)) longitudes.push_back(x);
+    }
+  }
+  return CutMeridians(std::move(longitudes));
+}
+
+// Points of the rings on one cut.
+struct OnCut {
+  double longitude = 0;  // of one of them
+  std::vector<double> latitudes;
+};
+
+std::vector<OnCut> pointsOn(const CutMeridians& cuts, const std::vector<Ring*>& rings, const Span& span) {
+  std::vector<OnCut> points(cuts.count());
+  for (const Ring* ring : rings) {
+    for (const Point& p : *ring) {
+      const auto cut = span.repeats(p.x) ? cuts.at(p.x) : std::nullopt;
+      if (!cut) continue;
+      points[*cut].longitude = p.x;
+      points[*cut].latitudes.push_back(p.y);
+    }
+  }
+  for (auto& [longitude, latitudes] : points) {
+    std::ranges::sort(latitudes);
+    latitudes.erase(std::ranges::unique(latitudes).begin(), latitudes.end());
+  }
+  return points;
+}
+
+bool joinsTurns(const Projection& projection, const OnCut& cut, const Span& span) {
+  const double middle = cut.latitudes[cut.latitudes.size() / 2];
+  const double turn = cut.longitude - span.west >= kTurn ? -kTurn : kTurn;
+  const Point here = projection.forward({cut.longitude, middle});
+  const Point there = projection.forward({cut.longitude + turn, middle});
+  return std::hypot(there.x - here.x, there.y - here.y) < 1e-3;
+}
+
 }  // namespace
 
 std::optional<Seam> healSeam(const std::vector<Ring*>& rings, const Crs& crs, const Projection& projection) {
   if (!crs.geographic) return std::nullopt;
-  Box box;
-  for (const Ring* ring : rings) {
-    for (const Point& p : *ring) box.add(p);
-  }
-  if (box.xmax - box.xmin != 360) return std::nullopt;
-  const Seam seam{box.xmin, box.xmax};
-  std::vector<double> latitudes;
-  for (const Ring* ring : rings) {
-    for (const Point& p : *ring) {
-      if (seam.holds(p)) latitudes.push_back(p.y);
-    }
-  }
-  std::sort(latitudes.begin(), latitudes.end());
-  latitudes.erase(std::unique(latitudes.begin(), latitudes.end()), latitudes.end());
-  const double middle = latitudes[latitudes.size() / 2];
-  const Point west = projection.forward({box.xmin, middle});
-  const Point east = projection.forward({box.xmax, middle});
-  if (!(std::hypot(east.x - west.x, east.y - west.y) < 1e-3)) return std::nullopt;
+  const Span span = spanOf(rings);
+  if (!span.isTurn()) return std::nullopt;
+  Seam seam{cutsOf(rings, span)};
+  if (seam.cuts.count() == 0) return std::nullopt;
+  const std::vector<OnCut> points = pointsOn(seam.cuts, rings, span);
+  if (!std::ranges::all_of(points, [&](const OnCut& cut) { return joinsTurns(projection, cut, span); }))
+    return std::nullopt;
 
   for (Ring* ring : rings) {
     Ring healed;
+    healed.reserve(ring->size());
     for (std::size_t i = 0; i < ring->size(); ++i) {
       const Point &a = (*ring)[i], &b = (*ring)[(i + 1) % ring->size()];
       healed.push_back(a);
-      if (a.x == b.x && seam.holds(a)) addBetween(a, b, latitudes, healed);
+      if (a.x != b.x || !span.repeats(a.x)) continue;
+      if (const auto cut = seam.cuts.at(a.x)) addBetween(a, b, points[*cut].latitudes, healed);
     }
     *ring = std::move(healed);
   }

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <iterator>
 #include <limits>
 
 #include "gis/coast/clip_chains.hpp"
 #include "gis/coast/feature_bounds.hpp"
+#include "gis/coast/guests.hpp"
 #include "gis/coast/split_frames.hpp"
 #include "gis/coast/turned_rings.hpp"
 #include "gis/coast/unite_frames.hpp"
@@ -21,12 +23,16 @@ namespace {
 
 constexpr double kTurn = 360;  // degrees
 
-Box boundsOf(const Coastline& coastline, bool of_frame) {
+Box boundsOf(const Coastline& coastline, const std::function<bool(FeatureUse)>& counts) {
   Box box;
   for (const Feature& feature : coastline.features) {
-    if ((feature.use == FeatureUse::Frame) == of_frame) box.add(boundsOf(feature));
+    if (counts(feature.use)) box.add(boundsOf(feature));
   }
   return box;
+}
+
+Box boundsOfFrames(const Coastline& coastline) {
+  return boundsOf(coastline, [](FeatureUse use) { return use == FeatureUse::Frame; });
 }
 
 std::string inWords(const Box& box) {
@@ -35,12 +41,19 @@ std::string inWords(const Box& box) {
   return text;
 }
 
-// Western end of the 360 degrees of longitude that the data use: -180, 0 for data from 0 to 360, or where the data
-// begin, if they span 360 degrees at most.
+// Bounds without guests, which may lie in another turn.
+Box boundsOfHosts(const Coastline& coastline) {
+  return boundsOf(coastline, [](FeatureUse use) { return !isGuest(use); });
+}
+
+// Western end of the 360 degrees of longitude that the data use: -180, 0 for data from 0 to 360, or as far west of the
+// data as the other end lies east of them, if they span 360 degrees at most. Longitudes of a range reach to 540.
 double turnOf(const Box& data) {
+  constexpr double kMost = 540;
   if (data.empty() || (data.xmin >= -180 && data.xmax <= 180)) return -180;
   if (data.xmin >= 0 && data.xmax <= kTurn) return 0;
-  return data.xmax - data.xmin <= kTurn ? data.xmin : -180;
+  const double beyond = kTurn - (data.xmax - data.xmin);
+  return beyond < 0 ? -180 : std::clamp(data.xmin - beyond / 2, -kMost, kMost - kTurn);
 }
 
 // Degrees of longitude from the west to the east of a box; an east less than the west lies beyond the antimeridian.
@@ -180,7 +193,7 @@ constexpr double kMargin = 0.1;
 // The extents of the frames, grown by the margin.
 Extent extentOfFrames(const Coastline& coastline, double turn) {
   const bool geographic = coastline.crs.geographic;
-  const Box all = boundsOf(coastline, true);
+  const Box all = boundsOfFrames(coastline);
   const double margin = kMargin * std::max(all.ymax - all.ymin, 1e-300);
   Extent extent;
   extent.y = {all.ymin - margin, all.ymax + margin};
@@ -328,13 +341,23 @@ bool jumps(const Polygon& polygon) {
 
 bool jumps(const std::vector<Point>& line) { return turnsOf(line, false).any; }
 
-// Reduces a feature to its parts near the frame.
+void shift(std::vector<Point>& chain, double degrees) {
+  for (Point& p : chain) p.x += degrees;
+}
+
+void shift(Polygon& polygon, double degrees) {
+  shift(polygon.outer, degrees);
+  for (Ring& hole : polygon.holes) shift(hole, degrees);
+}
+
+// Reduces a feature to its parts near the frame. Parts of guests are moved to the frame's longitudes.
 void clipFeature(Feature& feature, const Clips& clips) {
   const Box bounds = boundsOf(feature);
   if (std::ranges::any_of(clips.plain, [&](const ClipBox& clip) { return within(bounds, clip); })) return;
   const bool may_jump = !clips.turned.empty() && bounds.xmax - bounds.xmin > kTurn / 2;
   const auto polygon_jumps = [&](const Polygon& polygon) { return may_jump && jumps(polygon); };
   const auto line_jumps = [&](const std::vector<Point>& line) { return may_jump && jumps(line); };
+  const bool moves = isGuest(feature.use);
   Feature kept = feature;
   kept.polygons.clear();
   kept.lines.clear();
@@ -349,10 +372,15 @@ void clipFeature(Feature& feature, const Clips& clips) {
         Ring ring = clipRing(hole, clip);
         if (!ring.empty()) addHole(std::move(ring), hole, part);
       }
+      if (moves) shift(part, clip.shift);
       if (!part.outer.empty() || !part.holes.empty()) kept.polygons.push_back(std::move(part));
     }
     for (const auto& line : feature.lines) {
-      if (!line_jumps(line)) std::ranges::move(clipLine(line, clip), std::back_inserter(kept.lines));
+      if (line_jumps(line)) continue;
+      for (auto& part : clipLine(line, clip)) {
+        if (moves) shift(part, clip.shift);
+        kept.lines.push_back(std::move(part));
+      }
     }
     for (const Point& p : feature.points) {
       if (clip.box.contains({p.x + clip.shift, p.y, p.x + clip.shift, p.y})) kept.points.push_back(p);
@@ -442,9 +470,12 @@ FrameReport frameCoastline(Coastline& coastline, const FrameOptions& options) {
   if (options.side == DomainSide::Ocean)
     return frameCoastline(coastline, {DomainSide::Outside, Box{-180.0, -90.0, 180.0, 90.0}, {}, options.in_plane});
   refuseOddFrames(coastline);
-  const Box given = boundsOf(coastline, false);
+  const Box given = boundsOfHosts(coastline);
   const double turn = turnOf(given);
-  if (coastline.crs.geographic) std::ranges::move(splitFrames(coastline, turn), std::back_inserter(report.notes));
+  if (coastline.crs.geographic) {
+    bringGuests(coastline, turn);
+    std::ranges::move(splitFrames(coastline, turn), std::back_inserter(report.notes));
+  }
   if (options.box) {
     refuseOddBox(*options.box, coastline.crs);
     noteWideBox(*options.box, coastline.crs, report);
@@ -468,7 +499,7 @@ FrameReport frameCoastline(Coastline& coastline, const FrameOptions& options) {
   }
   const Feature& frame = *std::ranges::find(coastline.features, FeatureUse::Frame, &Feature::use);
   std::string reason = frame.source + ": nothing of the input lies in it";
-  if (!coastline.framed_by_box) reason += ", which reaches over " + inWords(boundsOf(coastline, true));
+  if (!coastline.framed_by_box) reason += ", which reaches over " + inWords(boundsOfFrames(coastline));
   if (!given.empty()) reason += "; the input reaches over " + inWords(given);
   throw InputError(reason + " (west, south, east, north, in " + nameOf(coastline.crs) + ")");
 }

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <memory>
 #include <numeric>
+#include <tuple>
 
 #include "core/hilbert.hpp"
+#include "gis/coast/cut_meridians.hpp"
 #include "gis/coast/feature_bounds.hpp"
+#include "gis/coast/guests.hpp"
 #include "gis/coast/snap_reach.hpp"
 #include "gis/coast/turned_rings.hpp"
 #include "gis/geometry/chain_index.hpp"
@@ -147,51 +150,67 @@ class TurnedFeatures {
   std::vector<std::unique_ptr<Feature>> turned_;  // null where nothing jumps
 };
 
-bool isGuest(const Feature& feature) {
-  return feature.use == FeatureUse::Frame || feature.use == FeatureUse::Constraint || feature.use == FeatureUse::Weir ||
-         feature.use == FeatureUse::Region;
-}
+// Unites features that meet at a meridian from either side (usually the antimeridian) where data are cut along it.
+class CutFeatures {
+ public:
+  CutFeatures(const Coastline& coastline, const std::vector<Box>& boxes) {
+    for (std::uint32_t f = 0; f < boxes.size(); ++f)
+      if (!isGuest(coastline.features[f].use)) extent_.add(boxes[f]);
+    if (!coastline.crs.geographic || !(extent_.xmax - extent_.xmin >= kTurn)) return;
+    for (std::uint32_t f = 0; f < boxes.size(); ++f) {
+      if (isGuest(coastline.features[f].use) || !(repeats(boxes[f].xmin) || repeats(boxes[f].xmax))) continue;
+      for (const Polygon& polygon : coastline.features[f].polygons) {
+        collect(polygon.outer, true, f);
+        for (const Ring& hole : polygon.holes) collect(hole, true, f);
+      }
+      for (const auto& line : coastline.features[f].lines) collect(line, false, f);
+    }
+  }
 
-// If longitudes span exactly 360 degrees, the data are cut along a meridian (usually the antimeridian): features that
-// meet there from either side touch.
-void uniteAcrossCut(const Coastline& coastline, const std::vector<Box>& boxes, UnionFind& sets) {
-  Box extent;
-  for (std::size_t f = 0; f < boxes.size(); ++f)
-    if (!isGuest(coastline.features[f])) extent.add(boxes[f]);
-  if (!coastline.crs.geographic || extent.xmax - extent.xmin != 360) return;
-  struct OnCut {
-    double south, north;
+  void unite(UnionFind& sets) {
+    const CutMeridians cuts = meridians();
+    for (Piece& piece : pieces_) piece.cut = *cuts.at(piece.longitude);
+    std::ranges::sort(pieces_, {}, [](const Piece& p) { return std::tuple(p.cut, p.south, p.feature); });
+    for (std::size_t i = 0, reaching = 0; i < pieces_.size(); ++i) {
+      const Piece &piece = pieces_[i], &before = pieces_[reaching];
+      const bool same_cut = piece.cut == before.cut;
+      if (same_cut && piece.south <= before.north) sets.unite(before.feature, piece.feature);
+      if (!same_cut || piece.north > before.north) reaching = i;
+    }
+  }
+
+ private:
+  static constexpr double kTurn = 360;  // degrees
+
+  // A point, or an edge along a meridian, that other data may meet a turn away.
+  struct Piece {
+    double longitude, south, north;
     std::uint32_t feature;
+    std::size_t cut = 0;
   };
-  std::vector<OnCut> on_cut;
-  const auto isOnCut = [&](const Point& p) { return p.x == extent.xmin || p.x == extent.xmax; };
-  const auto collect = [&](const std::vector<Point>& chain, bool closed, std::uint32_t feature) {
+
+  bool repeats(double x) const { return x - extent_.xmin >= kTurn || extent_.xmax - x >= kTurn; }
+
+  void collect(const std::vector<Point>& chain, bool closed, std::uint32_t feature) {
     for (std::size_t i = 0; i < chain.size(); ++i) {
       const Point& p = chain[i];
-      if (!isOnCut(p)) continue;
+      if (!repeats(p.x)) continue;
       const bool last = i + 1 == chain.size();
       const Point& q = last && !closed ? p : chain[last ? 0 : i + 1];
       const double other = q.x == p.x ? q.y : p.y;
-      on_cut.push_back({std::min(p.y, other), std::max(p.y, other), feature});
+      pieces_.push_back({p.x, std::min(p.y, other), std::max(p.y, other), feature});
     }
-  };
-  for (std::uint32_t f = 0; f < boxes.size(); ++f) {
-    if (isGuest(coastline.features[f])) continue;
-    if (boxes[f].xmin != extent.xmin && boxes[f].xmax != extent.xmax) continue;
-    for (const Polygon& polygon : coastline.features[f].polygons) {
-      collect(polygon.outer, true, f);
-      for (const Ring& hole : polygon.holes) collect(hole, true, f);
-    }
-    for (const auto& line : coastline.features[f].lines) collect(line, false, f);
   }
-  std::sort(on_cut.begin(), on_cut.end(), [](const OnCut& a, const OnCut& b) {
-    return a.south != b.south ? a.south < b.south : a.feature < b.feature;
-  });
-  for (std::size_t i = 0, reaching = 0; i < on_cut.size(); ++i) {
-    if (on_cut[i].south <= on_cut[reaching].north) sets.unite(on_cut[reaching].feature, on_cut[i].feature);
-    if (on_cut[i].north > on_cut[reaching].north) reaching = i;
+
+  CutMeridians meridians() const {
+    std::vector<double> longitudes;
+    for (const Piece& piece : pieces_) longitudes.push_back(piece.longitude);
+    return CutMeridians(std::move(longitudes));
   }
-}
+
+  Box extent_;
+  std::vector<Piece> pieces_;
+};
 
 // True iff land or coasts lie in a frame: the water between them is one group, whatever lies in it.
 bool isFramedWater(const Coastline& coastline) {
@@ -226,7 +245,7 @@ bool framedWhole(const Feature& frame, const Box& box) {
 // that their extent meets, at any full turn of longitudes.
 void addGuests(const Coastline& coastline, const std::vector<Box>& boxes, const SnapReach& reach,
                std::vector<std::vector<std::size_t>>& groups) {
-  if (std::ranges::none_of(coastline.features, isGuest)) return;
+  if (std::ranges::none_of(coastline.features, isGuest, &Feature::use)) return;
   std::vector<Box> extents(groups.size());
   for (std::size_t g = 0; g < groups.size(); ++g) {
     for (const std::size_t member : groups[g]) extents[g].add(boxes[member]);
@@ -234,7 +253,7 @@ void addGuests(const Coastline& coastline, const std::vector<Box>& boxes, const 
   const BoxTree tree(extents, BoxTree::Order::Hilbert);
   for (std::size_t f = 0; f < boxes.size(); ++f) {
     const Feature& feature = coastline.features[f];
-    if (!isGuest(feature)) continue;
+    if (!isGuest(feature.use)) continue;
     const bool frame = feature.use == FeatureUse::Frame;
     const auto join = [&](std::uint32_t g) {
       if (groups[g].back() != f && !(frame && framedWhole(feature, extents[g]))) groups[g].push_back(f);
@@ -259,7 +278,7 @@ std::vector<std::vector<std::size_t>> setsOf(UnionFind& sets, const Coastline& c
   std::vector<std::vector<std::size_t>> groups;
   std::vector<std::uint32_t> group_of(n);
   for (std::uint32_t i = 0; i < n; ++i) {
-    if (isGuest(coastline.features[i])) continue;
+    if (isGuest(coastline.features[i].use)) continue;
     const std::uint32_t root = sets.find(i);  // never above i, so its group exists
     if (root == i) {
       group_of[i] = static_cast<std::uint32_t>(groups.size());
@@ -369,14 +388,14 @@ std::vector<std::vector<std::size_t>> groupFeatures(const Coastline& coastline, 
       .unite(joined(overStretches(loop, features.size(), [&](std::size_t first, std::size_t last) {
         std::vector<Pair> pairs;
         for (auto i = static_cast<std::uint32_t>(first); i < last; ++i) {
-          if (isGuest(features[i])) continue;
+          if (isGuest(features[i].use)) continue;
           tree.visit(reach.around(turned_boxes[i]), [&](std::uint32_t j) {
-            if (j > i && !isGuest(features[j])) pairs.push_back({i, j});
+            if (j > i && !isGuest(features[j].use)) pairs.push_back({i, j});
           });
         }
         return pairs;
       })));
-  uniteAcrossCut(coastline, boxes, sets);
+  CutFeatures(coastline, boxes).unite(sets);
   std::vector<std::vector<std::size_t>> groups = setsOf(sets, coastline);
   addGuests(coastline, boxes, reach, groups);
   return groups;

@@ -338,6 +338,79 @@ TEST(Frame, AcrossTheAntimeridian) {
   }
 }
 
+// Land in data from 0 to 360, and points, lines and regions in either turn, across the antimeridian too.
+TEST(Frame, GuestsInAnotherTurn) {
+  const auto guest = [](Feature feature, FeatureUse use) {
+    feature.use = use;
+    return feature;
+  };
+  const auto turned = [](Feature feature, double degrees) {
+    for (Point& p : feature.points) p.x += degrees;
+    for (auto& line : feature.lines)
+      for (Point& p : line) p.x += degrees;
+    for (Polygon& polygon : feature.polygons)
+      for (Point& p : polygon.outer) p.x += degrees;
+    return feature;
+  };
+  const Feature land = polygonFeature(1, square(179.4, -18, 1));
+  const std::vector<Feature> guests{guest(lineFeature(3, {{178, -16}, {182, -16.5}}), FeatureUse::Weir),
+                                    guest(polygonFeature(4, square(179, -19.5, 3)), FeatureUse::Region),
+                                    guest(lineFeature(5, {{178, -19}, {179, -19}}), FeatureUse::Constraint)};
+  const FrameOptions box = boxOf(177, -20, 183, -15, DomainSide::Outside);
+  for (const Feature& one : guests) {
+    const Framed expected = frame(coastlineOf({land, one}, wgs84()), box);
+    const Framed framed = frame(coastlineOf({land, turned(one, -360)}, wgs84()), box);
+    EXPECT_EQ(framed.coastline.features.back().polygons.size(), 1u) << one.fid;
+    EXPECT_NEAR(framed.area() / expected.area(), 1, 1e-9) << one.fid;
+    EXPECT_NEAR(framed.openLength() / expected.openLength(), 1, 1e-9) << one.fid;
+    for (const Domain& domain : framed.domains)
+      for (const Point& p : domain.input_points) EXPECT_TRUE(p.x >= 177 && p.x <= 183) << one.fid << " " << p.x;
+  }
+}
+
+TEST(Frame, PointsInAnotherTurn) {
+  Feature points;
+  points.use = FeatureUse::Constraint;
+  points.points = {{-179.3, -19}, {179.2, -18.5}, {-190, -18}};
+  Coastline coastline = coastlineOf({polygonFeature(1, square(179.4, -18, 1)), points}, wgs84());
+  frameCoastline(coastline, boxOf(177, -20, 183, -15, DomainSide::Outside));
+  EXPECT_EQ(coastline.features[1].points, (std::vector<Point>{{180.7, -19}, {179.2, -18.5}}));
+}
+
+// A region across the antimeridian in data from -180 to 180, and an island that reaches past 180: the frame is split
+// there, and both sides of the cut are one.
+TEST(Frame, WhatReachesPastTheCut) {
+  const Feature far = polygonFeature(9, square(20, 0, 1)), east = polygonFeature(2, square(-179.5, -17, 0.3));
+  const Feature across = polygonFeature(3, {{179.7, -18.9}, {180.2, -18.6}, {180.1, -18.1}, {179.6, -18.3}});
+  const FrameOptions box = boxOf(177, -20, -177, -15, DomainSide::Outside);
+  const auto onto360 = [](Feature feature) {
+    for (Point& p : feature.polygons[0].outer) p.x += p.x < 0 ? 360 : 0;
+    return feature;
+  };
+  const Framed expected =
+      frame(coastlineOf({far, onto360(east), across}, wgs84()), boxOf(177, -20, 183, -15, DomainSide::Outside));
+  Feature region = polygonFeature(4, square(178, -17.5, 3));
+  region.use = FeatureUse::Region;
+  for (const bool with_region : {false, true}) {
+    std::vector<Feature> features{far, east, across};
+    if (with_region) features.push_back(region);
+    const Framed framed = frame(coastlineOf(features, wgs84()), box);
+    EXPECT_NEAR(framed.area() / expected.area(), 1, 1e-6) << with_region;
+    EXPECT_NEAR(framed.openLength() / expected.openLength(), 1, 1e-6) << with_region;
+  }
+}
+
+// Boxes round data that run on past 360 begin west of them.
+TEST(Frame, RoundDataPastTheEndOfTheLongitudes) {
+  for (const double turn : {0.0, -360.0}) {
+    const Framed framed = frame(coastlineOf({polygonFeature(1, square(358 + turn, 17, 4))}, wgs84()),
+                                boxOf(355 + turn, 16, 365 + turn, 22, DomainSide::Outside));
+    EXPECT_EQ(framed.coastline.features.back().polygons.size(), 1u);
+    EXPECT_NEAR(framed.area() / (zone(16, 22, 10) - landArea(coastlineOf({framed.coastline.features[0]}, wgs84()))), 1,
+                2e-6);
+  }
+}
+
 // The frame as a feature of its own, like one of --clip, its longitudes from -180 to 180.
 Feature frameWithin180(Ring outer, std::vector<Ring> holes = {}) {
   Feature feature = frameFeature(7, std::move(outer));

@@ -78,6 +78,10 @@ TEST(GroupFeatures, WhatACutAlongAMeridianPartsBelongsTogether) {
   with_guest.push_back(lineFeature(5, {{179.5, 10.2}, {180.5, 10.7}}));
   with_guest.back().use = FeatureUse::Constraint;
   EXPECT_EQ(groupFeatures(coastlineOf(with_guest, wgs84())), (Groups{{0, 1, 4, 5}, {2}, {3}}));
+  // Nor does an area that reaches past it.
+  std::vector<Feature> with_area = halves;
+  with_area.push_back(polygonFeature(5, square(179.5, -50, 1)));
+  EXPECT_EQ(groupFeatures(coastlineOf(with_area, wgs84())), (Groups{{0, 1, 4}, {2}, {3}, {5}}));
   // A plane has no antimeridian.
   EXPECT_EQ(group(halves).size(), 5u);
 }
