@@ -12,10 +12,9 @@
 #include "gis/clean/seam.hpp"
 #include "gis/clean/small_islands.hpp"
 #include "gis/clean/torn_edges.hpp"
-#include "gis/coast/turned_rings.hpp"
+#include "gis/coast/input_polygons.hpp"
 #include "gis/error.hpp"
 #include "gis/geometry/box.hpp"
-#include "gis/geometry/chain_index.hpp"
 #include "gis/geometry/point_grid.hpp"
 
 namespace coastmesh {
@@ -276,21 +275,8 @@ std::vector<std::uint32_t> holdersOf(const Point& place, const Coastline& coastl
                                      const std::vector<std::size_t>& members) {
   std::vector<std::uint32_t> holders;
   const auto holds = [&](const Feature& feature) {
-    ChainIndex index(ChainIndex::Kind::Rings);
     const bool may_jump = coastline.crs.geographic && feature.use != FeatureUse::Frame;
-    const auto add = [&](const Ring& ring) {
-      if (!may_jump) return index.add(ring);
-      for (const Ring& turned : turnedRings(ring)) index.add(turned);
-    };
-    for (const Polygon& polygon : feature.polygons) {
-      add(polygon.outer);
-      for (const Ring& hole : polygon.holes) add(hole);
-    }
-    index.build();
-    for (const double turn : {-360.0, 0.0, 360.0}) {
-      if (index.edgeCount() > 0 && index.locate({place.x + turn, place.y}) == Location::Inside) return true;
-    }
-    return false;
+    return InputPolygons(feature.polygons, may_jump).holdAtAnyTurn(place);
   };
   for (const bool frames : {true, false}) {  // usually no frame contains it; others extend little beyond
     for (const std::size_t member : members) {

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "gis/coast/feature_names.hpp"
+#include "gis/coast/input_polygons.hpp"
 #include "gis/geometry/box_tree.hpp"
 #include "gis/geometry/chain_index.hpp"
 
@@ -17,11 +19,18 @@ constexpr std::uint32_t kNoRegion = std::numeric_limits<std::uint32_t>::max();
 
 struct MemberRegion {
   std::size_t member;
-  ChainIndex rings;
+  ChainIndex rings;  // in the plane
+  bool inside_out;   // in the plane: the region holds the place at infinity
+
+  bool holds(const Point& p) const {
+    const Location location = rings.locate(p);
+    return location != Location::Boundary && (location == Location::Inside) != inside_out;
+  }
 };
 
 std::vector<MemberRegion> regionsOf(const Coastline& coastline, const std::vector<std::size_t>& members,
                                     const Projection& projection) {
+  const std::optional<Point> infinity = projection.infinity();
   std::vector<MemberRegion> regions;
   for (const std::size_t member : members) {
     const Feature& feature = coastline.features[member];
@@ -36,26 +45,35 @@ std::vector<MemberRegion> regionsOf(const Coastline& coastline, const std::vecto
       for (const Ring& hole : polygon.holes) add(hole);
     }
     rings.build();
-    if (rings.edgeCount() > 0) regions.push_back({member, std::move(rings)});
+    if (rings.edgeCount() == 0) continue;
+    const bool inside_out =
+        infinity && InputPolygons(feature.polygons, coastline.crs.geographic).holdAtAnyTurn(*infinity);
+    regions.push_back({member, std::move(rings), inside_out});
   }
   return regions;
 }
 
-// The first region that contains each triangle, or kNoRegion. Candidates come from a tree of boxes: there may be as
-// many regions as triangles.
+// The first region that contains each triangle, or kNoRegion. Candidates come from a tree of boxes, since there may be
+// as many regions as triangles; boxes say nothing of those that are inside out.
 std::vector<std::uint32_t> regionOfTriangles(const std::vector<MemberRegion>& regions, const TriMesh& mesh,
                                              const ItemLoop& loop) {
   std::vector<Box> boxes;
-  for (const MemberRegion& region : regions) boxes.push_back(region.rings.bounds());
+  std::vector<std::uint32_t> inside_out;
+  for (std::uint32_t r = 0; r < regions.size(); ++r) {
+    boxes.push_back(regions[r].rings.bounds());
+    if (regions[r].inside_out) inside_out.push_back(r);
+  }
   const BoxTree tree(boxes, BoxTree::Order::Hilbert);
   std::vector<std::uint32_t> region_of(mesh.triangles.size(), kNoRegion);
   forEachByStretches(loop, mesh.triangles.size(), [&](std::size_t t) {
     const auto& [a, b, c] = mesh.triangles[t].v;
     const Point centre{(mesh.points[a].x + mesh.points[b].x + mesh.points[c].x) / 3,
                        (mesh.points[a].y + mesh.points[b].y + mesh.points[c].y) / 3};
-    tree.visit(Box::of(centre, centre), [&](std::uint32_t r) {
-      if (r < region_of[t] && regions[r].rings.locate(centre) == Location::Inside) region_of[t] = r;
-    });
+    const auto look = [&](std::uint32_t r) {
+      if (r < region_of[t] && regions[r].holds(centre)) region_of[t] = r;
+    };
+    tree.visit(Box::of(centre, centre), look);
+    std::ranges::for_each(inside_out, look);
   });
   return region_of;
 }

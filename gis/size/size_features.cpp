@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/metric.hpp"
+#include "gis/coast/input_polygons.hpp"
 #include "gis/coast/turned_rings.hpp"
 #include "gis/crs/crs_map.hpp"
 #include "gis/crs/ground_balls.hpp"
@@ -24,40 +25,124 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Sizes inside polygons, whose boundaries are half-open; outside them another field applies.
-class PolygonField final : public SizeField {
- public:
-  struct SizedPolygon {
-    std::vector<Ring> rings;  // in the plane
-    double size_m;
-  };
+// A line or ring in the plane.
+struct PlaneChain {
+  std::vector<std::vector<Point>> pieces;
+  bool is_whole = true;  // one piece, closed if a ring; otherwise parts of it have no place in the plane
+};
 
-  explicit PolygonField(std::vector<SizedPolygon> polygons) : polygons_(std::move(polygons)) {
+// Polygons in the coordinates of the input, by their boxes.
+class PolygonsByPlace {
+ public:
+  PolygonsByPlace(std::vector<InputPolygons> polygons, bool geographic)
+      : polygons_(std::move(polygons)), geographic_(geographic) {
     std::vector<Box> boxes;
-    for (const SizedPolygon& polygon : polygons_) {
-      std::vector<Box> edges;
-      Box whole;
-      for (const Ring& ring : polygon.rings) {
-        for (std::size_t i = 0; i < ring.size(); ++i) {
-          const Point &a = ring[i], &b = ring[i + 1 == ring.size() ? 0 : i + 1];
-          edges_.push_back({a, b});
-          edges.push_back(Box::of(a, b));
-          whole.add(edges.back());
-        }
-      }
-      first_edge_.push_back(edges_.size() - edges.size());
-      trees_.emplace_back(edges, BoxTree::Order::Given);
-      boxes.push_back(whole);
-    }
+    for (const InputPolygons& polygon : polygons_) boxes.push_back(polygon.bounds());
     tree_ = BoxTree(boxes, BoxTree::Order::Hilbert);
   }
+
+  // Calls `found(polygon)` for those that hold the place, or one a turn of longitudes from it; maybe more than once.
+  template <typename Found>
+  void visit(const Point& place, Found&& found) const {
+    if (polygons_.empty() || !std::isfinite(place.x) || !std::isfinite(place.y)) return;
+    for (const double turn : {0.0, -360.0, 360.0}) {
+      if (turn != 0.0 && !geographic_) break;
+      const Point turned{place.x + turn, place.y};
+      tree_.visit(Box::of(turned, turned), [&](std::uint32_t p) {
+        if (polygons_[p].locate(turned) != Location::Outside) found(p);
+      });
+    }
+  }
+
+ private:
+  std::vector<InputPolygons> polygons_;
+  bool geographic_;
+  BoxTree tree_;
+};
+
+// Rings in the plane, with what a place needs to be located in them. Boundaries are half-open.
+class PlaneRings {
+ public:
+  explicit PlaneRings(const std::vector<PlaneChain>& rings) {
+    std::vector<Box> boxes;
+    for (const PlaneChain& ring : rings) {
+      for (const auto& piece : ring.pieces) {
+        const bool closed = ring.is_whole;
+        for (std::size_t i = 0; i + (closed ? 0 : 1) < piece.size(); ++i) {
+          edges_.push_back({piece[i], piece[i + 1 == piece.size() ? 0 : i + 1]});
+          boxes.push_back(Box::of(edges_.back().first, edges_.back().second));
+        }
+      }
+    }
+    tree_ = BoxTree(boxes, BoxTree::Order::Given);
+  }
+
+  Box bounds() const { return tree_.bounds(); }
+  bool cross(const Box& box) const {
+    bool crossed = false;
+    tree_.visit(box, [&](std::uint32_t) { crossed = true; });
+    return crossed;
+  }
+  // Even-odd rule: counts the edges that a ray to the right meets.
+  bool hold(const Point& x) const {
+    bool inside = false;
+    tree_.visit(Box{x.x, x.y, kInfinity, x.y}, [&](std::uint32_t e) {
+      const auto& [a, b] = edges_[e];
+      if ((a.y > x.y) == (b.y > x.y)) return;
+      inside ^= x.x < a.x + (x.y - a.y) / (b.y - a.y) * (b.x - a.x);
+    });
+    return inside;
+  }
+
+ private:
+  std::vector<std::pair<Point, Point>> edges_;
+  BoxTree tree_;
+};
+
+// True if the inside of the polygons is that of their rings in the plane: these are whole, and a place is on the same
+// side of them in both. (It is the other side if the plane shows most of the globe, and the polygons hold the place
+// that is at infinity.)
+bool keepsInside(const std::vector<PlaneChain>& chains, const PlaneRings& rings, const InputPolygons& polygons,
+                 bool geographic, const Projection& projection) {
+  constexpr double kSame = 1e-6;  // of the box, for a place that is brought to the input and back
+  const Box box = rings.bounds();
+  if (box.empty() || !std::ranges::all_of(chains, &PlaneChain::is_whole)) return false;
+  const Point middle{box.xmin / 2 + box.xmax / 2, box.ymin / 2 + box.ymax / 2};
+  const Point place = projection.inverse(middle);
+  if (!std::isfinite(place.x) || !std::isfinite(place.y)) return false;
+  const Point back = projection.forward(place);
+  if (!(distance(back, middle) <= kSame * (box.xmax - box.xmin + box.ymax - box.ymin))) return false;
+  const bool holds = geographic ? polygons.holdAtAnyTurn(place) : polygons.locate(place) == Location::Inside;
+  return holds == rings.hold(middle);
+}
+
+// Sizes inside polygons; outside them another field applies.
+class PolygonField final : public SizeField {
+ public:
+  PolygonField(const Projection& projection, bool geographic) : projection_(projection), geographic_(geographic) {}
+
+  void add(const std::vector<Polygon>& polygons, const std::vector<PlaneChain>& chains, double size_m) {
+    PlaneRings rings(chains);
+    InputPolygons given(polygons, geographic_);
+    Sized& sized = sized_.emplace_back(Sized{std::move(rings), size_m});
+    if (keepsInside(chains, sized.rings, given, geographic_, projection_)) return;
+    sized.by_place = true;
+    given_.push_back(std::move(given));
+    sized_of_given_.push_back(static_cast<std::uint32_t>(sized_.size() - 1));
+  }
+  // Call it after the last polygon.
+  void build() {
+    std::vector<Box> boxes;
+    for (const Sized& sized : sized_) boxes.push_back(sized.rings.bounds());
+    tree_ = BoxTree(boxes, BoxTree::Order::Hilbert);
+    by_place_ = PolygonsByPlace(std::exchange(given_, {}), geographic_);
+  }
+  bool isEmpty() const { return sized_.empty(); }
 
   void sample(std::span<const Point> places, std::span<double> sizes) const override {
     for (std::size_t i = 0; i < places.size(); ++i) {
       sizes[i] = kInfinity;
-      tree_.visit(Box::of(places[i], places[i]), [&](std::uint32_t p) {
-        if (polygons_[p].size_m < sizes[i] && contains(p, places[i])) sizes[i] = polygons_[p].size_m;
-      });
+      visitHolders(places[i], [&](const Sized& sized) { sizes[i] = std::min(sizes[i], sized.size_m); });
     }
   }
 
@@ -68,33 +153,39 @@ class PolygonField final : public SizeField {
       const Point& c = boxes[i].centre;
       const Box box = Box::of(c, c).grownBy(boxes[i].half);
       ranges[i] = {kInfinity, kInfinity};
-      tree_.visit(box, [&](std::uint32_t p) {
-        bool crossed = false;
-        trees_[p].visit(box, [&](std::uint32_t) { crossed = true; });
-        const bool within = contains(p, c);
-        if (crossed || within) ranges[i].low = std::min(ranges[i].low, polygons_[p].size_m);
-        if (!crossed && within) ranges[i].high = std::min(ranges[i].high, polygons_[p].size_m);
+      tree_.visit(box, [&](std::uint32_t s) {
+        if (sized_[s].rings.cross(box)) ranges[i].low = std::min(ranges[i].low, sized_[s].size_m);
+      });
+      visitHolders(c, [&](const Sized& sized) {
+        ranges[i].low = std::min(ranges[i].low, sized.size_m);
+        if (!sized.rings.cross(box)) ranges[i].high = std::min(ranges[i].high, sized.size_m);
       });
     }
   }
 
  private:
-  // Even-odd rule: counts the edges that a ray to the right meets.
-  bool contains(std::uint32_t p, const Point& x) const {
-    bool inside = false;
-    trees_[p].visit(Box{x.x, x.y, kInfinity, x.y}, [&](std::uint32_t e) {
-      const auto& [a, b] = edges_[first_edge_[p] + e];
-      if ((a.y > x.y) == (b.y > x.y)) return;
-      inside ^= x.x < a.x + (x.y - a.y) / (b.y - a.y) * (b.x - a.x);
+  struct Sized {
+    PlaneRings rings;
+    double size_m;
+    bool by_place = false;  // its inside is that of the input's coordinates
+  };
+
+  template <typename Found>
+  void visitHolders(const Point& x, Found&& found) const {
+    tree_.visit(Box::of(x, x), [&](std::uint32_t s) {
+      if (!sized_[s].by_place && sized_[s].rings.hold(x)) found(sized_[s]);
     });
-    return inside;
+    if (sized_of_given_.empty()) return;
+    by_place_.visit(projection_.inverse(x), [&](std::uint32_t p) { found(sized_[sized_of_given_[p]]); });
   }
 
-  std::vector<SizedPolygon> polygons_;
-  std::vector<std::pair<Point, Point>> edges_;  // polygon after polygon
-  std::vector<std::size_t> first_edge_;
-  std::vector<BoxTree> trees_;  // of each polygon's edges
-  BoxTree tree_;                // of the polygons
+  Projection projection_;
+  bool geographic_;
+  std::vector<Sized> sized_;
+  BoxTree tree_;  // of `sized_`
+  std::vector<InputPolygons> given_;
+  std::vector<std::uint32_t> sized_of_given_;
+  PolygonsByPlace by_place_{{}, false};
 };
 
 void collectPoints(const OGRGeometry& geometry, std::vector<std::vector<Point>>& lines) {
@@ -190,7 +281,7 @@ class FeatureReader {
 };
 
 // Lines and rings of features in the working plane, with more points where an edge that is straight in the features'
-// CRS is bent there.
+// CRS is bent there, and without the parts that leave the area of the projection: they are too far away to matter.
 class PlaneLines {
  public:
   // `scale` is plane length over metres.
@@ -198,20 +289,20 @@ class PlaneLines {
              double size_m)
       : geographic_(crs.geographic), projection_(projection), scale_(scale), size_m_(size_m) {}
 
-  // Empty if it leaves the area of the projection: it is too far away to matter.
-  std::vector<Point> of(const std::vector<Point>& points, bool closed) const {
-    std::vector<Point> plane;
+  PlaneChain of(const std::vector<Point>& points, bool closed) const {
+    Pieces pieces;
     const Turns turns = geographic_ ? turnsOf(points, closed) : Turns{};
     for (std::size_t i = 0; i < points.size(); ++i) {
-      plane.push_back(projection_.forward(points[i]));
-      if (!isFinite(plane.back())) return {};
+      const Place from = placeOf(points[i]);
+      pieces.add(from.plane);
       if (i + 1 == points.size() && (!closed || i == 0)) continue;
       const std::size_t next = (i + 1) % points.size();
       Point end = points[next];
       if (turns.any) end.x += 360.0 * ((next == 0 ? turns.round : turns.of[next]) - turns.of[i]);
-      if (!addBetween({points[i], plane.back()}, {end, projection_.forward(end)}, kMostHalvings, plane)) return {};
+      addBetween(from, placeOf(end), kMostHalvings, pieces);
     }
-    return plane;
+    if (closed && !pieces.isWhole()) pieces.add(projection_.forward(points.front()));
+    return pieces.take();
   }
 
  private:
@@ -223,19 +314,47 @@ class PlaneLines {
 
   static bool isFinite(const Point& p) { return std::isfinite(p.x) && std::isfinite(p.y); }
 
-  // Returns false if a place is beyond the projection's area.
-  bool addBetween(const Place& from, const Place& to, int halvings, std::vector<Point>& plane) const {
-    // The bend that is allowed: a share of the size, and of the edge.
-    constexpr double kOfSize = 0.1, kOfLength = 1e-3;
-    const Point input = midpoint(from.input, to.input);
-    const Place middle{input, projection_.forward(input)};
-    if (!isFinite(middle.plane) || !isFinite(to.plane)) return false;
-    const double bend = distance(middle.plane, midpoint(from.plane, to.plane));
-    const double least = kOfLength * distance(from.plane, to.plane);
-    if (halvings == 0 || bend <= least || bend <= kOfSize * size_m_ * scale_(middle.plane)) return true;
-    if (!addBetween(from, middle, halvings - 1, plane)) return false;
-    plane.push_back(middle.plane);
-    return addBetween(middle, to, halvings - 1, plane);
+  class Pieces {
+   public:
+    void add(const Point& p) {
+      if (!isFinite(p)) return end();
+      if (ended_) chain_.pieces.emplace_back();
+      ended_ = false;
+      chain_.pieces.back().push_back(p);
+    }
+    // What is added next begins another piece.
+    void end() { ended_ = true, chain_.is_whole = false; }
+    bool isWhole() const { return chain_.is_whole; }
+    PlaneChain take() { return std::move(chain_); }
+
+   private:
+    PlaneChain chain_;
+    bool ended_ = true;
+  };
+
+  Place placeOf(const Point& input) const { return {input, projection_.forward(input)}; }
+
+  // Adds what lies between the two places.
+  void addBetween(const Place& from, const Place& to, int halvings, Pieces& pieces) const {
+    // The bend that is allowed: a share of the size, and of the edge. Of a short edge, it shows that the projection
+    // has its ends apart.
+    constexpr double kOfSize = 0.1, kOfLength = 1e-3, kTorn = 0.25;
+    const Place middle = placeOf(midpoint(from.input, to.input));
+    const int places = isFinite(from.plane) + isFinite(middle.plane) + isFinite(to.plane);
+    if (places == 0) return;
+    double bend = kInfinity, length = kInfinity;
+    if (places == 3) {
+      length = distance(from.plane, to.plane);
+      bend = distance(middle.plane, midpoint(from.plane, to.plane));
+      if (bend <= kOfLength * length || bend <= kOfSize * size_m_ * scale_(middle.plane)) return;
+    }
+    if (halvings == 0) {
+      if (!(bend <= kTorn * length)) pieces.end();
+      return;
+    }
+    addBetween(from, middle, halvings - 1, pieces);
+    pieces.add(middle.plane);
+    addBetween(middle, to, halvings - 1, pieces);
   }
 
   bool geographic_;
@@ -276,32 +395,30 @@ std::vector<std::unique_ptr<SizeField>> featureFields(const SizedFeatures& featu
                                                       const std::function<double(const Point&)>& scale,
                                                       const FeatureScope& scope) {
   std::vector<SizedLine> lines;
-  std::vector<PolygonField::SizedPolygon> polygons;
+  auto inside = std::make_unique<PolygonField>(projection, features.crs.geographic);
   for (const SizedFeatures::Part& part : features.parts) {
     if (isTooFar(part, scope)) continue;
     const PlaneLines plane(features.crs, projection, scale, part.size_m);
-    const auto addLine = [&](const std::vector<Point>& points, bool closed) {
-      if (points.size() == 1) lines.push_back({points[0], points[0], part.size_m, part.rate});
-      for (std::size_t i = 0; i + (closed ? 0 : 1) < points.size(); ++i)
-        lines.push_back({points[i], points[(i + 1) % points.size()], part.size_m, part.rate});
-    };
-    PolygonField::SizedPolygon sized{{}, part.size_m};
-    for (const Polygon& polygon : part.polygons) {
-      Ring outer = plane.of(polygon.outer, true);
-      if (outer.empty()) continue;
-      addLine(outer, true);
-      sized.rings.push_back(std::move(outer));
-      for (const Ring& hole : polygon.holes) {
-        sized.rings.push_back(plane.of(hole, true));
-        addLine(sized.rings.back(), true);
+    const auto addLine = [&](const PlaneChain& chain, bool closed) {
+      for (const std::vector<Point>& points : chain.pieces) {
+        if (points.size() == 1) lines.push_back({points[0], points[0], part.size_m, part.rate});
+        for (std::size_t i = 0; i + (closed && chain.is_whole ? 0 : 1) < points.size(); ++i)
+          lines.push_back({points[i], points[(i + 1) % points.size()], part.size_m, part.rate});
       }
+    };
+    std::vector<PlaneChain> rings;
+    const auto addRing = [&](const Ring& ring) { addLine(rings.emplace_back(plane.of(ring, true)), true); };
+    for (const Polygon& polygon : part.polygons) {
+      addRing(polygon.outer);
+      std::ranges::for_each(polygon.holes, addRing);
     }
     for (const auto& line : part.lines) addLine(plane.of(line, false), false);
-    if (!sized.rings.empty()) polygons.push_back(std::move(sized));
+    if (!rings.empty()) inside->add(part.polygons, rings, part.size_m);
   }
   std::vector<std::unique_ptr<SizeField>> fields;
   fields.push_back(std::make_unique<DistanceField>(std::move(lines), scale, kInfinity, projection.surface()));
-  if (!polygons.empty()) fields.push_back(std::make_unique<PolygonField>(std::move(polygons)));
+  inside->build();
+  if (!inside->isEmpty()) fields.push_back(std::move(inside));
   return fields;
 }
 

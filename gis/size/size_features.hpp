@@ -43,8 +43,8 @@ struct FeatureScope {
 SizedFeatures readSizedFeatures(const std::string& path, const Crs& crs, double usual_rate);
 
 // The fields of such features: their size inside polygons, growing with the distance around all of them. Edges are
-// straight in the CRS of the features. Lines and polygons that leave the area of the projection are dropped, and
-// features that are too far from the scope to have an effect there. `scale` is plane length over metres; distances are
+// straight in the CRS of the features. Parts of lines that leave the area of the projection are dropped, and features
+// that are too far from the scope to have an effect there. `scale` is plane length over metres; distances are
 // those on the projection's surface.
 std::vector<std::unique_ptr<SizeField>> featureFields(const SizedFeatures& features, const Projection& projection,
                                                       const std::function<double(const Point&)>& scale,

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/delaunay.hpp"
 #include "tests/support/gis_shapes.hpp"
@@ -71,6 +73,29 @@ TEST(MarkRegions, TheFirstThatHoldsATriangleCounts) {
     next = std::max(next, mesh.regions[t] + 1);
   }
   EXPECT_EQ(names.features.size(), static_cast<std::size_t>(next));
+}
+
+// In a plane that shows the globe, one region round the place at infinity and one apart from it.
+TEST(MarkRegions, OneMayHoldThePlaceAtInfinity) {
+  const Projection projection =
+      Projection::fitted(coastlineOf({polygonFeature(0, square(-5, -5, 10))}, wgs84()), {0}, SurfaceKind::Ellipsoid);
+  const Coastline coastline = coastlineOf(
+      {region(0, {{150, -40}, {-150, -40}, {-150, 40}, {150, 40}}), region(1, square(20, 20, 30))}, wgs84());
+  const std::vector<std::pair<Point, std::string>> expected{{{175, 10}, "region 0"}, {{-160, -20}, "region 0"},
+                                                            {{30, 30}, "region 1"},  {{0, 0}, ""},
+                                                            {{80, -10}, ""},         {{180, 80}, ""}};
+  TriMesh mesh;
+  for (const auto& [place, name] : expected) {
+    const auto first = static_cast<VertexId>(mesh.points.size());
+    for (const auto& [x, y] : {std::pair{0.0, 0.0}, {0.1, 0.0}, {0.0, 0.1}})
+      mesh.points.push_back(projection.forward({place.x + x, place.y + y}));
+    mesh.triangles.emplace_back().v = {first, first + 1, first + 2};
+    mesh.regions.push_back(0);
+  }
+  Coastline names = coastlineOf({polygonFeature(0, {})});
+  markRegions(coastline, {0, 1}, projection, mesh, names);
+  for (std::size_t t = 0; t < expected.size(); ++t)
+    EXPECT_EQ(names.features[static_cast<std::size_t>(mesh.regions[t])].region, expected[t].second) << t;
 }
 
 TEST(MarkRegions, WithoutRegionsNothingChanges) {
