@@ -5,9 +5,13 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <optional>
 
+#include "gis/coast/input_polygons.hpp"
 #include "gis/coast/turned_rings.hpp"
+#include "gis/geometry/box.hpp"
 #include "gis/geometry/chain_index.hpp"
+#include "gis/geometry/ring_area.hpp"
 #include "gis/geometry/union_find.hpp"
 
 namespace coastmesh {
@@ -108,6 +112,32 @@ class SmallPieces {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> neighbours_;
 };
 
+constexpr std::array kTurns{0.0, -360.0, 360.0};  // degrees
+
+// True if the place cannot lie within the ring, at any turn of longitudes.
+bool isBeyond(const Ring& ring, const Point& place, bool geographic) {
+  Box box;
+  for (const Point& p : ring) box.add(p);
+  if (!geographic) return !box.meets(Box::of(place, place));
+  const bool may_jump = box.xmax - box.xmin > 180;
+  return !may_jump && std::ranges::none_of(kTurns, [&](double turn) {
+    const Point turned{place.x + turn, place.y};
+    return box.meets(Box::of(turned, turned));
+  });
+}
+
+// True if the polygon holds the place, at any turn of longitudes.
+bool holds(const Polygon& polygon, const Point& place, bool geographic) {
+  if (isBeyond(polygon.outer, place, geographic)) return false;
+  const InputPolygons rings({polygon}, geographic);
+  return geographic ? rings.holdAtAnyTurn(place) : rings.locate(place) == Location::Inside;
+}
+
+// True if the water is to the right of the ring within it.
+bool isClockwise(const Ring& ring, bool geographic) {
+  return signedAreaOf(geographic ? turnedRings(ring).front() : ring) < 0.0;
+}
+
 }  // namespace
 
 SmallIslands::SmallIslands(const Coastline& coastline, const std::vector<std::size_t>& members, double least_m2)
@@ -125,7 +155,7 @@ SmallIslands::SmallIslands(const Coastline& coastline, const std::vector<std::si
   forLand([&](const PolygonId& id, const Polygon& polygon) {
     if (polygon.outer.empty() || polygon.isOuterCut()) return;
     const double area = area_.of(polygon.outer);
-    if (area < least_m2) pieces.add(id, polygon.outer, area);
+    if (area < least_m2 && !holdsWaterPlace({polygon.outer, {}}, id.first)) pieces.add(id, polygon.outer, area);
   });
   forLand([&](const PolygonId& id, const Polygon& polygon) {
     if (!pieces.has(id)) pieces.joinLarge(polygon.outer);
@@ -139,6 +169,32 @@ std::vector<Polygon> SmallIslands::without(std::size_t member, const std::functi
   return feature.use == FeatureUse::Area ? withoutHoles(feature, drop) : feature.polygons;
 }
 
+bool SmallIslands::holdsWaterPlace(const Polygon& polygon, std::size_t member) const {
+  const std::optional<Point>& place = coastline_->water_at;
+  return place && coastline_->features[member].use == FeatureUse::Coast &&
+         holds(polygon, *place, coastline_->crs.geographic);
+}
+
+bool SmallIslands::isSea(const Polygon& polygon, std::size_t member) const {
+  const Feature& feature = coastline_->features[member];
+  if (feature.use != FeatureUse::Coast || polygon.outer.empty() || polygon.holes.empty()) return false;
+  if (coastline_->water_at) return holdsWaterPlace(polygon, member);
+  return isClockwise(polygon.outer, coastline_->crs.geographic);
+}
+
+Polygon SmallIslands::withoutSmallHoles(const Polygon& polygon, const std::function<void(const Ring&)>& drop) const {
+  Polygon larger{polygon.outer, {}};
+  for (std::size_t h = 0; h < polygon.holes.size(); ++h) {
+    const Ring& hole = polygon.holes[h];
+    if (polygon.isHoleCut(h) || !isSmall(hole)) {
+      larger.holes.push_back(hole);
+    } else {
+      drop(hole);
+    }
+  }
+  return larger;
+}
+
 std::vector<Polygon> SmallIslands::withoutLand(std::size_t member,
                                                const std::function<void(const Point&)>& drop) const {
   std::vector<Polygon> kept;
@@ -146,6 +202,8 @@ std::vector<Polygon> SmallIslands::withoutLand(std::size_t member,
   for (std::size_t p = 0; p < polygons.size(); ++p) {
     if (std::ranges::binary_search(small_land_, PolygonId{member, p})) {
       drop(polygons[p].outer.front());
+    } else if (isSea(polygons[p], member)) {
+      kept.push_back(withoutSmallHoles(polygons[p], [&](const Ring& hole) { drop(hole.front()); }));
     } else {
       kept.push_back(polygons[p]);
     }
@@ -159,18 +217,11 @@ std::vector<Polygon> SmallIslands::withoutHoles(const Feature& feature,
   TakenOut taken_out(coastline_->crs.geographic);
   bool any = false;
   for (const Polygon& polygon : feature.polygons) {
-    Polygon& larger = kept.emplace_back();
-    larger.outer = polygon.outer;
-    for (std::size_t h = 0; h < polygon.holes.size(); ++h) {
-      const Ring& hole = polygon.holes[h];
-      if (polygon.isHoleCut(h) || !isSmall(hole)) {
-        larger.holes.push_back(hole);
-        continue;
-      }
+    kept.push_back(withoutSmallHoles(polygon, [&](const Ring& hole) {
       drop(hole.front());
       taken_out.add(hole);
       any = true;
-    }
+    }));
   }
   if (!any || kept.size() == 1) return kept;
   taken_out.build();

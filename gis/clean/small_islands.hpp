@@ -11,7 +11,9 @@ namespace coastmesh {
 
 // Takes islands smaller than `least_m2` square metres out of features: holes of areas, and polygons of land and coasts.
 // Polygons of land that share edges, such as countries or the pieces of an island that a data set cuts at tiles or at
-// the antimeridian, are one island. Islands that a frame cut stay, since their full area is unknown.
+// the antimeridian, are one island. Islands that a frame cut stay, since their full area is unknown. A ring of coasts
+// round the place that is in the water, or without one, with the water to its right within it, is the shore of a sea:
+// its holes are islands.
 class SmallIslands {
  public:
   // Measures the land among the group's features.
@@ -23,6 +25,11 @@ class SmallIslands {
 
  private:
   bool isSmall(const Ring& ring) const { return !ring.empty() && area_.of(ring) < least_m2_; }
+  // True for a polygon of coasts that holds the place that the user said is in the water.
+  bool holdsWaterPlace(const Polygon& polygon, std::size_t member) const;
+  // True for a polygon of coasts whose holes are islands.
+  bool isSea(const Polygon& polygon, std::size_t member) const;
+  Polygon withoutSmallHoles(const Polygon& polygon, const std::function<void(const Ring&)>& drop) const;
   std::vector<Polygon> withoutLand(std::size_t member, const std::function<void(const Point&)>& drop) const;
   std::vector<Polygon> withoutHoles(const Feature& feature, const std::function<void(const Point&)>& drop) const;
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "gis/clean/geodesic_area.hpp"
 #include "gis/error.hpp"
@@ -275,6 +276,50 @@ TEST(Clean, PolygonsOfLandThatShareEdgesAreOneIsland) {
   const Cleaned cleaned = cleanInPlane({frame, large, west, east, islets}, {.snap_m = 0, .min_island_area_m2 = 7.0});
   EXPECT_EQ(cleaned.count(EditKind::SmallIsland), 3u);
   EXPECT_EQ(cleaned.area(0), 1600.0 - 26 - 8);
+}
+
+// An inner sea as lines, with the water to their right, in land beside an ocean; and a sea round a place that is said
+// to be in the water, whatever the directions.
+TEST(Clean, FillsSmallIslandsOfInnerSeas) {
+  const auto coast = [](std::int64_t fid, Ring outer, std::vector<Ring> holes, bool clockwise) {
+    Feature feature = polygonFeature(fid, std::move(outer), std::move(holes));
+    feature.use = FeatureUse::Coast;
+    if (clockwise) {
+      std::ranges::reverse(feature.polygons[0].outer);
+    } else {
+      for (Ring& hole : feature.polygons[0].holes) std::ranges::reverse(hole);
+    }
+    return feature;
+  };
+  const CleanOptions least{.snap_m = 0, .min_island_area_m2 = 3.0};
+  Feature frame = polygonFeature(1, square(0, 0, 40));
+  frame.use = FeatureUse::Frame;
+  const std::vector<Ring> small_and_large{square(22, 2, 1), square(26, 2, 2)};
+  const Feature land = coast(2, {{10, -1}, {41, -1}, {41, 41}, {10, 41}}, {}, false);
+  const Feature sea = coast(3, square(20, 1, 10), small_and_large, true);
+  const Feature island = coast(4, square(2, 2, 6), {square(4, 4, 1)}, false),
+                islet = coast(5, square(2, 20, 1), {}, false);
+  Cleaned cleaned = cleanInPlane({frame, land, sea, island, islet}, least);
+  EXPECT_EQ(cleaned.count(EditKind::SmallIsland), 2u);
+  EXPECT_EQ(cleaned.area(0), 400.0 - 36 + 1 + 100 - 4);
+
+  for (const bool clockwise : {false, true}) {
+    for (const auto& [place, area, islands] :
+         {std::tuple{Point{29, 9}, 100.0 - 4, 2u}, std::tuple{Point{22.5, 2.5}, 1.0 + 4, 1u}}) {
+      Coastline coastline = coastlineOf(
+          {coast(3, square(20, 1, 10), small_and_large, clockwise), coast(5, square(26.5, 2.5, 1), {}, clockwise)});
+      coastline.water_at = place;
+      CleanReport report;
+      const Domain domain = cleanFeatures(coastline, {0, 1}, Projection::plane(), least, report);
+      EXPECT_EQ(geodesicArea(domain, coastline.crs), area) << place.x;
+      EXPECT_EQ(report.counts[static_cast<std::size_t>(EditKind::SmallIsland)], islands) << place.x;
+    }
+  }
+  // A lake smaller than the bound is no island.
+  Coastline lake = coastlineOf({coast(3, square(20, 1, 1), {}, false)});
+  lake.water_at = Point{20.5, 1.5};
+  CleanReport report;
+  EXPECT_EQ(geodesicArea(cleanFeatures(lake, {0}, Projection::plane(), least, report), lake.crs), 1.0);
 }
 
 TEST(Clean, KeepsOpenLinesInside) {
