@@ -41,14 +41,16 @@ std::string nearestEnds(const Coastline& coastline, const std::vector<std::size_
   }
   std::ranges::sort(ends, lexLess);
   std::vector<Point> loose, plane;
+  std::vector<double> scales;  // of the plane
   for (std::size_t i = 0; i < ends.size(); ++i)
     if ((i == 0 || ends[i - 1] != ends[i]) && (i + 1 == ends.size() || ends[i + 1] != ends[i]))
       loose.push_back(ends[i]);
   if (loose.size() < 2 || loose.size() > kMost) return {};
   std::ranges::transform(loose, std::back_inserter(plane), [&](const Point& p) { return projection.forward(p); });
+  std::ranges::transform(plane, std::back_inserter(scales), [&](const Point& p) { return projection.scaleAt(p); });
   std::size_t a = 0, b = 1;
-  const auto gap = [&plane](std::size_t i, std::size_t j) {
-    return std::hypot(plane[i].x - plane[j].x, plane[i].y - plane[j].y);
+  const auto gap = [&](std::size_t i, std::size_t j) {  // on the ground
+    return 2 * std::hypot(plane[i].x - plane[j].x, plane[i].y - plane[j].y) / (scales[i] + scales[j]);
   };
   for (std::size_t i = 0; i < plane.size(); ++i)
     for (std::size_t j = i + 1; j < plane.size(); ++j)

@@ -188,6 +188,22 @@ TEST(Clean, LinesThatCloseNoRingSayHowFarTheyAreApart) {
   }
 }
 
+// In a plane that is not true to scale, the gap is that on the ground.
+TEST(Clean, LinesThatCloseNoRingSayHowFarTheyAreApartOnTheGround) {
+  Feature lines;
+  lines.lines = {{{10, 60}, {10.5, 60}, {10.5, 60.3}, {10, 60.3}, {10, 60.015}}};
+  const Coastline coastline = coastlineOf({lines}, wgs84());
+  for (const char* const code : {"EPSG:3857", "EPSG:2263"}) {  // Mercator, and feet
+    CleanReport report;
+    try {
+      cleanFeatures(coastline, {0}, Projection::to(wgs84(), parseCrs(code)), {}, report);
+      FAIL();
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("60.015, are 1.67e+03 m apart"), std::string::npos) << error.what();
+    }
+  }
+}
+
 // Otherwise the even-odd rule would cancel both.
 TEST(Clean, RingsThatAFeatureHasTwiceCountOnce) {
   const Ring island = square(1, 1, 2), turned{{3, 3}, {1, 3}, {1, 1}, {3, 1}}, reversed{{3, 1}, {1, 1}, {1, 3}, {3, 3}};
