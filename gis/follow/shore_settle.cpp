@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 
 #include "core/delaunay.hpp"
 #include "core/hilbert.hpp"
@@ -172,9 +173,17 @@ class Settler {
     t_.use[made] = useOf(t_, made);
   }
 
+  // Half the turn from xa counter-clockwise to xb, as a vector of length 1.
+  static Point bisector(const Point& x, const Point& a, const Point& b) {
+    const Point to_a = a - x, to_b = b - x;
+    double turn = std::atan2(cross(to_a, to_b), to_a.x * to_b.x + to_a.y * to_b.y);
+    if (turn <= 0.0) turn += 2.0 * std::numbers::pi;
+    const double c = std::cos(0.5 * turn), s = std::sin(0.5 * turn), length = std::sqrt(squaredLength(to_a));
+    return {(to_a.x * c - to_a.y * s) / length, (to_a.x * s + to_a.y * c) / length};
+  }
+
   void addPoint(const Copy& copy, VertexId a, VertexId b) {
     const Point x = mesh().point(copy.of);
-    Point shift = copy.shift;
     const auto fits = [&](const Point& to) {
       return !isTurned(x, mesh().point(a), to) && !isTurned(x, to, mesh().point(b)) &&
              std::ranges::none_of(copy.fan, [&](TriId t) {
@@ -183,10 +192,18 @@ class Settler {
                return isTurned(to, mesh().point(c[next3(i)]), mesh().point(c[prev3(i)]));
              });
     };
-    for (int i = 0; i < kHalvings && !fits(x + shift); ++i) shift = 0.5 * shift;
+    const auto shortened = [&](Point shift) {
+      for (int i = 0; i < kHalvings && !fits(x + shift); ++i) shift = 0.5 * shift;
+      return shift;
+    };
+    Point shift = shortened(copy.shift);
+    // Copies that were added beside it may have left room in another direction only.
+    if (!fits(x + shift))
+      shift = shortened(std::sqrt(squaredLength(copy.shift)) * bisector(x, mesh().point(a), mesh().point(b)));
     if (!fits(x + shift)) {
-      throw BadPslg({PslgDefect::Kind::OutOfRange, x, kNone, kNone,
-                     "water that touches itself has no room for a vertex of its own"});
+      throw BadPslg(
+          {PslgDefect::Kind::OutOfRange, x, kNone, kNone,
+           "water that touches itself has no room for a vertex of its own (--pinches open parts such water)"});
     }
     mesh().points.push_back(x + shift);
     if (!t_.size_at.empty()) t_.size_at.push_back(t_.size_at[copy.of]);

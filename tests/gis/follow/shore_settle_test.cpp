@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 #include <set>
+#include <utility>
 
 #include "core/links.hpp"
 #include "core/metric.hpp"
@@ -119,6 +120,27 @@ TEST(ShoreSettle, IsWhatTriangulatingAnewMakes) {
       settleShores(t, Ones());
       ASSERT_NO_FATAL_FAILURE(expectSettled(t));
     }
+  }
+}
+
+// Nearly every vertex of such shores is where water touches itself, among thin triangles: a vertex that is put beside
+// one may lie across the way of the next.
+TEST(ShoreSettle, VerticesBesideOthersFindRoom) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  for (int run = 0; run < 300; ++run) {
+    SCOPED_TRACE(run);
+    ShoreGraph graph = sea(random, 40);
+    for (std::size_t v = 4; v < graph.pslg.points.size(); ++v)
+      graph.pslg.points[v].y = 5.0 + 0.02 * graph.pslg.points[v].y;
+    ShoreTriangles t = triangulateShores(std::move(graph), Ones());
+    for (TriId i = 0; i < t.mesh.triangles.size(); ++i)
+      if (std::ranges::all_of(t.mesh.triangles[i].v, [](VertexId v) { return v >= 4 && v < 44; }))
+        t.mesh.regions[i] = share(random) < 0.5 ? t.land : 0;
+    settleShores(t, Ones());
+    ASSERT_EQ(findBrokenLink(t.mesh.triangles), kNone);
+    for (const Triangle& triangle : t.mesh.triangles)
+      ASSERT_GT(orient2d(t.mesh.point(triangle.v[0]), t.mesh.point(triangle.v[1]), t.mesh.point(triangle.v[2])), 0);
   }
 }
 
