@@ -23,6 +23,7 @@
 #include "apps/job/stopwatch.hpp"
 #include "apps/report/mesh_warnings.hpp"
 #include "apps/report/per_feature_report.hpp"
+#include "gis/coast/feature_bounds.hpp"
 #include "gis/error.hpp"
 #include "gis/for_count.hpp"
 #include "gis/format/grid_io.hpp"
@@ -80,17 +81,6 @@ struct Planned {
 
 bool isArea(const Feature& feature) { return feature.use == FeatureUse::Area && !feature.polygons.empty(); }
 
-Box boxOf(const Feature& feature) {
-  Box box;
-  const auto add = [&box](const std::vector<Point>& points) {
-    for (const Point& p : points) box.add(p);
-  };
-  for (const Polygon& polygon : feature.polygons) add(polygon.outer);
-  for (const auto& line : feature.lines) add(line);
-  add(feature.points);
-  return box;
-}
-
 // The features of this run's shard, in the input's order, with names and outputs.
 std::vector<Planned> plan(const MeshRunUsage& usage, const Coastline& coastline, const Run& run) {
   std::vector<const Feature*> features;
@@ -111,7 +101,7 @@ std::vector<Planned> plan(const MeshRunUsage& usage, const Coastline& coastline,
   std::vector<OptionTable::NamedOutput> files;
   for (std::size_t f = 0; f < features.size(); ++f) {
     if (shard_of[f] != shard) continue;
-    Planned one{indices[f], points[f], boxOf(*features[f]), {}};
+    Planned one{indices[f], points[f], boundsOf(*features[f]), {}};
     one.outcome.name = names[f];
     one.outcome.source = features[f]->source;
     one.outcome.fid = features[f]->fid;
@@ -146,7 +136,7 @@ Beside besideAreas(const Coastline& coastline) {
   for (std::size_t i = 0; i < coastline.features.size(); ++i) {
     if (isArea(coastline.features[i])) continue;
     beside.indices.push_back(i);
-    beside.boxes.push_back(boxOf(coastline.features[i]));
+    beside.boxes.push_back(boundsOf(coastline.features[i]));
   }
   return beside;
 }
@@ -155,7 +145,7 @@ Beside besideAreas(const Coastline& coastline) {
 std::shared_ptr<const Coastline> alone(const Coastline& all, const Beside& beside, const Planned& one) {
   std::vector<std::size_t> members{one.feature};
   for (std::size_t b = 0; b < beside.indices.size(); ++b)
-    if (beside.boxes[b].meets(one.box)) members.push_back(beside.indices[b]);
+    if (meetAtAnyTurn(beside.boxes[b], one.box, all.crs)) members.push_back(beside.indices[b]);
   std::ranges::sort(members);
   auto coastline = std::make_shared<Coastline>();
   coastline->crs = all.crs;

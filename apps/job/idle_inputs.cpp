@@ -9,6 +9,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "gis/coast/feature_bounds.hpp"
 #include "gis/coast/feature_names.hpp"
 #include "gis/crs/crs_map.hpp"
 #include "gis/crs/ogr_support.hpp"
@@ -52,15 +53,6 @@ Box surroundingsOf(const Grid& grid) {
   Box mesh;
   for (const Point& node : grid.nodes) mesh.add(node);
   return mesh.grownBy(0.5 * std::max(mesh.xmax - mesh.xmin, mesh.ymax - mesh.ymin));
-}
-
-bool meets(const Box& box, const Box& mesh, const Crs& crs) {
-  if (box.ymax < mesh.ymin || box.ymin > mesh.ymax) return false;
-  for (const double turn : {0.0, -360.0, 360.0}) {
-    if (box.xmax + turn >= mesh.xmin && box.xmin + turn <= mesh.xmax) return true;
-    if (!crs.geographic) break;
-  }
-  return false;
 }
 
 // Names that the mesh has of features of that use: of lines, or of regions.
@@ -163,7 +155,7 @@ std::vector<std::string> warningsOfIdleInputs(const MeshJob& job, const SizeInpu
   if (hasDepths(grid)) addIdleBands(job, grid, all);
   const bool any = !sizes.features.empty() || !job.sizes.passages.empty() || !job.sizes.barriers.empty();
   const Box around = any ? surroundingsOf(grid) : Box{};  // visits every node
-  const auto isNear = [&](const auto& part) { return meets(boxOf(part), around, grid.crs); };
+  const auto isNear = [&](const auto& part) { return meetAtAnyTurn(boxOf(part), around, grid.crs); };
   for (std::size_t file = 0; file < sizes.features.size(); ++file)
     if (std::ranges::none_of(sizes.features[file].parts, isNear))
       all.push_back("--size-features " + job.sizes.features[file] +

@@ -17,4 +17,11 @@ Box boundsOf(const Feature& feature) {
   return box;
 }
 
+bool meetAtAnyTurn(const Box& a, const Box& b, const Crs& crs) {
+  if (!crs.geographic) return a.meets(b);
+  for (const double turn : {0.0, -360.0, 360.0})
+    if (a.meets({b.xmin + turn, b.ymin, b.xmax + turn, b.ymax})) return true;
+  return false;
+}
+
 }  // namespace coastmesh

@@ -1,11 +1,15 @@
 #pragma once
 
 #include "gis/coast/coastline.hpp"
+#include "gis/crs/crs.hpp"
 #include "gis/geometry/box.hpp"
 
 namespace coastmesh {
 
 // The box of all parts of a feature: rings, lines and points, in the input's CRS.
 Box boundsOf(const Feature& feature);
+
+// True if two boxes of that CRS meet; longitudes may be a full turn apart.
+bool meetAtAnyTurn(const Box& a, const Box& b, const Crs& crs);
 
 }  // namespace coastmesh

@@ -38,6 +38,17 @@ class PerFeature : public ProgramTest {
     return writeFeatures({square(5, 50, 0.01, {{"name", "a"}}), square(5.5, 50, 0.01, {{"name", "b"}}), bad,
                           square(7, 50, 0.02, {{"name", "c"}})});
   }
+  // A line along the middle of such a square.
+  static Json lineIn(double west, double south, double side, const Json& properties = Json::object()) {
+    const double middle = south + 0.5 * side;
+    return {{"type", "Feature"},
+            {"properties", properties},
+            {"geometry",
+             {{"type", "LineString"}, {"coordinates", {{west + 0.2 * side, middle}, {west + 0.8 * side, middle}}}}}};
+  }
+  Json infoOf(const std::string& name) const {
+    return Json::parse(runProgram({"info", file(name), "--json", "--assume-crs", "EPSG:4326"}).output);
+  }
   ProgramRun mesh(const std::string& input, std::vector<std::string> options) const {
     options.insert(options.begin(), {"mesh", input, "--per-feature"});
     return runProgram(options);
@@ -152,6 +163,21 @@ TEST_F(PerFeature, DepthsThatOpenNothingAreWarnedOf) {
                               {"-o", file("{}.14"), "--bathymetry", file("shallow.asc"), "--open-deeper", "50"});
   EXPECT_EQ(run.code, 0) << run.errors;
   EXPECT_THAT(run.errors, HasSubstr("--open-deeper"));
+}
+
+TEST_F(PerFeature, LinesWithOtherLongitudesOfTheSamePlaceArePartOfTheMesh) {
+  const std::string input = writeFeatures(Json::array({square(-60, 50, 0.03, Json::object())}));
+  for (const char* option : {"--constraints", "--weirs"}) {
+    std::set<std::uint64_t> nodes;
+    for (const double west : {-60.0, 300.0}) {
+      const std::string lines = writeFeatures(Json::array({lineIn(west, 50, 0.03)}), "lines.geojson");
+      const ProgramRun run = mesh(input, {"-o", file("{}.2dm"), option, lines, "--overwrite"});
+      EXPECT_EQ(run.code, 0) << run.errors;
+      nodes.insert(infoOf("0.2dm")["nodes"].get<std::uint64_t>());
+    }
+    EXPECT_EQ(nodes.size(), 1u) << option;
+    EXPECT_GT(*nodes.begin(), 4u) << option;
+  }
 }
 
 TEST_F(PerFeature, BoundsThatAreMissedMakeExitCodeOne) {
