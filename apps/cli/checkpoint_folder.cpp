@@ -255,11 +255,20 @@ void CheckpointFolder::requireSameRun(const CheckpointHeader& kept) const {
   }
   if (std::tie(kept.shard, kept.shards) != std::tie(header_.shard, header_.shards))
     throw OptionError(start + "with another --shard" + remedy());
-  for (std::size_t i = 0; i < std::max(kept.files.size(), header_.files.size()); ++i) {
-    if (i < kept.files.size() && i < header_.files.size() && kept.files[i] == header_.files[i]) continue;
-    const std::string& path = i < header_.files.size() ? header_.files[i].path : kept.files[i].path;
-    throw InputError("'" + path + "' has changed since '" + folder_.string() + "' was begun" + remedy());
+  requireSameFiles(kept.files);
+}
+
+void CheckpointFolder::requireSameFiles(const std::vector<FileStamp>& kept) const {
+  const std::string when = " when '" + folder_.string() + "' was begun";
+  for (const FileStamp& file : header_.files) {
+    const auto before = std::ranges::find(kept, file.path, &FileStamp::path);
+    if (before == kept.end()) throw InputError("'" + file.path + "' was not read" + when + remedy());
+    if (*before != file)
+      throw InputError("'" + file.path + "' has changed since '" + folder_.string() + "' was begun" + remedy());
   }
+  for (const FileStamp& file : kept)
+    if (std::ranges::find(header_.files, file.path, &FileStamp::path) == header_.files.end())
+      throw InputError("'" + file.path + "' was read" + when + ", and is not now" + remedy());
 }
 
 void CheckpointFolder::begin(std::uint64_t input_digest, std::size_t groups) {

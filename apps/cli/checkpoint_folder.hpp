@@ -70,6 +70,7 @@ class CheckpointFolder {
 
   void lock();
   void requireSameRun(const CheckpointHeader& kept) const;
+  void requireSameFiles(const std::vector<FileStamp>& kept) const;
   void readGroups();
   void removeKept() const;
   void remove(bool folder_too);

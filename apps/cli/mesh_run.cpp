@@ -69,12 +69,7 @@ std::string reasonOf(const std::vector<Refusal>& refusals) {
 }
 
 std::string summaryOf(const MeshRunUsage& usage, const MeshJob& job, const MeshJobResult& result) {
-  std::string text = meshSummary(job, result);
-  constexpr std::size_t kNotesShown = 20;  // each of thousands of lakes may have notes
-  const std::vector<std::string>& notes = result.read.notes;
-  for (std::size_t i = 0; i < std::min(kNotesShown, notes.size()); ++i) text += notes[i] + "\n";
-  if (notes.size() > kNotesShown)
-    text += std::to_string(notes.size() - kNotesShown) + " more notes, which the report lists\n";
+  std::string text = meshSummary(job, result) + shownNotes(result.read.notes);
   for (const std::string& path : usage.outputs) text += "wrote " + path + "\n";
   if (!usage.edits.empty()) text += "wrote " + usage.edits + "\n";
   if (!usage.report.empty()) text += "wrote " + usage.report + "\n";
@@ -136,6 +131,19 @@ std::optional<int> doneBefore(const MeshRunUsage& usage, Run& run, const GivenOp
     code = header->exit_code;
   }
   return code;
+}
+
+// Ends the output of a run that made no mesh: a line for people, on standard error if standard output is for programs.
+void endWithoutMesh(const MeshRunUsage& usage, const std::string& line) {
+  ProgressDisplay display(ProgressDisplay::styleFor(usage.progress, usage.quiet));
+  display.show("done", 1.0);
+  display.clear();
+  if (usage.quiet) return;
+  if (usage.progress == "json" || usage.report == "-") {
+    std::fprintf(stderr, "coastmesh: %s\n", line.c_str());
+  } else {
+    std::printf("%s\n", line.c_str());
+  }
 }
 
 // Throws OptionError if the folder of --checkpoint is an input or output of the run.
@@ -231,7 +239,7 @@ int runMesh(const MeshRunUsage& usage, Run& run) {
   const bool skips = usage.skip_existing && !usage.overwrite;
   if (skips) {
     if (const std::optional<int> code = doneBefore(usage, run, given)) {
-      if (!usage.quiet) std::fputs("all outputs exist already\n", stdout);
+      endWithoutMesh(usage, "all outputs exist already");
       return *code;
     }
   }
@@ -251,8 +259,10 @@ int runMesh(const MeshRunUsage& usage, Run& run) {
   std::optional<CheckpointFolder> checkpoint;
   if (keeps) {
     CheckpointHeader header{COASTMESH_VERSION, given, job.exchange.shard, job.exchange.shards, {}, 0, 0};
-    for (const std::string& input : run.inputs)
-      for (const std::string& path : filesReadBy(input)) header.files.push_back(stampOf(path));
+    // Of a file of options only the options matter, which are compared themselves.
+    for (const auto& [option, input] : run.options.inputs())
+      for (const std::string& path : option == "--config" ? std::vector<std::string>() : filesReadBy(input))
+        header.files.push_back(stampOf(path));
     checkpoint.emplace(usage.checkpoint, std::move(header));
     job.exchange.has = [&checkpoint](std::size_t group) { return checkpoint->has(group); };
     job.exchange.take = [&checkpoint](std::size_t group) { return checkpoint->take(group); };
@@ -322,7 +332,7 @@ int runMesh(const MeshRunUsage& usage, Run& run) {
   // Other shards may have meshes.
   if (!any && to_shard) {
     display.clear();
-    if (!usage.quiet) std::fputs("nothing of this shard was meshed\n", stdout);
+    endWithoutMesh(usage, "nothing of this shard was meshed");
     return code;
   }
   if (!any && job.exchange.shards > 1 && result.refusals.empty() && result.last_unwanted.empty())

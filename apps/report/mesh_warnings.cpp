@@ -32,4 +32,12 @@ std::vector<std::string> warningsOf(const MeshJobResult& result) {
   return all;
 }
 
+std::string shownNotes(const std::vector<std::string>& notes) {
+  constexpr std::size_t kShown = 20;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kShown, notes.size()); ++i) text += notes[i] + "\n";
+  if (notes.size() > kShown) text += std::to_string(notes.size() - kShown) + " more notes, which the report lists\n";
+  return text;
+}
+
 }  // namespace coastmesh

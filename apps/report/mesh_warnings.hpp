@@ -12,4 +12,8 @@ namespace coastmesh {
 // reason, that becomes the error and is not included.
 std::vector<std::string> warningsOf(const MeshJobResult& result);
 
+// The notes for a summary, each a line: the first of them if there are many, since each of thousands of lakes may have
+// some.
+std::string shownNotes(const std::vector<std::string>& notes);
+
 }  // namespace coastmesh

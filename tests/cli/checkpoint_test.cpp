@@ -260,6 +260,27 @@ TEST_F(Checkpoint, TheFolderIsItsOwn) {
   expectRefused(command(input, {"--overwrite", "--checkpoint", file("no/kept")}), 4, "cannot be made");
 }
 
+// Of a file of options the options count: the number of threads may change, and they may be typed instead.
+TEST_F(Checkpoint, GoesOnAfterTheFileOfOptionsHasChanged) {
+  const std::string input = lakes();
+  const auto writeOptions = [&](const std::string& threads) {
+    return write("job.toml", "input = \"" + input + "\"\noutput = \"" + file("x.nc") + "\"\ncheckpoint = \"" +
+                                 file("kept") + "\"\nsize-max = 9\nthreads = " + threads + "\n");
+  };
+  const std::vector<std::string> from_file{"mesh", "--config", file("job.toml"), "--progress", "json"};
+  const std::vector<std::string> typed{"mesh",       input, "-o",           file("x.nc"),
+                                       "--size-max", "9",   "--checkpoint", file("kept")};
+  const std::function<bool()> in_rounds = [&] { return std::filesystem::exists(roundsFile()); };
+  for (const bool is_typed : {false, true}) {
+    writeOptions("1");
+    ASSERT_EQ(runUntilSignalled(from_file, in_rounds, SIGKILL, [&] { removeAllMade(); }).code, kKilled);
+    writeOptions("2");
+    const ProgramRun run = runProgram(is_typed ? typed : from_file);
+    EXPECT_EQ(run.code, 0) << run.errors;
+    removeAllMade();
+  }
+}
+
 TEST_F(Checkpoint, BelongsToOneRunAtATime) {
   const std::string input = lakes();
   killInRounds(input);

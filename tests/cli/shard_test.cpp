@@ -130,6 +130,33 @@ TEST_F(Shard, DealsEveryLakeOnce) {
   EXPECT_EQ(std::set(fids.begin(), fids.end()).size(), fids.size());
 }
 
+// Standard output holds nothing but what programs read.
+TEST_F(Shard, WithoutAMeshNoProseIsPrintedForPrograms) {
+  const std::string input = lakes();
+  const std::vector<std::string> made{"mesh", input, "--shard", "2/3", "-o", shardFile(2), "--skip-existing"};
+  const std::vector<std::string> nothing{"mesh",    "--domain", "globe", "--size",        "2000000",
+                                         "--shard", "2/2",      "-o",    file("g.shard"), "--overwrite"};
+  ASSERT_LE(runProgram(made).code, 1);
+  for (const auto& [words, line] :
+       {std::pair(made, "all outputs exist already"), std::pair(nothing, "nothing of this shard was meshed")}) {
+    const auto with = [&words = words](std::initializer_list<std::string> more) {
+      std::vector<std::string> all = words;
+      all.insert(all.end(), more);
+      return runProgram(all);
+    };
+    const ProgramRun plain = with({});
+    EXPECT_THAT(plain.output, ::testing::EndsWith(std::string(line) + "\n"));
+    const ProgramRun report = with({"--report", "-"});
+    EXPECT_TRUE(report.output.empty() || Json::accept(report.output)) << report.output;
+    EXPECT_THAT(report.errors, HasSubstr(line));
+    const ProgramRun progress = with({"--progress", "json"});
+    EXPECT_THAT(progress.output, ::testing::EndsWith("{\"phase\":\"done\",\"share\":1.0000}\n"));
+    EXPECT_THAT(progress.output, ::testing::Not(HasSubstr(line)));
+    EXPECT_THAT(progress.errors, HasSubstr(line));
+    EXPECT_EQ(with({"--quiet"}).output, "");
+  }
+}
+
 TEST_F(Shard, IsNotMadeTwice) {
   const std::string input = lakes();
   const auto words = [&](const std::vector<std::string>& more) {
