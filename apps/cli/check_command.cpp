@@ -235,9 +235,16 @@ Command declareCheck(CLI::App& root) {
               "what the mesh was made from; its points and edges must be in the mesh; can be repeated");
   declareTargets(table, usage->targets, "also look for what the model would reject; can be repeated");
   table.section(Section::Sizes);
-  table.number({"--time-step", "Time step"}, usage->target_check.time_step_s, "S", {0.0, 1e6},
-               "also look for triangles whose Courant number with this time step is above 1, or the limit of --target; "
-               "0: no such test");
+  table
+      .number({"--time-step", "Time step"}, usage->target_check.time_step_s, "S", {0.0, 1e6},
+              "also look for triangles whose Courant number with this time step is above 1, or the limit of --target, "
+              "which fesom, mpas and swan do not have; 0: no such test")
+      .needs(
+          [usage] {
+            const std::vector<Target> targets = targetsNamed(usage->targets);
+            return targets.empty() || std::ranges::any_of(targets, isOfLongWaves);
+          },
+          "if --target is fesom, mpas or swan alone, which have no limit for it");
   table.section(Section::Triangles);
   table.number({"--min-angle", "Minimum angle"}, usage->check.min_angle_deg, "DEG", {0.0, 60.0},
                "minimum angle of the triangles");

@@ -187,6 +187,9 @@ int runClean(const CleanUsage& usage, Run& run) {
   const bool poly = std::filesystem::path(usage.output).extension() == ".poly";
   if (poly && !usage.input.boundary_column.empty())
     throw OptionError("--boundary-column: '" + usage.output + "' cannot hold types of boundaries; write a .gpkg");
+  if (poly && usage.input.frame.side == DomainSide::Globe)
+    throw OptionError("--domain globe: '" + usage.output +
+                      "' is a graph of the plane, which cannot hold the rest of the globe; write a .gpkg");
   if (!poly) requireVectorFormat(usage.output, 2);
   RunOutputs outputs(usage.overwrite, run.inputs, run.interrupt);
   StagedFiles& output = outputs.addFile(usage.output);

@@ -63,7 +63,14 @@ void declareMeshOptions(OptionTable& table, MeshUsage& usage) {
             const MeshOptions& mesh = usage.job.mesh;
             return usage.quality == "centred" || mesh.smooth || (usage.job.sizes.any() && mesh.coarsen);
           },
-          "without sizes or --smooth");
+          "without sizes or --smooth")
+      .needs(
+          [&usage] {
+            const MeshOptions& mesh = usage.job.mesh;
+            const bool coarsens = usage.coarsen_given ? mesh.coarsen : usage.algorithm == "relocate";
+            return usage.quality == "centred" || mesh.smooth || coarsens;
+          },
+          "without --coarsen or --smooth if --algorithm is not relocate");
   declareInputOptions(table, usage.job.input);
   declareSurface(table, usage.job.input.surface);
   declarePinches(table, usage.job.input);

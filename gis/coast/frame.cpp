@@ -456,15 +456,30 @@ void chooseUses(Coastline& coastline, const FrameOptions& options, FrameReport& 
   }
 }
 
+// Makes everything outside the other features the last feature. A cleaned file has it already, with the coasts around
+// it as rings that do not tell its inside.
+void addRestOfGlobe(Coastline& coastline) {
+  constexpr std::int64_t kFid = -1;
+  constexpr const char* kSource = "the rest of the globe";
+  const auto isRest = [&](const Feature& feature) { return feature.fid == kFid && feature.source == kSource; };
+  Feature rest;
+  rest.fid = kFid;
+  rest.source = kSource;
+  const auto earlier = std::ranges::find_if(coastline.features, isRest);
+  if (earlier != coastline.features.end()) {
+    rest.vertex_order = std::move(earlier->vertex_order);
+    coastline.features.erase(earlier);
+  }
+  coastline.features.push_back(std::move(rest));
+  coastline.rest = coastline.features.size() - 1;
+}
+
 }  // namespace
 
 FrameReport frameCoastline(Coastline& coastline, const FrameOptions& options) {
   FrameReport report;
   if (options.side == DomainSide::Globe) {
-    Feature& rest = coastline.features.emplace_back();
-    rest.fid = -1;
-    rest.source = "the rest of the globe";
-    coastline.rest = coastline.features.size() - 1;
+    addRestOfGlobe(coastline);
     return report;
   }
   if (options.side == DomainSide::Ocean)

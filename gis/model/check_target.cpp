@@ -23,6 +23,11 @@
 #include "gis/model/triangle_overlaps.hpp"
 
 namespace coastmesh {
+
+bool isOfLongWaves(Target target) {
+  return target != Target::Swan && target != Target::Fesom && target != Target::Mpas;
+}
+
 namespace {
 
 constexpr std::array<std::string_view, kTargetDefectKinds> kKindNames{
@@ -32,11 +37,6 @@ constexpr std::array<std::string_view, kTargetDefectKinds> kKindNames{
     "looped boundary", "wrong shore",    "two open edges", "open and solid edge",   "one neighbour",
     "lone wall",       "valence",        "large angle",    "not orthogonal",        "small flow link",
     "courant",         "round the globe"};
-
-// The Courant number is that of long waves. SWAN computes none; FESOM2 and MPAS-Ocean step them separately.
-bool isOfLongWaves(Target target) {
-  return target != Target::Swan && target != Target::Fesom && target != Target::Mpas;
-}
 
 // The other models have no open boundaries, or accept dry nodes there.
 bool mindsDryOpenings(Target target) {

@@ -59,6 +59,10 @@ struct TargetCheckOptions {
   bool overlaps = true;      // look for triangles that overlap
 };
 
+// True if the model has limits for Courant numbers of long waves. SWAN computes none; FESOM2 and MPAS-Ocean step these
+// waves separately.
+bool isOfLongWaves(Target target);
+
 // All defects that make the model reject the grid, by kind, Courant numbers starting with the worst (measured as in
 // `timeSteps`); then advice. Boundaries are taken as they are. The limits are in target_limits.hpp.
 std::vector<TargetDefect> checkTarget(const Grid& grid, Target target, const TargetCheckOptions& options = {});

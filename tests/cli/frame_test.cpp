@@ -145,5 +145,17 @@ TEST_F(Frame, WaterAtAPlaceIsOutsideOfLand) {
   EXPECT_THAT(errorsWith("inside"), HasSubstr("--domain has no effect with --water-at"));
 }
 
+// Five squares side by side, and one elsewhere.
+TEST_F(Frame, FeaturesInOtherWaterAreCountedOneByOne) {
+  std::vector<std::vector<LonLatRing>> squares;
+  for (const double west : {0.0, 1.0, 1.1, 1.2, 1.3, 1.4})
+    squares.push_back({{{west, 0}, {west + 0.1, 0}, {west + 0.1, 0.1}, {west, 0.1}}});
+  const std::string input = write("squares.geojson", geoJsonPolygons(squares));
+  const ProgramRun run =
+      runProgram({"mesh", input, "--water-at", "0.05,0.05", "-o", file("s.2dm"), "--report", file("r.json")});
+  EXPECT_EQ(run.code, 0) << run.errors;
+  EXPECT_EQ(Json::parse(readText(file("r.json")))["input"]["beyond_frame"], 5);
+}
+
 }  // namespace
 }  // namespace coastmesh::test

@@ -140,6 +140,27 @@ TEST_F(Globe, HasNoFrameAndNoPlane) {
   }
 }
 
+TEST_F(Globe, ACleanedFileIsMeshedAsItsInput) {
+  const std::string land =
+      write("land.geojson",
+            geoJsonPolygons({{{{0, 50}, {20, 48}, {25, 60}, {5, 62}}}, {{{70, -10}, {80, -9}, {79, 5}, {72, 6}}}}));
+  const std::string cleaned = file("cleaned.gpkg");
+  ASSERT_EQ(runProgram({"clean", land, "--domain", "globe", "-o", cleaned}).code, 0);
+  std::vector<std::string> made;
+  for (const std::string& input : {land, cleaned}) {
+    const ProgramRun run = mesh({input, "--size", "700000"});
+    EXPECT_EQ(run.code, 0);
+    EXPECT_EQ(run.errors, "");
+    EXPECT_EQ(report()["clean"]["features_overlap"], 0);
+    made.push_back(readText(file("globe.2dm")));
+  }
+  EXPECT_TRUE(made[0] == made[1]);
+  const ProgramRun poly = runProgram({"clean", land, "--domain", "globe", "-o", file("cleaned.poly")});
+  EXPECT_EQ(poly.code, 2);
+  EXPECT_TRUE(isOneErrorLine(poly.errors)) << poly.errors;
+  EXPECT_THAT(poly.errors, HasSubstr("cannot hold the rest of the globe"));
+}
+
 TEST_F(Globe, LandAndSeaAreRegionsOfOneMesh) {
   // An island, one across the antimeridian cut in two, and a continent round the south pole, closed along it.
   const std::string land = write("land.geojson", geoJsonPolygons({{{{0, 50}, {20, 48}, {25, 60}, {5, 62}}},

@@ -294,6 +294,17 @@ TEST_F(Outputs, OptionsWithoutEffectAreWarnedOf) {
   EXPECT_EQ(kept.code, 0) << kept.errors;
   for (const char* option : {"--channel-min", "--land-min", "--keep-water"})
     EXPECT_THAT(kept.errors, HasSubstr(std::string(option) + " has no effect without --coast follow\n"));
+  // Algorithms for comparison do not coarsen by default, and then nothing is optimised.
+  const auto errorsOfQuality = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"mesh", lake(),      "-o",    file("q.nc"), "--size",
+                                   "300",  "--quality", "links", "--overwrite"};
+    words.insert(words.end(), more.begin(), more.end());
+    return runProgram(words).errors;
+  };
+  EXPECT_THAT(errorsOfQuality({"--algorithm", "offcenter"}),
+              HasSubstr("--quality has no effect without --coarsen or --smooth if --algorithm is not relocate\n"));
+  EXPECT_EQ(errorsOfQuality({"--algorithm", "offcenter", "--coarsen"}), "");
+  EXPECT_EQ(errorsOfQuality({}), "");
 }
 
 }  // namespace

@@ -277,6 +277,16 @@ TEST_F(TimeStep, CheckListsTheWorstFirstAndKeepsAdviceApart) {
   const ProgramRun schism = runProgram({"check", file("bay.2dm"), "--target", "schism", "--time-step", "10"});
   EXPECT_THAT(schism.output, HasSubstr("schism: advice, courant: "));
   EXPECT_THAT(schism.output, Not(HasSubstr("schism: courant")));
+
+  // Models without a limit.
+  for (const char* model : {"fesom", "mpas", "swan"}) {
+    const ProgramRun run = runProgram({"check", file("bay.2dm"), "--target", model, "--time-step", "60"});
+    EXPECT_THAT(run.output, Not(HasSubstr("courant"))) << model;
+    EXPECT_THAT(run.errors, HasSubstr("--time-step has no effect if --target is fesom, mpas or swan alone")) << model;
+  }
+  const ProgramRun both = runProgram({"check", file("bay.2dm"), "--target=swan", "--target=adcirc", "--time-step=60"});
+  EXPECT_THAT(both.output, HasSubstr("adcirc: courant: "));
+  EXPECT_THAT(both.errors, Not(HasSubstr("no effect")));
 }
 
 // Land with a ragged coast in the south of a box; the sea is 3 m deep at the coast and 4000 m far from it.
