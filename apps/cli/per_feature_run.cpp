@@ -4,10 +4,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <numeric>
+#include <set>
 #include <thread>
 
 #include "apps/cli/exit_codes.hpp"
@@ -18,6 +20,7 @@
 #include "apps/job/available_memory.hpp"
 #include "apps/job/deal_groups.hpp"
 #include "apps/job/feature_file_names.hpp"
+#include "apps/job/idle_inputs.hpp"
 #include "apps/job/memory_share.hpp"
 #include "apps/job/mesh_job.hpp"
 #include "apps/job/stopwatch.hpp"
@@ -178,10 +181,29 @@ class Shares {
 
 // True if the jobs read files: then they cannot run at the same time.
 bool readsFiles(const MeshJob& job) {
-  const SizeOptions& sizes = job.sizes;
-  return !job.finish.depth.files.empty() || !sizes.features.empty() || !sizes.rasters.empty() ||
-         !sizes.bathymetry.empty() || !sizes.passages.empty() || !sizes.barriers.empty();
+  return !job.finish.depth.files.empty() || !job.sizes.rasters.empty() || !job.sizes.bathymetry.empty();
 }
+
+// Texts that some features have, each with the number of these.
+class CountedTexts {
+ public:
+  void add(const std::vector<std::string>& texts) {
+    for (const std::string& text : std::set<std::string>(texts.begin(), texts.end())) ++counts_[text];
+  }
+  std::vector<std::string> ofAll(std::size_t features) const {
+    std::vector<std::string> texts;
+    for (const auto& [text, count] : counts_)
+      if (count == features) texts.push_back(text);
+    return texts;
+  }
+  bool isOfAll(const std::string& text, std::size_t features) const {
+    const auto found = counts_.find(text);
+    return found != counts_.end() && found->second == features;
+  }
+
+ private:
+  std::map<std::string, std::size_t> counts_;
+};
 
 // Meshes and writes features; may be called from several threads, for different features.
 class Maker {
@@ -215,7 +237,9 @@ class Maker {
         outcome.reason = result.refusals.empty() ? result.last_unwanted : result.refusals.front().reason;
         outcome.over_budget = !result.refusals.empty() && result.refusals.front().over_budget;
       } else {
-        noteBoundaries(result.finish.boundaries);
+        noteIdle(result);
+        outcome.notes = std::move(result.read.notes);
+        std::ranges::move(result.finish.depth.notes, std::back_inserter(outcome.notes));
         outcome.warnings = warningsOf(result);
         write(outcome, result);
         outcome.state = result.complete() ? FeatureState::Made : FeatureState::Short;
@@ -230,13 +254,15 @@ class Maker {
     return true;
   }
 
-  // Warnings for files of boundary types that set none in any feature that was meshed.
-  std::vector<std::string> idleBoundaries() const {
-    std::vector<std::string> warnings;
+  // Warnings for inputs that have no effect on any feature that was meshed.
+  std::vector<std::string> idleInputs() const {
+    std::vector<std::string> warnings = idle_inputs_.ofAll(meshed_);
     for (const auto& [file, idle] : idle_boundaries_)
       if (idle.features == meshed_) warnings.push_back(idle.warning);
     return warnings;
   }
+  // Notes on such inputs.
+  std::vector<std::string> idleNotes() const { return idle_notes_.ofAll(meshed_); }
 
  private:
   struct IdleFile {
@@ -245,9 +271,14 @@ class Maker {
   };
 
   // A file that has no effect on this feature may have one on another.
-  void noteBoundaries(BoundaryReport& boundaries) {
+  void noteIdle(MeshJobResult& result) {
+    std::vector<std::string> notes;
+    for (const auto& [text, regions] : result.idle) notes.push_back(text);
+    BoundaryReport& boundaries = result.finish.boundaries;
     const std::lock_guard lock(mutex_);
     ++meshed_;
+    idle_inputs_.add(result.idle_inputs);
+    idle_notes_.add(notes);
     for (std::size_t i = 0; i < boundaries.idle_files.size(); ++i) {
       IdleFile& idle = idle_boundaries_[boundaries.idle_files[i]];
       ++idle.features;
@@ -284,6 +315,7 @@ class Maker {
   std::function<bool()> cancelled_;
   std::mutex mutex_;
   std::size_t meshed_ = 0;
+  CountedTexts idle_inputs_, idle_notes_;
   std::map<std::size_t, IdleFile> idle_boundaries_;
 };
 
@@ -302,6 +334,28 @@ void warnOf(const std::vector<FeatureOutcome>& features, Run& run) {
   if (left > 0)
     run.warn(std::to_string(left) + forCount(left, " more warning of a feature is", " more warnings of features are") +
              " not shown");
+}
+
+// Notes that all features have, once, then the others with their feature.
+std::vector<std::string> notesOf(const std::vector<FeatureOutcome>& features, const MeshJob& job) {
+  CountedTexts counted;
+  std::vector<const FeatureOutcome*> meshed;
+  for (const FeatureOutcome& feature : features) {
+    if (!isMeshed(feature)) continue;
+    meshed.push_back(&feature);
+    counted.add(feature.notes);
+  }
+  if (meshed.empty()) return job.notes;
+  std::vector<std::string> shared, own;
+  for (const FeatureOutcome* feature : meshed) {
+    for (const std::string& note : feature->notes) {
+      const bool is_shared = counted.isOfAll(note, meshed.size());
+      if (!is_shared) own.push_back(feature->name + ": " + note);
+      if (is_shared && feature == meshed.front()) shared.push_back(note);
+    }
+  }
+  std::ranges::move(own, std::back_inserter(shared));
+  return shared;
 }
 
 int exitCodeOf(const FeatureSums& sums) {
@@ -342,6 +396,9 @@ int runPerFeature(const MeshRunUsage& usage, Run& run) {
   requireUnmirrored(coastline, job.input);
   std::vector<Planned> planned = plan(usage, coastline, run);
   boundaries.of_files = readBoundaryFiles(boundaries);
+  job.size_layers = std::make_shared<const SizeLayers>(readSizeLayers(job.sizes, coastline.crs));
+  std::ranges::move(warningsOfPolygons(job.input, coastline), std::back_inserter(read.warnings));
+  leaveOutPolygonFiles(job.input, coastline);
   seconds.read = whole.seconds();
   run.interrupt.check();
   display.show("read", 1.0);
@@ -378,8 +435,10 @@ int runPerFeature(const MeshRunUsage& usage, Run& run) {
   for (const std::string& warning : read.warnings) run.warn(warning);
   // Only for a run of all features: a file may have an effect on others.
   const bool all = shardOf(usage.shard).second == 1 && order.size() == features.size();
-  for (const std::string& warning : all ? maker.idleBoundaries() : std::vector<std::string>{}) run.warn(warning);
+  for (const std::string& warning : all ? maker.idleInputs() : std::vector<std::string>{}) run.warn(warning);
   warnOf(features, run);
+  std::ranges::move(notesOf(features, job), std::back_inserter(read.notes));
+  if (all) std::ranges::move(maker.idleNotes(), std::back_inserter(read.notes));
   seconds.total = whole.seconds();
   report.writeReport(perFeatureReport(job.input.files, read, coastline.crs, features, run.warnings, seconds, threads));
   const FeatureSums sums = sumsOf(features);
@@ -393,10 +452,10 @@ int runPerFeature(const MeshRunUsage& usage, Run& run) {
   display.show("done", 1.0);
   display.clear();
   if (!usage.quiet && usage.progress != "json" && usage.report != "-")
-    std::fputs(
-        (perFeatureSummary(features, seconds.total) + (usage.report.empty() ? "" : "wrote " + usage.report + "\n"))
-            .c_str(),
-        stdout);
+    std::fputs((perFeatureSummary(features, seconds.total) + shownNotes(read.notes) +
+                (usage.report.empty() ? "" : "wrote " + usage.report + "\n"))
+                   .c_str(),
+               stdout);
   return code;
 }
 

@@ -22,6 +22,8 @@ struct FinishOptions {
   bool drop_apart = false;  // waters without a connection to an open boundary are removed, if there is one
 
   bool any() const { return !depth.files.empty() || boundaries.any() || !targets.empty() || repair.time_step_s > 0.0; }
+  // True if nodes and triangles may change.
+  bool mayEdit() const { return !targets.empty() || repair.time_step_s > 0.0 || drop_apart; }
 };
 
 struct FinishReport {

@@ -29,12 +29,12 @@ auto partsOf(auto& raised) requires std::is_same_v<std::remove_cvref_t<decltype(
 auto partsOf(auto& result) requires std::is_same_v<std::remove_cvref_t<decltype(result)>, GroupResult> {
   auto& [grid, edits, edit_places, projection, projection_reason, surface, least_scale, greatest_scale, refine,
          short_of, quality, size_max, input_area_m2, digest, clean_s, size_s, check_s, mesh_s, pieces, log,
-         estimated_vertices, refusal, over_budget, lacks_memory, refusal_place, unwanted, notes, warnings, idle, waters,
-         raised_shore] = result;
+         estimated_vertices, refusal, over_budget, lacks_memory, refusal_place, unwanted, notes, warnings, idle,
+         took_part, waters, raised_shore] = result;
   return std::tie(grid, edits, edit_places, projection, projection_reason, surface, least_scale, greatest_scale, refine,
                   short_of, quality, input_area_m2, digest, clean_s, size_s, check_s, mesh_s, pieces,
                   estimated_vertices, refusal, over_budget, lacks_memory, refusal_place, unwanted, notes, warnings,
-                  size_max, idle, waters, raised_shore);
+                  size_max, idle, took_part, waters, raised_shore);
 }
 
 namespace {

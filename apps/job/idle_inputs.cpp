@@ -83,16 +83,20 @@ bool isFrom(const Feature& feature, const std::string& named) {
 // The files of that use that left nothing in the mesh; features beyond the frame were removed before. Point constraints
 // count as used: cleaning reports those outside the water.
 std::vector<std::string> idleFiles(const Coastline& coastline, FeatureUse use, const std::vector<std::string>& files,
-                                   const Grid& grid) {
+                                   const MeshJobResult& result) {
   if (files.empty()) return {};
-  const std::set<std::string> names = namesIn(grid, use);
+  const std::set<std::string> names = namesIn(result.grid, use);
   std::vector<std::string> idle;
   for (const std::string& file : files) {
-    const auto isUsed = [&](const Feature& feature) {
-      if (feature.use != use || !isFrom(feature, file)) return false;
-      return !feature.points.empty() || names.contains(lineNameOf(feature));
-    };
-    if (file != "-" && file != "/dev/stdin" && std::ranges::none_of(coastline.features, isUsed)) idle.push_back(file);
+    if (file == "-" || file == "/dev/stdin") continue;
+    bool is_used = false;
+    for (std::uint32_t f = 0; f < coastline.features.size() && !is_used; ++f) {
+      const Feature& feature = coastline.features[f];
+      if (feature.use != use || !isFrom(feature, file)) continue;
+      const bool left_any = result.took_part.contains(f) && names.contains(lineNameOf(feature));
+      is_used = left_any || !feature.points.empty();
+    }
+    if (!is_used) idle.push_back(file);
   }
   return idle;
 }
@@ -145,19 +149,42 @@ constexpr const char* kCrsRight = "; is its CRS right?";
 
 }  // namespace
 
+std::vector<std::string> warningsOfPolygons(const InputOptions& input, const Coastline& coastline) {
+  std::vector<std::string> all;
+  const auto addPolygons = [&](const std::string& option, const std::vector<std::string>& files, FeatureUse use,
+                               const std::string& kept) {
+    for (const std::string& file : files)
+      if (holdsPolygons(coastline, use, file))
+        all.push_back(option + " " + file + ": its polygons are left out: only " + kept +
+                      " count; --regions takes polygons, whose borders become edges");
+  };
+  addPolygons("--constraints", input.constraints, FeatureUse::Constraint, "lines and points");
+  addPolygons("--weirs", input.weirs, FeatureUse::Weir, "lines");
+  return all;
+}
+
+void leaveOutPolygonFiles(InputOptions& input, const Coastline& coastline) {
+  const auto leaveOut = [&](std::vector<std::string>& files, FeatureUse use) {
+    std::erase_if(files, [&](const std::string& file) { return holdsOnlyPolygons(coastline, use, file); });
+  };
+  leaveOut(input.constraints, FeatureUse::Constraint);
+  leaveOut(input.weirs, FeatureUse::Weir);
+}
+
 std::vector<std::string> warningsOfIdleInputs(const MeshJob& job, const SizeInputs& sizes, const Coastline& coastline,
-                                              const Grid& grid) {
+                                              const MeshJobResult& result) {
+  const Grid& grid = result.grid;
   std::vector<std::string> all;
   if (grid.triangles.empty()) return all;
   for (const RasterGeometry& raster : sizes.rasters)
     if (!coversAny(raster, grid))
       all.push_back("--size-raster " + raster.path + ": no node of the mesh lies in it; is its CRS right?");
   if (hasDepths(grid)) addIdleBands(job, grid, all);
-  const bool any = !sizes.features.empty() || !job.sizes.passages.empty() || !job.sizes.barriers.empty();
+  const bool any = !sizes.layers->features.empty() || !job.sizes.passages.empty() || !job.sizes.barriers.empty();
   const Box around = any ? surroundingsOf(grid) : Box{};  // visits every node
   const auto isNear = [&](const auto& part) { return meetAtAnyTurn(boxOf(part), around, grid.crs); };
-  for (std::size_t file = 0; file < sizes.features.size(); ++file)
-    if (std::ranges::none_of(sizes.features[file].parts, isNear))
+  for (std::size_t file = 0; file < sizes.layers->features.size(); ++file)
+    if (std::ranges::none_of(sizes.layers->features[file].parts, isNear))
       all.push_back("--size-features " + job.sizes.features[file] +
                     ": none of them lies in the mesh, or near it; is its CRS right?");
   const auto addGuides = [&](const std::string& option, const std::vector<std::string>& files,
@@ -166,22 +193,13 @@ std::vector<std::string> warningsOfIdleInputs(const MeshJob& job, const SizeInpu
       if (std::ranges::none_of(lines, [&](const ShoreLine& line) { return line.file == file && isNear(line); }))
         all.push_back(option + " " + files[file] + ": no line of it lies in the mesh, or near it; is its CRS right?");
   };
-  addGuides("--passages", job.sizes.passages, sizes.passages);
-  addGuides("--barriers", job.sizes.barriers, sizes.barriers);
+  addGuides("--passages", job.sizes.passages, sizes.layers->passages);
+  addGuides("--barriers", job.sizes.barriers, sizes.layers->barriers);
   const auto addIdle = [&](const std::string& option, const std::vector<std::string>& files, FeatureUse use,
                            const std::string& text) {
-    for (const std::string& file : idleFiles(coastline, use, files, grid))
+    for (const std::string& file : idleFiles(coastline, use, files, result))
       if (!holdsOnlyPolygons(coastline, use, file)) all.push_back(option + " " + file + ": " + text + kCrsRight);
   };
-  const auto addPolygons = [&](const std::string& option, const std::vector<std::string>& files, FeatureUse use,
-                               const std::string& kept) {
-    for (const std::string& file : files)
-      if (holdsPolygons(coastline, use, file))
-        all.push_back(option + " " + file + ": its polygons are left out: only " + kept +
-                      " count; --regions takes polygons, whose borders become edges");
-  };
-  addPolygons("--constraints", job.input.constraints, FeatureUse::Constraint, "lines and points");
-  addPolygons("--weirs", job.input.weirs, FeatureUse::Weir, "lines");
   addIdle("--constraints", job.input.constraints, FeatureUse::Constraint, "nothing of it lies in the water");
   addIdle("--weirs", job.input.weirs, FeatureUse::Weir, "no line of it lies in the water that is meshed");
   addIdle("--regions", job.input.regions, FeatureUse::Region, "no polygon of it holds any of the mesh");

@@ -9,6 +9,12 @@
 
 namespace coastmesh {
 
+namespace {
+
+bool isBefore(const Point& a, const Point& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; }
+
+}  // namespace
+
 void Shortfall::add(Shortfall&& other) {
   count += other.count;
   for (const BoundViolationPlace& place : other.places)
@@ -39,6 +45,35 @@ std::vector<std::vector<std::uint32_t>> trianglesOfGroups(const Grid& grid, cons
     triangles[static_cast<std::size_t>(after - groups.begin()) - 1].push_back(t);
   }
   return triangles;
+}
+
+InputVertices::InputVertices(const Grid& grid, const std::vector<MergedGroup>& groups) {
+  for (const MergedGroup& group : groups) {
+    const auto first = grid.nodes.begin() + group.first_node;
+    places_.insert(places_.end(), first, first + group.input_nodes);
+  }
+}
+
+std::uint64_t InputVertices::othersIn(const Grid& grid) && {
+  std::ranges::sort(places_, isBefore);
+  return static_cast<std::uint64_t>(std::ranges::count_if(
+      grid.nodes, [this](const Point& node) { return !std::ranges::binary_search(places_, node, isBefore); }));
+}
+
+double inputAreaLeft(double area_m2, const Grid& grid, const std::vector<MergedGroup>& groups,
+                     const DroppedWaters& dropped) {
+  const auto groupOf = [&groups](std::uint32_t feature) {
+    return std::ranges::upper_bound(groups, feature, {}, &MergedGroup::first_feature) - groups.begin() - 1;
+  };
+  std::vector<double> lost(groups.size(), 0.0);
+  for (const auto& [feature, area] : dropped.area_of) lost[static_cast<std::size_t>(groupOf(feature))] += area;
+  std::vector<bool> is_left(groups.size(), false);
+  for (const std::uint32_t feature : grid.feature_of) is_left[static_cast<std::size_t>(groupOf(feature))] = true;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const double whole = groups[g].input_area_m2.value_or(0.0);
+    if (lost[g] > 0.0) area_m2 -= is_left[g] ? std::min(lost[g], whole) : whole;
+  }
+  return area_m2;
 }
 
 }  // namespace coastmesh

@@ -2,15 +2,18 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "apps/job/mesh_job_result.hpp"
 #include "core/item_loop.hpp"
+#include "core/point.hpp"
 #include "core/quality.hpp"
 #include "core/refine/refine_options.hpp"
 #include "core/space_point.hpp"
 #include "core/tri_mesh.hpp"
+#include "gis/model/apart_waters.hpp"
 #include "gis/projection/projection.hpp"
 
 namespace coastmesh {
@@ -37,10 +40,31 @@ struct MergedGroup {
   std::size_t group;
   double size_max;  // as in WorkingPlane
   std::uint32_t first_feature;
+  std::uint32_t first_node, input_nodes;  // vertices of the input come first
+  std::optional<double> input_area_m2;
 };
 
 // The triangles of each group, ascending; a grid without features is one group. REQUIRES: `groups` ascend by their
 // first features.
 std::vector<std::vector<std::uint32_t>> trianglesOfGroups(const Grid& grid, const std::vector<MergedGroup>& groups);
+
+// The vertices of the input in a grid that repairs may change.
+class InputVertices {
+ public:
+  InputVertices() = default;
+  // Of the grid as the groups made it.
+  InputVertices(const Grid& grid, const std::vector<MergedGroup>& groups);
+
+  // The nodes of the grid that are not vertices of the input: those that were added or moved.
+  std::uint64_t othersIn(const Grid& grid) &&;
+
+ private:
+  std::vector<Point> places_;
+};
+
+// The area of the input without the waters that were dropped: the whole area of groups of which nothing is left, and
+// what the mesh had of the others. `area_m2`: before; `grid`: after.
+double inputAreaLeft(double area_m2, const Grid& grid, const std::vector<MergedGroup>& groups,
+                     const DroppedWaters& dropped);
 
 }  // namespace coastmesh

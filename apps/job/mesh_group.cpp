@@ -211,13 +211,14 @@ void requireSound(const MeshedRegion& region, const Domain& domain, std::span<co
 }
 
 // The group's part of the grid. Frees the mesh on the way, since memory is at its peak while both exist. Uses only the
-// group's own features, or the work would grow with the square of their number.
-Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, TriMesh mesh, std::vector<double> size_m,
-               GroundPlaces ground, const ItemLoop& loop) {
+// group's own features, or the work would grow with the square of their number. Adds regions to `took_part`.
+Grid groupGrid(const GroupTask& task, const Domain& domain, TriMesh mesh, std::vector<double> size_m,
+               GroundPlaces ground, const ItemLoop& loop, std::vector<std::uint32_t>& took_part) {
+  const JobInput& input = task.input;
   Coastline names;
   names.crs = input.coastline().crs;
   if (!input.isPoly()) {
-    const std::vector<std::size_t>& members = input.members(group);
+    const std::vector<std::size_t>& members = input.members(task.group);
     for (std::size_t member : members) {
       const Feature& feature = input.coastline().features[member];
       Feature& name = names.features.emplace_back();
@@ -238,7 +239,9 @@ Grid groupGrid(const JobInput& input, std::size_t group, const Domain& domain, T
         mesh.regions[t] = member;
       }
     });
-    markRegions(input.coastline(), members, domain.projection, mesh, names, loop);
+    const std::vector<std::uint32_t> regions =
+        markRegions(input.coastline(), members, domain.projection, mesh, names, loop);
+    took_part.insert(took_part.end(), regions.begin(), regions.end());
   }
   const MeshedDomain part{&domain, &mesh, size_m.empty() ? nullptr : &size_m, ground.empty() ? nullptr : &ground,
                           [&mesh] { freeMemoryOf(mesh.triangles); }};
@@ -294,6 +297,7 @@ Domain cleanStage(const GroupTask& task, GroupResult& result) {
   if (task.job.keep_edits) result.edit_places = std::move(clean.edits);
   result.notes = std::move(clean.notes);
   result.warnings = std::move(clean.warnings);
+  result.took_part = std::move(clean.took_part);
   result.projection = domain.projection.description();
   result.projection_reason = domain.projection.reason();
   result.surface = task.input.surfaceOf(domain.projection);
@@ -368,8 +372,8 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
     const double area_m2 = result.input_area_m2 ? *result.input_area_m2 : geodesicArea(domain, Crs{});
     const EdgeWishes wishes{kShoreMargin * StepOutcome::kUsualShare * job.sizes.least_m,
                             job.mesh.refine.max_angle_deg <= kNotObtuseDeg};
-    const ShoreGuides guides{projected(sizes.passages, domain.projection),
-                             projected(sizes.barriers, domain.projection)};
+    const ShoreGuides guides{projected(sizes.layers->passages, domain.projection),
+                             projected(sizes.layers->barriers, domain.projection)};
     CleanReport coarser, followed;
     FollowStart start;
     if (const double least = leastWanted(wanted, sizes); least > 0.0)
@@ -471,7 +475,7 @@ void gridStage(const GroupTask& task, const Domain& domain, const SizeFunction* 
     size_m = nodeSizes(region.mesh, *size, task.job.sizes.gradation, measure, domain.projection.surface(), loop);
   }
   result.grid =
-      groupGrid(task.input, task.group, domain, std::move(region.mesh), std::move(size_m), std::move(ground), loop);
+      groupGrid(task, domain, std::move(region.mesh), std::move(size_m), std::move(ground), loop, result.took_part);
   result.grid.piece_of = std::move(region.piece_of);
 }
 

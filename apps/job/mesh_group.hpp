@@ -38,7 +38,8 @@ struct GroupResult {
   std::string unwanted;            // why nothing of it was requested, if so
   std::vector<std::string> notes;  // decisions of cleaning, and of following sizes
   std::vector<std::string> warnings;
-  std::vector<std::string> idle;  // as in CleanReport
+  std::vector<std::string> idle;         // as in CleanReport
+  std::vector<std::uint32_t> took_part;  // features of lines and regions that the mesh has
   FollowedWaters waters;
   RaisedShore raised_shore;
 };

@@ -92,6 +92,14 @@ void addRefusal(const JobInput& input, std::size_t group, GroupResult&& part, Me
   result.refusals.push_back(std::move(refusal));
 }
 
+// The number of the group's features that a frame or --water-at may leave out: all but guests such as constraints.
+std::uint64_t shoresOf(const JobInput& input, std::size_t group) {
+  return static_cast<std::uint64_t>(std::ranges::count_if(input.members(group), [&input](std::size_t member) {
+    const FeatureUse use = input.coastline().features[member].use;
+    return use == FeatureUse::Area || use == FeatureUse::Land || use == FeatureUse::Coast;
+  }));
+}
+
 void addGroup(const JobInput& input, std::size_t group, GroupResult&& part, MeshJobResult& result,
               Stage& small_groups) {
   for (std::size_t kind = 0; kind < kEditKinds; ++kind) result.edits[kind] += part.edits[kind];
@@ -103,7 +111,7 @@ void addGroup(const JobInput& input, std::size_t group, GroupResult&& part, Mesh
   std::ranges::move(part.notes, std::back_inserter(result.read.notes));
   std::ranges::move(part.warnings, std::back_inserter(result.read.warnings));
   if (!part.unwanted.empty()) {
-    ++result.read.beyond_frame;
+    result.read.beyond_frame += shoresOf(input, group);
     result.last_unwanted = part.unwanted;
     return;
   }
@@ -113,6 +121,7 @@ void addGroup(const JobInput& input, std::size_t group, GroupResult&& part, Mesh
   }
   ++result.regions;
   for (const std::string& text : part.idle) ++result.idle[text];
+  result.took_part.insert(part.took_part.begin(), part.took_part.end());
   result.waters.append(std::move(part.waters));
   result.raised_shore.add(part.raised_shore);
   result.pieces += part.pieces;
@@ -223,11 +232,19 @@ class OrderedMerge {
       ++untold_;
     }
     told_ += part.warnings.size();
-    if (part.size_max)
-      merged_.push_back({next_, *part.size_max, static_cast<std::uint32_t>(result_.grid.features.size())});
+    if (part.size_max) merged_.push_back(placeOf(part));
     addGroup(input_, next_, std::move(part), result_, small_groups_);
     ++next_;
     passUnexpected();
+  }
+  // Of the next group in the grid.
+  MergedGroup placeOf(const GroupResult& part) const {
+    return {next_,
+            *part.size_max,
+            static_cast<std::uint32_t>(result_.grid.features.size()),
+            static_cast<std::uint32_t>(result_.grid.nodes.size()),
+            static_cast<std::uint32_t>(part.grid.nodes.size() - part.refine.steiner_points),
+            part.input_area_m2};
   }
   void mergeWaiting() {
     while (next_ < waiting_.size() && waiting_[next_]) {
@@ -422,6 +439,16 @@ void findTurned(MeshJobResult& result, const ItemLoop& loop) {
   }
 }
 
+// A shard may legitimately be far from these inputs. So may one feature of many: the caller compares it with others.
+void tellIdleInputs(const MeshJob& job, const SizeInputs& sizes, const Coastline& coastline, MeshJobResult& result) {
+  result.idle_inputs = warningsOfIdleInputs(job, sizes, coastline, result);
+  if (job.input.ready) return;
+  std::ranges::move(warningsOfPolygons(job.input, coastline), std::back_inserter(result.read.warnings));
+  std::ranges::move(result.idle_inputs, std::back_inserter(result.read.warnings));
+  for (const auto& [text, regions] : result.idle)
+    if (regions == result.regions) result.read.notes.push_back(text);
+}
+
 MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   const Stopwatch whole;
   MeshJobResult result;
@@ -435,7 +462,7 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   FinishOptions finish = job.finish;
   if (finish.boundaries.of_input.empty()) finish.boundaries.of_input = input.boundaries();
   if (!finish.boundaries.of_files) finish.boundaries.of_files = readBoundaryFiles(finish.boundaries);
-  SizeInputs sizes = readSizeInputs(job.sizes, result.crs);
+  SizeInputs sizes = readSizeInputs(job.sizes, result.crs, job.size_layers);
   for (const RasterGeometry& raster : sizes.rasters)
     result.read.notes.insert(result.read.notes.end(), raster.notes.begin(), raster.notes.end());
   RasterHelpers rasters(job.mesh.helpers, RunControl{control.cancelled, {}});
@@ -484,23 +511,21 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
     const Stopwatch finishing;
     RunControl inner{control.cancelled, {}};
     if (control.progress) inner.progress = [&control](double share) { control.progress("finish", share); };
+    InputVertices vertices = finish.mayEdit() ? InputVertices(result.grid, merged) : InputVertices();
     result.finish = finishGrid(result.grid, finish, inner, recorder.loop("finish", RunControl{control.cancelled, {}}));
     std::ranges::move(result.finish.notes(), std::back_inserter(result.read.notes));
     if (!result.finish.repairs.repairs.empty() || result.finish.dropped.waters > 0) {
       result.short_before_repairs = result.short_of.count;
       measureAgain(job, input, merged, true, result);
       result.mesh_area_m2 = std::accumulate(result.grid.area_m2.begin(), result.grid.area_m2.end(), 0.0);
+      result.refine.steiner_points = std::move(vertices).othersIn(result.grid);
+      if (result.input_area_m2)
+        result.input_area_m2 = inputAreaLeft(*result.input_area_m2, result.grid, merged, result.finish.dropped);
     }
     result.seconds.finish = finishing.seconds();
     result.log.append(recorder.finish("finish"));
   }
-  // A shard, or one feature of many, may legitimately be far from these inputs.
-  if (job.exchange.shards <= 1 && !job.input.ready) {
-    std::ranges::move(warningsOfIdleInputs(job, sizes, input.coastline(), result.grid),
-                      std::back_inserter(result.read.warnings));
-    for (const auto& [text, regions] : result.idle)
-      if (regions == result.regions) result.read.notes.push_back(text);
-  }
+  if (job.exchange.shards <= 1) tellIdleInputs(job, sizes, input.coastline(), result);
   findTurned(result, loop);
   result.step = measureOutcome(result.grid, job.sizes, loop, job.mesh.refine.goal);
   result.rasters_read = rasters.use();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string_view>
 
@@ -18,6 +19,7 @@ struct MeshJob {
   InputOptions input;
   MeshOptions mesh;   // `refine.max_vertices` applies to the whole; its sizes are set from `sizes`
   SizeOptions sizes;  // if only `most_m` is given, no edge is longer
+  std::shared_ptr<const SizeLayers> size_layers;  // instead of the vector files of `sizes`; null: they are read
   ParallelOptions parallel;
   FinishOptions finish;
   GroupExchange exchange;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -98,7 +99,9 @@ struct MeshJobResult {
   std::uint64_t turned = 0;          // triangles that are not counter-clockwise on the ground: see `turnedTriangles`
   std::vector<Point> turned_places;  // the first kBoundViolationPlaces of them, in the input's CRS
   std::vector<Refusal> refusals;
+  std::vector<std::string> idle_inputs;     // warnings of inputs without effect, for features that are some of many
   std::map<std::string, std::size_t> idle;  // notes on inputs without effect, with the number of such regions
+  std::set<std::uint32_t> took_part;        // features of lines and regions that the mesh had before it was finished
   FollowedWaters waters;                    // of meshed groups, if coasts follow sizes
   RaisedShore raised_shore;
   std::string last_unwanted;  // why a group outside the requested area was skipped

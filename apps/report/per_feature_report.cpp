@@ -18,11 +18,11 @@ Json figures(const MeshQuality& quality) {
           {"max_angle_deg", any ? Json(quality.max_angle_deg) : Json(nullptr)}};
 }
 
+}  // namespace
+
 bool isMeshed(const FeatureOutcome& feature) {
   return feature.state == FeatureState::Made || feature.state == FeatureState::Short;
 }
-
-}  // namespace
 
 std::string_view toString(FeatureState state) {
   switch (state) {

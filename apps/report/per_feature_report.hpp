@@ -27,8 +27,10 @@ struct FeatureOutcome {
   bool over_budget = false;  // refused because its sizes require many more vertices than `--max-vertices`
   MeshQuality quality;
   std::uint64_t digest = 0;
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings, notes;
 };
+// True if it was meshed in this run.
+bool isMeshed(const FeatureOutcome& feature);
 
 struct FeatureSums {
   std::uint64_t made = 0, short_of = 0, skipped = 0, refused = 0;  // `made` without those that are short

@@ -224,6 +224,7 @@ class Labeller {
       const std::optional<LineKey> line = left == kOutside || right == kOutside ? std::nullopt : lineAlong(edges_[e]);
       if (left == right && !line) continue;
       if (line) on_lines.emplace_back(segments.size(), *line);
+      if (line) noteLines(edges_[e]);
       segments.push_back({ends_[e].first, ends_[e].second, opens(edges_[e], left, right) ? kOpenTag : 0, left, right});
     }
     std::map<LineKey, std::size_t> number_of;  // lines in the order of their features
@@ -235,7 +236,17 @@ class Labeller {
       lines.push_back({key.first, use, std::string(lineNameOf(feature)), key.second});
     }
     for (const auto& [segment, key] : on_lines) segments[segment].tag = lineTag(number_of.at(key));
+    std::ranges::sort(report_.took_part);
+    report_.took_part.erase(std::unique(report_.took_part.begin(), report_.took_part.end()), report_.took_part.end());
     return segments;
+  }
+
+  // Records all features with a line or border along an edge within the domain.
+  void noteLines(const MapEdge& edge) const {
+    for (std::size_t u = edge.first_use; u < edge.last_use; ++u) {
+      const std::uint32_t feature = featureOf(noded_.uses[u]);
+      if (report_.took_part.empty() || report_.took_part.back() != feature) report_.took_part.push_back(feature);
+    }
   }
 
   // A feature, and whether a region has its border along the edge.

@@ -116,8 +116,10 @@ class Noder {
         std::size_t same = 0;
         for (; i < uses_.size() && uses_[i].low() == low && uses_[i].high() == high &&
                lineUse(uses_[i]) == lineUse(use) && (isLine(use) || featureOf(uses_[i]) == featureOf(use));
-             ++i)
+             ++i) {
           ++same;
+          if (featureOf(uses_[i]) != featureOf(use)) report_.took_part.push_back(featureOf(uses_[i]));
+        }
         if (isLine(use) || same % 2 == 1) uses_[kept++] = use;
         if (reported && same > 1 && !onSeam(low, high) && !ofFrame(use)) {
           report_.add(EditKind::OverlappingEdge, chains_.vertices.input[low], coastline_, featureOf(use));

@@ -53,6 +53,8 @@ struct CleanReport {
   std::vector<std::string> notes;     // decisions where the input was ambiguous
   std::vector<std::string> warnings;  // decisions that cost more than users may expect
   std::vector<std::string> idle;      // inputs without effect on this group: noted if true of all groups
+  // Features whose lines or borders are edges within the domain, or repeat lines of such features; ascending.
+  std::vector<std::uint32_t> took_part;
   FollowedWaters waters;
   std::array<std::uint64_t, kEditKinds> counts{};
 
@@ -65,6 +67,7 @@ struct CleanReport {
     std::ranges::move(more.notes, std::back_inserter(notes));
     std::ranges::move(more.warnings, std::back_inserter(warnings));
     std::ranges::move(more.idle, std::back_inserter(idle));
+    took_part.insert(took_part.end(), more.took_part.begin(), more.took_part.end());
     waters.append(std::move(more.waters));
     for (std::size_t kind = 0; kind < kEditKinds; ++kind) counts[kind] += more.counts[kind];
   }

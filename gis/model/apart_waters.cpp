@@ -106,6 +106,8 @@ DroppedWaters dropApartWaters(Grid& grid) {
   }
   dropped.share = dropped.area_m2 / all;
   if (dropped.share > 1.0 - kLittle) return {};
+  for (std::uint32_t t = 0; t < apart.water.size() && !grid.feature_of.empty(); ++t)
+    if (apart.is_apart[t]) dropped.area_of[grid.feature_of[t]] += grid.area_m2[t];
   dropped.waters = areas.size();
   dropped.in_plane = grid.crs.isPlane();
   removeTriangles(grid, apart.is_apart);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "gis/grid/grid.hpp"
@@ -21,9 +22,10 @@ bool isOneWater(const Grid& grid);
 
 struct DroppedWaters {
   std::size_t waters = 0;
-  double area_m2 = 0.0, share = 0.0;  // and its share of all water before
-  Point place;                        // in the largest water, in the grid's CRS
-  bool in_plane = false;              // areas are in units of the plane
+  double area_m2 = 0.0, share = 0.0;          // and its share of all water before
+  std::map<std::uint32_t, double> area_of{};  // by feature, if the grid has features
+  Point place;                                // in the largest water, in the grid's CRS
+  bool in_plane = false;                      // areas are in units of the plane
 };
 
 // Removes these waters from the grid, but none if the rest is less than a tenth of all: the main water may then be

@@ -80,10 +80,12 @@ std::vector<std::uint32_t> regionOfTriangles(const std::vector<MemberRegion>& re
 
 }  // namespace
 
-void markRegions(const Coastline& coastline, const std::vector<std::size_t>& members, const Projection& projection,
-                 TriMesh& mesh, Coastline& names, const ItemLoop& loop) {
+std::vector<std::uint32_t> markRegions(const Coastline& coastline, const std::vector<std::size_t>& members,
+                                       const Projection& projection, TriMesh& mesh, Coastline& names,
+                                       const ItemLoop& loop) {
   const std::vector<MemberRegion> regions = regionsOf(coastline, members, projection);
-  if (regions.empty()) return;
+  std::vector<std::uint32_t> used;
+  if (regions.empty()) return used;
   const std::vector<std::uint32_t> region_of = regionOfTriangles(regions, mesh, loop);
   std::map<std::pair<RegionId, std::uint32_t>, RegionId> parts;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -94,9 +96,13 @@ void markRegions(const Coastline& coastline, const std::vector<std::size_t>& mem
       Feature name = names.features[static_cast<std::size_t>(mesh.regions[t])];
       name.region = regionNameOf(coastline.features[regions[region_of[t]].member]);
       names.features.push_back(std::move(name));
+      used.push_back(static_cast<std::uint32_t>(regions[region_of[t]].member));
     }
     mesh.regions[t] = part->second;
   }
+  std::ranges::sort(used);
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  return used;
 }
 
 }  // namespace coastmesh

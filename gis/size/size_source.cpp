@@ -338,7 +338,7 @@ VertexDemand demandOf(const ComposedSizes& source, const SizeDemand& demand, con
 }
 
 bool isByShoreAlone(const SizeOptions& options, const SizeInputs& inputs) {
-  return options.shore_m < kInfinity && options.channel_elements == 0.0 && inputs.features.empty() &&
+  return options.shore_m < kInfinity && options.channel_elements == 0.0 && inputs.layers->features.empty() &&
          inputs.rasters.empty() && !options.depth.any() && !(options.time_step_s > 0.0);
 }
 
@@ -403,11 +403,10 @@ Pslg boundaryOf(const Box& box) {
 TooManyVertices::TooManyVertices(VertexDemand d)
     : std::runtime_error("sizes require more vertices than there is room for"), demand(std::move(d)) {}
 
-SizeInputs readSizeInputs(const SizeOptions& options, const Crs& crs) {
-  SizeInputs inputs;
-  inputs.crs = crs;
+SizeLayers readSizeLayers(const SizeOptions& options, const Crs& crs) {
+  SizeLayers layers;
   for (const std::string& path : options.features)
-    inputs.features.push_back(readSizedFeatures(path, crs, options.gradation));
+    layers.features.push_back(readSizedFeatures(path, crs, options.gradation));
   const auto readLines = [&](const std::vector<std::string>& paths, std::vector<ShoreLine>& lines) {
     for (std::size_t file = 0; file < paths.size(); ++file) {
       for (ShoreLine& line : readGuideLines(paths[file], crs)) {
@@ -416,9 +415,16 @@ SizeInputs readSizeInputs(const SizeOptions& options, const Crs& crs) {
       }
     }
   };
-  readLines(options.passages, inputs.passages);
-  for (ShoreLine& line : inputs.passages) line.elements = options.passage_elements;
-  readLines(options.barriers, inputs.barriers);
+  readLines(options.passages, layers.passages);
+  for (ShoreLine& line : layers.passages) line.elements = options.passage_elements;
+  readLines(options.barriers, layers.barriers);
+  return layers;
+}
+
+SizeInputs readSizeInputs(const SizeOptions& options, const Crs& crs, std::shared_ptr<const SizeLayers> layers) {
+  SizeInputs inputs;
+  inputs.crs = crs;
+  inputs.layers = layers ? std::move(layers) : std::make_shared<const SizeLayers>(readSizeLayers(options, crs));
   for (const std::string& path : options.rasters) inputs.rasters.push_back(readRasterGeometry(path));
   if (options.depth.any() || options.time_step_s > 0.0)
     for (const std::string& path : options.bathymetry) inputs.bathymetry.push_back(readRasterGeometry(path));
@@ -426,8 +432,8 @@ SizeInputs readSizeInputs(const SizeOptions& options, const Crs& crs) {
 }
 
 double leastWanted(const SizeOptions& options, const SizeInputs& inputs) {
-  const bool known =
-      options.channel_elements == 0.0 && inputs.features.empty() && inputs.rasters.empty() && !options.depth.any();
+  const bool known = options.channel_elements == 0.0 && inputs.layers->features.empty() && inputs.rasters.empty() &&
+                     !options.depth.any();
   const double least = known ? std::min(options.size_m, options.shore_m) : 0.0;
   return std::min(std::max(least, options.least_m), options.most_m);
 }
@@ -481,11 +487,11 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
     source.add("--channel-elements",
                std::make_unique<DistanceField>(std::move(channels.lines), scale, most_m, surface));
   }
-  if (!inputs.features.empty()) {
+  if (!inputs.layers->features.empty()) {
     // The gradation is lowered to half at most, see below, and slightly less.
     FeatureScope scope{{}, most_m, 0.49 * options.gradation};
     if (!surface.isCurved()) scope.ball = GroundBalls(inputs.crs).around(domain.input_points);
-    for (const SizedFeatures& features : inputs.features)
+    for (const SizedFeatures& features : inputs.layers->features)
       for (auto& field : featureFields(features, projection, scale, scope))
         source.add("--size-features", std::move(field));
   }

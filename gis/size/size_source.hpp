@@ -60,13 +60,18 @@ struct SizeOptions {
   }
 };
 
+// The vector files that the options name.
+struct SizeLayers {
+  std::vector<SizedFeatures> features;
+  std::vector<ShoreLine> passages, barriers;  // in the input's CRS
+};
+
 // The data that the options name, read once for all groups of features.
 struct SizeInputs {
-  std::vector<SizedFeatures> features;
+  std::shared_ptr<const SizeLayers> layers = std::make_shared<const SizeLayers>();
   std::vector<RasterGeometry> rasters, bathymetry;
-  std::vector<ShoreLine> passages, barriers;  // in the input's CRS
-  Crs crs;                                    // of the input
-  const RasterReaders* readers = nullptr;     // readers of rasters; null: only the caller
+  Crs crs;                                 // of the input
+  const RasterReaders* readers = nullptr;  // readers of rasters; null: only the caller
   // The domain's graph without the parts of its boundary that will be open although their tags do not say so; nullopt
   // if there are none. The function may be empty.
   std::function<std::optional<Pslg>(const Domain& domain, const SizeOptions& options, const ItemLoop& loop)> shoreOf;
@@ -75,7 +80,11 @@ struct SizeInputs {
 };
 
 // Throws InputError.
-SizeInputs readSizeInputs(const SizeOptions& options, const Crs& crs);
+SizeLayers readSizeLayers(const SizeOptions& options, const Crs& crs);
+
+// Reads the vector files too if `layers` is null. Throws InputError.
+SizeInputs readSizeInputs(const SizeOptions& options, const Crs& crs,
+                          std::shared_ptr<const SizeLayers> layers = nullptr);
 
 // The number of vertices that sizes require, and where most of them are.
 struct VertexDemand {

@@ -99,6 +99,23 @@ TEST_F(CoastFollow, WaterThatNothingJoinsToAnOpenBoundaryIsADefect) {
   }
 }
 
+// The report is of the water that is written.
+TEST_F(CoastFollow, ALakeThatIsLeftOutForAModelDoesNotCount) {
+  const LonLatRing sea{{0, 50}, {0.3, 50}, {0.3, 50.3}, {0, 50.3}};
+  const LonLatRing lake{{0.5, 50.05}, {0.7, 50.05}, {0.7, 50.25}, {0.5, 50.25}};
+  const std::string input = write("waters.geojson", geoJsonPolygons({{sea}, {lake}}));
+  const std::string out = file("waters.2dm");
+  const ProgramRun run = runProgram({"mesh", input, "--bbox=0.1,49,2,51", "--size", "2000", "--coast", "follow",
+                                     "--target", "adcirc", "-o", out, "--report", file("r.json")});
+  EXPECT_EQ(run.code, 0) << run.errors;
+  EXPECT_NE(run.errors.find("of the water is left out"), std::string::npos) << run.errors;
+  const nlohmann::json report = nlohmann::json::parse(readText(file("r.json")));
+  const double area = report["mesh"]["area_m2"].get<double>();
+  EXPECT_NEAR(report["input"]["area_m2"].get<double>() / area, 1.0, 0.01);
+  EXPECT_GT(report["refine"]["steiner_points"].get<int>(), 0);
+  EXPECT_LT(report["refine"]["steiner_points"].get<int>(), report["mesh"]["vertices"].get<int>());
+}
+
 // Half of a small lake is cut off: a third of a percent of all water.
 TEST_F(CoastFollow, WhatIsLeftOutIsAShareOfAllWaters) {
   const LonLatRing large{{0, 0}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}};

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "tests/cli/program.hpp"
 
 namespace coastmesh::test {
@@ -130,6 +132,39 @@ TEST_F(IdleInputs, ALineThatMeetsNoLakeIsNotedOnce) {
   EXPECT_NE(text.find(note), std::string::npos) << text;
   EXPECT_EQ(text.find(note), text.rfind(note));
   EXPECT_EQ(text.find("passage 'wet' meets"), std::string::npos) << text;
+}
+
+// Lines without names, and regions with the same number, count for their own file alone.
+TEST_F(IdleInputs, OfSeveralFilesWithoutNamesTheIdleOnesAreWarnedOf) {
+  const auto unnamed = [&](const std::string& name, const std::string& geometry) {
+    return write(name, R"({"type":"Feature","id":7,"properties":{},"geometry":)" + geometry + "}");
+  };
+  const std::string line = R"({"type":"LineString","coordinates":)", region = R"({"type":"Polygon","coordinates":)";
+  const std::string wet_line = unnamed("wet_line.geojson", line + "[[-87.8,47.7],[-87.6,47.7]]}");
+  const std::string dry_line = unnamed("dry_line.geojson", line + "[[20,50],[21,50]]}");
+  const std::string wet_region =
+      unnamed("wet_region.geojson", region + "[[[-87.8,47.6],[-87.6,47.6],[-87.6,47.8],[-87.8,47.6]]]}");
+  const std::string dry_region = unnamed("dry_region.geojson", region + "[[[20,50],[21,50],[21,51],[20,50]]]}");
+  for (const auto& [option, wet, dry] :
+       {std::tuple("--constraints", wet_line, dry_line), std::tuple("--weirs", wet_line, dry_line),
+        std::tuple("--regions", wet_region, dry_region)}) {
+    const ProgramRun run = runProgram({"mesh", inputFile("lines/lake.geojson"), "--size", "5000", option, wet, option,
+                                       dry, "-o", file("lake.nc"), "--overwrite"});
+    EXPECT_EQ(run.code, 0) << run.errors;
+    EXPECT_THAT(run.errors, HasSubstr(std::string(option) + " " + dry + ": no"));
+    EXPECT_THAT(run.errors, Not(HasSubstr(wet + ": no")));
+  }
+}
+
+// Both have the line, so that neither is idle.
+TEST_F(IdleInputs, TheSameLinesInTwoFilesAreNotWarnedOf) {
+  const std::string line = R"({"type":"Feature","properties":{},"geometry":)"
+                           R"({"type":"LineString","coordinates":[[-87.8,47.7],[-87.6,47.7]]}})";
+  const ProgramRun run =
+      runProgram({"mesh", inputFile("lines/lake.geojson"), "--size", "5000", "--constraints", write("a.geojson", line),
+                  "--constraints", write("b.geojson", line), "-o", file("lake.nc")});
+  EXPECT_EQ(run.code, 0) << run.errors;
+  EXPECT_EQ(run.errors, "");
 }
 
 TEST_F(IdleInputs, BeyondTheBoxAreWarnedOf) {

@@ -180,6 +180,55 @@ TEST_F(PerFeature, LinesWithOtherLongitudesOfTheSamePlaceArePartOfTheMesh) {
   }
 }
 
+// A file may have no effect on one feature and one on another; what has none on any is told once.
+TEST_F(PerFeature, InputsWithoutEffectOnAnyFeatureAreWarnedOf) {
+  const std::string input = lakes();
+  const std::string near = writeFeatures(Json::array({lineIn(6, 50, 0.03)}), "near.geojson");
+  const std::string far = writeFeatures(Json::array({lineIn(60, 5, 0.03)}), "far.geojson");
+  const std::string sizes = writeFeatures(Json::array({lineIn(60, 5, 0.03, {{"size", 100}})}), "sizes.geojson");
+  const std::string area = writeFeatures(Json::array({square(60, 5, 0.03, Json::object())}), "area.geojson");
+  const ProgramRun run = mesh(input, {"-o", file("{}.2dm"), "--constraints", near, "--constraints", far,
+                                      "--constraints", area, "--size-features", sizes, "--report", file("r.json")});
+  EXPECT_EQ(run.code, 0) << run.errors;
+  const Json warnings = Json::parse(readText(file("r.json")))["warnings"];
+  ASSERT_EQ(warnings.size(), 3u) << warnings;
+  EXPECT_THAT(warnings[0].get<std::string>(), HasSubstr(area + ": its polygons are left out"));
+  EXPECT_THAT(warnings[1].get<std::string>(), HasSubstr(far + ": nothing of it lies in the water"));
+  EXPECT_THAT(warnings[2].get<std::string>(), HasSubstr(sizes + ": none of them lies in the mesh"));
+  // A share of the features may have no use for them.
+  EXPECT_EQ(mesh(input, {"-o", file("s-{}.2dm"), "--constraints", far, "--shard", "1/2"}).errors, "");
+}
+
+TEST_F(PerFeature, NotesAreToldOnceOrWithTheirFeature) {
+  const ProgramRun run = mesh(lakes(), {"-o", file("{}.2dm"), "--size", "200", "--size-min", "300", "--coast", "follow",
+                                        "--target", "mpas", "--report", file("r.json")});
+  EXPECT_LE(run.code, 1) << run.errors;
+  const Json notes = Json::parse(readText(file("r.json")))["input"]["notes"];
+  ASSERT_GE(notes.size(), 2u);
+  std::size_t of_angles = 0, of_sizes = 0;
+  for (const Json& note : notes) {
+    of_angles += note.get<std::string>().starts_with("no angle above 89 degrees");
+    of_sizes += note.get<std::string>().starts_with("--size 200 is less than --size-min 300");
+    EXPECT_THAT(run.output, HasSubstr(note.get<std::string>()));
+  }
+  EXPECT_EQ(of_angles, 1u) << notes;
+  EXPECT_EQ(of_sizes, 1u) << notes;
+}
+
+TEST_F(PerFeature, SizesFromAPipeApplyToAllFeatures) {
+  const std::string input = lakes();
+  const std::string sizes =
+      writeFeatures({lineIn(5, 50, 0.01, {{"size", 50}}), lineIn(5.01, 50, 0.01, {{"size", 50}})}, "sizes.geojson");
+  ASSERT_EQ(mesh(input, {"-o", file("file-{}.2dm"), "--size-features", sizes, "--size", "300"}).code, 0);
+  const ProgramRun run = runShell("cat " + sizes + " | \"$0\" mesh " + input + " --per-feature -o " +
+                                  file("pipe-{}.2dm") + " --size-features - --size 300");
+  EXPECT_EQ(run.code, 0) << run.errors;
+  for (const char* fid : {"0", "1", "2", "3"})
+    EXPECT_TRUE(readText(file("file-" + std::string(fid) + ".2dm")) ==
+                readText(file("pipe-" + std::string(fid) + ".2dm")))
+        << fid;
+}
+
 TEST_F(PerFeature, BoundsThatAreMissedMakeExitCodeOne) {
   const ProgramRun run =
       mesh(lakes(), {"-o", file("{}.2dm"), "--size", "50", "--max-vertices", "40", "--report", file("r.json")});

@@ -53,7 +53,9 @@ TEST(MarkRegions, TheFirstThatHoldsATriangleCounts) {
   for (std::size_t m = 0; m < members.size(); ++m) members[m] = m;
   TriMesh mesh = squares();
   Coastline names = coastlineOf({polygonFeature(0, {})});
-  markRegions(coastline, members, Projection::plane(), mesh, names);
+  const std::vector<std::uint32_t> used = markRegions(coastline, members, Projection::plane(), mesh, names);
+  EXPECT_EQ(used.size() + 1, names.features.size());
+  EXPECT_TRUE(std::ranges::is_sorted(used));
   RegionId next = 1;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const int x = static_cast<int>(t / 2) % kSide, y = static_cast<int>(t / 2) / kSide;
@@ -102,7 +104,7 @@ TEST(MarkRegions, WithoutRegionsNothingChanges) {
   const Coastline coastline = coastlineOf({polygonFeature(0, square(0, 0, kSide))});
   TriMesh mesh = squares();
   Coastline names = coastlineOf({polygonFeature(0, {})});
-  markRegions(coastline, {0}, Projection::plane(), mesh, names);
+  EXPECT_TRUE(markRegions(coastline, {0}, Projection::plane(), mesh, names).empty());
   EXPECT_EQ(mesh.regions, std::vector<RegionId>(mesh.triangles.size(), 0));
   EXPECT_EQ(names.features.size(), 1u);
 }
