@@ -512,7 +512,11 @@ bool plotMesh(const Grid& grid, const PlotOptions& options, const std::string& p
   if (shown.empty()) throw InputError("the mesh has no triangle in the box asked for");
   const Projection projection = fitProjection(grid, shown);
   GridPiece piece = makePiece(grid, std::move(shown), projection, LineEdges(grid));
-  if (!options.bbox && isTooLargeForAPlane(piece)) return false;
+  if (isTooLargeForAPlane(piece)) {
+    if (!options.bbox) return false;
+    throw OptionError("--bbox shows too much of the Earth for a plane: make it smaller, or leave it out and give --view "
+                      "natural-earth or orthographic");
+  }
   if (options.color == PlotColor::Piece) {
     for (std::size_t t = 0; t < piece.triangles.size(); ++t)
       piece.mesh.regions[t] = static_cast<RegionId>(grid.piece_of[piece.triangles[t]]);

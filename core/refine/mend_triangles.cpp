@@ -1,6 +1,7 @@
 #include "core/refine/mend_triangles.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -123,8 +124,11 @@ bool insertPoint(RefineRun& run, TriId t, unsigned apex) {
     for (const TriId c : patch.triangles)
       if (fillsCorner(run, c, corner)) return run.variant.opens_corners && splitSide(run, c, corner, t, apex);
 
+  const std::array<VertexId, 3> corners = mesh.triangle(t).v;
   const VertexId v = mesh.insertInCavity(candidate.place, patch, run.touched);
   noteVertex(run, v, spacing);
+  // A point on the triangle's own circumcircle leaves it there, as obtuse as before. With sizes, optimisation mends it.
+  if (run.options.size == nullptr && mesh.triangle(t).v == corners) run.touched.push_back(t);
   ++run.stats.by_type[static_cast<unsigned>(candidate.type)];
   enqueueTouched(run);
   return true;

@@ -41,6 +41,8 @@ RefineStats finish(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options
 // Up to this many points it costs next to nothing to refine in several ways and keep the smallest mesh after
 // coarsening.
 constexpr VertexId kFewPoints = 64;
+// Large meshes of few points come from a bound on lengths; other variants hardly need fewer vertices there.
+constexpr std::size_t kLargeMesh = 2000;
 
 // Largest usual aim (degrees): few points need less slack than many.
 constexpr double kMostUsualAim = 1.0;
@@ -71,6 +73,7 @@ RefineStats refine(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options
       finish(mesh, pslg, options, refineOnce(mesh, pslg, options, notes, usualVariant(options), control));
   if (!few || !stats.unresolved.empty() || stats.budget_reached) return stats;
   if (mesh.points.size() == mesh.input_vertices) return stats;  // the smallest possible
+  if (mesh.points.size() > kLargeMesh) return stats;
   std::size_t smallest = coarsenedSize(mesh, pslg, options, control);
   // Meshes of the same points are the same, except for ties: three in four of the further ones.
   std::vector<std::vector<Point>> known{mesh.points};
