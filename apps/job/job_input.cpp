@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <bit>
 #include <filesystem>
+#include <functional>
+#include <limits>
+#include <numeric>
 
 #include "apps/job/places.hpp"
 #include "apps/job/working_plane.hpp"
+#include "core/delaunay.hpp"
 #include "gis/clean/geodesic_area.hpp"
 #include "gis/coast/group_features.hpp"
 #include "gis/crs/geodesy.hpp"
@@ -352,6 +356,66 @@ std::optional<double> JobInput::area(std::size_t group) const {
 std::optional<double> JobInput::area(const Domain& domain, const ItemLoop& loop) const {
   if (poly_) return std::nullopt;
   return geodesicArea(domain, coastline_.crs, loop);
+}
+
+namespace {
+
+// Returns nullopt for a group of which nothing can be meshed.
+std::optional<Domain> domainOf(const JobInput& input, std::size_t group, const ItemLoop& loop) {
+  CleanReport ignored;
+  try {
+    return input.domain(group, ignored, loop);
+  } catch (const InputError&) {
+    return std::nullopt;
+  } catch (const BadPslg&) {
+    return std::nullopt;
+  }
+}
+
+// The area of each group's polygons, whatever frames and regions are in it. Its domain has at most this area, unless
+// parts of a polygon were cut off.
+std::vector<double> polygonAreas(const JobInput& input, const ItemLoop& loop) {
+  const std::vector<Feature>& features = input.coastline().features;
+  std::vector<double> areas(input.groups());
+  forEachByStretches(loop, areas.size(), [&](std::size_t g) {
+    std::vector<std::size_t> own;
+    std::ranges::copy_if(input.members(g), std::back_inserter(own), [&](std::size_t member) {
+      return features[member].use == FeatureUse::Area || features[member].use == FeatureUse::Land;
+    });
+    areas[g] = geodesicArea(input.coastline(), own);
+  });
+  return areas;
+}
+
+bool isClipped(const JobInput& input, std::size_t group) {
+  return std::ranges::any_of(input.members(group),
+                             [&](std::size_t member) { return input.coastline().features[member].clipped; });
+}
+
+}  // namespace
+
+std::optional<LargestGroup> largestGroup(const JobInput& input, const ItemLoop& loop) {
+  const std::vector<double> areas = polygonAreas(input, loop);
+  std::vector<double> bounds = areas;
+  for (std::size_t g = 0; g < bounds.size(); ++g)
+    if (isClipped(input, g)) bounds[g] = std::numeric_limits<double>::infinity();
+  std::vector<std::size_t> order(bounds.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::ranges::greater(), [&](std::size_t g) { return bounds[g]; });
+  std::optional<LargestGroup> largest;
+  double most = 0.0;
+  for (const std::size_t g : order) {
+    if (largest && bounds[g] <= most) break;
+    std::optional<Domain> domain = domainOf(input, g, loop);
+    if (!domain) continue;
+    const double area = input.area(*domain, loop).value_or(0.0);
+    if (largest && !(area > most)) continue;
+    most = area;
+    largest = {g, std::move(*domain), 1.0};
+  }
+  const double all = std::accumulate(areas.begin(), areas.end(), 0.0);
+  if (largest && all > 0.0) largest->share = areas[largest->group] / all;
+  return largest;
 }
 
 }  // namespace coastmesh

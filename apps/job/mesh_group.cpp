@@ -30,7 +30,6 @@
 #include "gis/size/globe_start.hpp"
 #include "gis/size/guide_lines.hpp"
 #include "gis/size/node_sizes.hpp"
-#include "gis/size/size_choice.hpp"
 #include "parallel/recorder.hpp"
 #include "parallel/region_checkpoint.hpp"
 #include "parallel/stage_progress.hpp"
@@ -353,10 +352,7 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
     result.log.append(recorder.finish());
     return made;
   }
-  const SizeOptions wanted = job.sizes.choose ? chooseSizes(job.sizes, sizes, domain, loop) : job.sizes;
-  if (job.sizes.choose)
-    result.notes.push_back("sizes were chosen from the extent and the depths, as with " + sizesAsOptions(wanted) +
-                           "; give --size-shore or any other size to choose them yourself");
+  const SizeOptions& wanted = job.sizes;
   const auto makeSizes = [&](const Domain& of, SizeAccuracy accuracy) {
     return makeSizeFunction(wanted, sizes, of, most, loop, accuracy);
   };
@@ -392,7 +388,7 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
     if (job.keep_edits) std::ranges::move(coarser.edits, std::back_inserter(result.edit_places));
   }
   noteFilledWater(sized.filled, wanted, result);
-  if (!job.sizes.choose) result.raised_shore = sized.raised;
+  result.raised_shore = sized.raised;
   VertexDemand& demand = sized.demand;
   demand.vertices += verticesOfSegments(domain.pslg, *sized.function, std::max(0.0, 2.0 * most - demand.vertices),
                                         domain.projection.surface());

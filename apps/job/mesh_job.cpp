@@ -30,6 +30,7 @@
 #include "gis/grid/ground_orientation.hpp"
 #include "gis/grid/local_plane.hpp"
 #include "gis/model/shore_for_sizes.hpp"
+#include "gis/size/size_choice.hpp"
 #include "parallel/free_memory.hpp"
 #include "parallel/recorder.hpp"
 #include "parallel/workers.hpp"
@@ -449,8 +450,37 @@ void tellIdleInputs(const MeshJob& job, const SizeInputs& sizes, const Coastline
     if (regions == result.regions) result.read.notes.push_back(text);
 }
 
-MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
+// True if waters of groups without an open boundary are left out of the finished grid.
+bool dropsWatersApart(const MeshJob& job) {
+  return job.sizes.coast == CoastDetail::Follow && !job.finish.targets.empty() &&
+         (!job.sizes.keep_water_given || job.sizes.follow.keep == KeepWater::Open);
+}
+
+// Chooses the sizes of all groups, from the largest of them: all shards have the same.
+SizeOptions chosenSizes(const MeshJob& job, const JobInput& input, const SizeInputs& sizes, const ItemLoop& loop) {
+  const std::optional<LargestGroup> largest = largestGroup(input, loop);
+  if (!largest) return job.sizes;
+  return chooseSizes(job.sizes, sizes, largest->domain, loop, dropsWatersApart(job) ? 1.0 : largest->share);
+}
+
+// Does nothing unless sizes are to be chosen.
+void settleSizes(const JobInput& input, const SizeInputs& sizes, const JobControl& control, MeshJob& job,
+                 MeshJobResult& result) {
+  if (!job.sizes.choose) return;
+  const Stopwatch choosing;
+  Recorder recorder;
+  job.sizes = chosenSizes(job, input, sizes, recorder.loop("size", RunControl{control.cancelled, {}}));
+  result.seconds.size += choosing.seconds();
+  result.log.append(recorder.finish("size"));
+  if (job.sizes.choose) return;  // nothing can be meshed
+  result.read.notes.push_back("sizes were chosen from the extent and the depths, as with " + sizesAsOptions(job.sizes) +
+                              ", besides the options given; give --size-shore or any other size to choose them "
+                              "yourself");
+}
+
+MeshJobResult runOnThreads(const MeshJob& given, const JobControl& control) {
   const Stopwatch whole;
+  MeshJob job = given;
   MeshJobResult result;
   if (control.progress) control.progress("read", 0.0);
   Recorder reading;
@@ -485,6 +515,8 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   if (control.cancelled && control.cancelled()) throw Cancelled();
   if (control.progress) control.progress("read", 1.0);
 
+  settleSizes(input, sizes, control, job, result);
+  result.sizes = job.sizes;
   const std::vector<MergedGroup> merged = meshGroups(job, input, sizes, control, result);
   giveBackFreeMemory();
   result.grid.crs = result.crs;
@@ -501,12 +533,11 @@ MeshJobResult runOnThreads(const MeshJob& job, const JobControl& control) {
   }
   result.mesh_area_m2 = std::accumulate(result.grid.area_m2.begin(), result.grid.area_m2.end(), 0.0);
   if (job.sizes.coast == CoastDetail::Follow) noteFollowed(job, result);
-  noteRaisedShore(result);
+  if (!given.sizes.choose) noteRaisedShore(result);
   result.log.append(recorder.finish("grid"));
   finish.repair = {job.sizes.time_step_s / job.sizes.courant, job.sizes.coast == CoastDetail::Follow,
                    job.mesh.refine.min_angle_deg, job.mesh.refine.max_angle_deg};
-  finish.drop_apart = job.sizes.coast == CoastDetail::Follow && !finish.targets.empty() &&
-                      (!job.sizes.keep_water_given || job.sizes.follow.keep == KeepWater::Open);
+  finish.drop_apart = dropsWatersApart(job);
   if (finish.any()) {
     const Stopwatch finishing;
     RunControl inner{control.cancelled, {}};

@@ -79,6 +79,7 @@ struct CheckpointUse {
 struct MeshJobResult {
   Grid grid;  // without triangles if every feature was refused
   ReadReport read;
+  SizeOptions sizes;  // as asked for, or as chosen
   Crs crs;
   std::array<std::uint64_t, kEditKinds> edits{};
   std::vector<Edit> edit_places;                     // if the job keeps them: by cleaning, and by following sizes

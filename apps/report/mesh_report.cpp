@@ -56,13 +56,14 @@ Json unresolvedSection(const MeshJobResult& result) {
 Json refineSection(const MeshJob& job, const MeshJobResult& result) {
   const RefineOptions& options = job.mesh.refine;
   const RefineStats& stats = result.refine;
+  const SizeOptions& sizes = result.sizes;
   return {{"algorithm", kAlgorithmNames[static_cast<std::size_t>(options.algorithm)]},
           {"min_angle_deg", options.min_angle_deg},
           {"max_angle_deg", options.max_angle_deg},
-          {"size_max_m", finiteOrNull(job.sizes.most_m)},
-          {"sized", job.sizes.any()},
-          {"grade", job.sizes.gradation},
-          {"estimated_vertices", job.sizes.any() ? finiteOrNull(std::round(result.estimated_vertices)) : Json(nullptr)},
+          {"size_max_m", finiteOrNull(sizes.most_m)},
+          {"sized", sizes.any()},
+          {"grade", sizes.gradation},
+          {"estimated_vertices", sizes.any() ? finiteOrNull(std::round(result.estimated_vertices)) : Json(nullptr)},
           {"coarsen", job.mesh.coarsen},
           {"shrink", job.mesh.coarsen},  // deprecated: the former name of `coarsen`
           {"smooth", job.mesh.smooth},
@@ -234,7 +235,7 @@ std::string meshReport(const MeshJob& job, const MeshJobResult& result, int thre
                     {"mesh", meshSection(result)},
                     {"depth", Json::parse(depthSection(job.finish, result.finish))},
                     {"boundaries", Json::parse(boundarySection(job.finish, result.finish, result.grid))},
-                    {"step", outcomeSection(result.step, job.sizes)},
+                    {"step", outcomeSection(result.step, result.sizes)},
                     {"lines", lineSection(result.grid)},
                     {"repairs", Json::parse(repairSection(result.finish))},
                     {"partition", partitionSection(result.partition)},
@@ -278,7 +279,7 @@ std::string meshSummary(const MeshJob& job, const MeshJobResult& result) {
       text += "measured on the " + std::string(kSurfaceNames[static_cast<std::size_t>(kind)]) +
               (count < result.regions ? ": " + grouped(count) + " of " + grouped(result.regions) + " regions" : "") +
               "\n";
-  if (job.sizes.any())
+  if (result.sizes.any())
     text += "about " + grouped(static_cast<std::uint64_t>(std::min(result.estimated_vertices, 1e18))) +
             " vertices were expected from these sizes\n";
   if (quality.bounds.below > 0) text += boundText(quality.bounds) + "\n";
@@ -289,7 +290,8 @@ std::string meshSummary(const MeshJob& job, const MeshJobResult& result) {
                   asked.min_angle_deg, asked.max_angle_deg);
     text += grouped(result.short_of.count) + forCount(result.short_of.count, " triangle misses", " triangles miss") +
             " a requirement (" + bound;
-    if (std::isfinite(job.sizes.most_m) && !job.sizes.any()) text += amount(", --size-max %g", job.sizes.most_m);
+    if (std::isfinite(result.sizes.most_m) && !result.sizes.any())
+      text += amount(", --size-max %g", result.sizes.most_m);
     text += ")\n";
   }
   text += stepText(result.step.step, result.crs.isPlane()) + "\n";

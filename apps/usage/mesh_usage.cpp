@@ -20,6 +20,13 @@ Enum named(const char* const (&names)[kCount], const std::string& name) {
   return static_cast<Enum>(std::ranges::find(names, name) - std::begin(names));
 }
 
+// True if sizes are to be chosen, for a model's sea without any. To be called before `settle`.
+bool choosesSizes(const MeshJob& job) {
+  const bool is_framed = job.input.frame.box.has_value() || !job.input.clip.empty();
+  const bool is_for_model = !job.finish.targets.empty() && !job.finish.depth.files.empty();
+  return is_framed && is_for_model && !job.sizes.any() && job.sizes.most_m == SizeOptions::kNone;
+}
+
 // MPAS requires circumcentres inside their triangles.
 void chooseLargestAngle(MeshUsage& usage) {
   constexpr double kWellCentredDeg = 89.0;
@@ -49,7 +56,7 @@ void declareMeshOptions(OptionTable& table, MeshUsage& usage) {
             "remove unneeded vertices, which the bounds do not require; by default only with --algorithm relocate",
             &usage.coarsen_given)
       .formerly({"--shrink", "--no-shrink"});
-  declareSizing(table, usage.job.sizes, usage.sizing);
+  declareSizing(table, usage.job.sizes, usage.sizing, [&usage] { return choosesSizes(usage.job); });
   table.section(Section::Triangles);
   table.flag({"--smooth,!--no-smooth", "Optimise longer"}, usage.job.mesh.smooth,
              "optimise longer; without sizes, shapes are optimised only with this option");
@@ -61,7 +68,8 @@ void declareMeshOptions(OptionTable& table, MeshUsage& usage) {
       .needs(
           [&usage] {
             const MeshOptions& mesh = usage.job.mesh;
-            return usage.quality == "centred" || mesh.smooth || (usage.job.sizes.any() && mesh.coarsen);
+            const bool is_sized = usage.job.sizes.any() || choosesSizes(usage.job);
+            return usage.quality == "centred" || mesh.smooth || (is_sized && mesh.coarsen);
           },
           "without sizes or --smooth")
       .needs(
@@ -105,8 +113,7 @@ void requireGlobe(const InputOptions& input, const SizeOptions& sizes) {
 }  // namespace
 
 void settle(MeshUsage& usage) {
-  const bool framed = usage.job.input.frame.box.has_value() || !usage.job.input.clip.empty();
-  settleSizing(usage.sizing, usage.job.finish.depth, framed && !usage.job.finish.targets.empty(), usage.job.sizes);
+  settleSizing(usage.sizing, usage.job.finish.depth, choosesSizes(usage.job), usage.job.sizes);
   std::ranges::move(notesOnOverriddenSizes(usage.sizing, usage.job.sizes), std::back_inserter(usage.job.notes));
   requireGlobe(usage.job.input, usage.job.sizes);
   usage.job.mesh.refine.algorithm = named<Algorithm>(kAlgorithmNames, usage.algorithm);

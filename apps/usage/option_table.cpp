@@ -224,14 +224,16 @@ const OptionTable::Option& OptionTable::Option::needs(std::function<bool()> hold
   return *this;
 }
 
-const OptionTable::Option& OptionTable::Option::needs(std::vector<std::string> others) const {
+const OptionTable::Option& OptionTable::Option::needs(std::vector<std::string> others,
+                                                      const std::function<bool()>& in_place) const {
   const std::string text = "without " + std::string(others.size() > 1 ? "one of " : "") + joined(others, ", ");
   table_->impl_->declared(name_).json["needs"].push_back(others);
   const Impl* impl = table_->impl_.get();
   return needs(
-      [impl, others] {
+      [impl, others, in_place] {
         // Evaluates all of them, so that an undeclared name throws.
-        return std::ranges::count_if(others, [impl](const std::string& other) { return impl->fulfilled(other); }) > 0;
+        const auto isFulfilled = [impl](const std::string& other) { return impl->fulfilled(other); };
+        return std::ranges::count_if(others, isFulfilled) > 0 || (in_place && in_place());
       },
       text);
 }

@@ -31,7 +31,9 @@ const std::vector<std::string> kSizes = {"--size",           "--size-shore",    
 
 }  // namespace
 
-void declareSizing(OptionTable& table, SizeOptions& sizes, SizingUsage& usage) {
+void declareSizing(OptionTable& table, SizeOptions& sizes, SizingUsage& usage, const std::function<bool()>& chooses) {
+  const auto follows = [&usage, chooses] { return !usage.coast_given && chooses(); };
+  const auto keepsTime = [&usage, chooses] { return !usage.time_step_given && chooses(); };
   constexpr NumberRange kAboveZero{0.0, kInfinity, true};
   constexpr NumberRange kNotNegative{0.0, kInfinity};
   table.section(Section::Sizes);
@@ -41,18 +43,18 @@ void declareSizing(OptionTable& table, SizeOptions& sizes, SizingUsage& usage) {
       .number({"--size-min", "Minimum size"}, sizes.least_m, "M", kNotNegative,
               "no size is smaller; with --coast follow edges shorter than 0.7 of it are avoided, "
               "at the shore too; those left are reported, with exit code 1 if one is shorter than half of it")
-      .needs(kSizes);
+      .needs(kSizes, chooses);
   table.number({"--size-max", "Maximum size"}, sizes.most_m, "M", kAboveZero,
                "no size is larger; without any other size, no edge is longer");
   table
       .number({"--grade", "Gradation of sizes"}, sizes.gradation, "G", {0.0, 1.0, true},
               "sizes at two places differ by at most this times their distance", &usage.grade_given)
-      .needs(kSizes);
+      .needs(kSizes, chooses);
   table.number({"--size-shore", "Size at the shore"}, sizes.shore_m, "M", kAboveZero, "edge length at the shore");
   table
       .number({"--shore-rate", "Growth away from the shore"}, sizes.shore_rate, "R", {0.0, 1000.0},
               "how fast that size grows with the distance from the shore", &usage.shore_rate_given)
-      .needs({"--size-shore"});
+      .needs({"--size-shore"}, chooses);
   table.number({"--channel-elements", "Elements across channels"}, sizes.channel_elements, "N", {0.0, 1000.0},
                "elements across channels and straits; 0: not used");
   table.texts({"--size-features", "Features with sizes"}, sizes.features, kVectorFile, false,
@@ -65,7 +67,7 @@ void declareSizing(OptionTable& table, SizeOptions& sizes, SizingUsage& usage) {
   table
       .number({"--wave-period", "Wave period"}, sizes.depth.period_s, "S", {0.1, 1e8},
               "period of that wave; default: the M2 tide")
-      .needs({"--wave-elements"});
+      .needs({"--wave-elements"}, chooses);
   table.number({"--slope-elements", "Elements per slope length"}, sizes.depth.slope_elements, "N", {0.0, 1000.0},
                "elements per length of 2 pi times depth over slope; 0: not used");
   table
@@ -88,17 +90,17 @@ void declareSizing(OptionTable& table, SizeOptions& sizes, SizingUsage& usage) {
   table
       .number({"--channel-min", "Narrowest channel"}, sizes.follow.channel_min, "N", {0.0, 100.0},
               "with --coast follow: close water narrower than N times the size there; 0 closes none")
-      .needs({"--coast follow"});
+      .needs({"--coast follow"}, follows);
   table
       .number({"--strait-min", "Narrowest strait"}, sizes.follow.strait_min, "N", {0.0, 100.0},
               "with --coast follow: a narrow connection of waters, at least N times the size there wide, is widened to "
               "--channel-min times the size instead of closed, if this takes less than a quarter of the water behind "
               "it; N of --channel-min or more widens none")
-      .needs({"--coast follow"});
+      .needs({"--coast follow"}, follows);
   table
       .number({"--land-min", "Narrowest land"}, sizes.follow.land_min, "N", {0.0, 100.0},
               "with --coast follow: remove spits and capes narrower than N times the size there; 0 keeps them")
-      .needs({"--coast follow"});
+      .needs({"--coast follow"}, follows);
   table
       .choice(
           {"--keep-water", "Waters to keep"}, "auto", {"auto", "largest", "open", "all"},
@@ -112,12 +114,12 @@ void declareSizing(OptionTable& table, SizeOptions& sizes, SizingUsage& usage) {
           "open boundary, or the largest if there are none; all; auto: all, but with --target those at an open "
           "boundary, without parts less than a tenth as large as the largest of them (or the largest part of all if "
           "they are less than a tenth of the water)")
-      .needs({"--coast follow"});
+      .needs({"--coast follow"}, follows);
   table
       .texts({"--passages", "Passages to keep open"}, sizes.passages, kVectorFile, false,
              "with --coast follow: lines along which water stays open, widened to --passage-elements where it is "
              "narrower; their attribute 'name' is reported")
-      .needs({"--coast follow"});
+      .needs({"--coast follow"}, follows);
   table
       .number({"--passage-elements", "Elements across passages"}, sizes.passage_elements, "N", {0.5, 100.0},
               "elements across passages")
@@ -125,20 +127,21 @@ void declareSizing(OptionTable& table, SizeOptions& sizes, SizingUsage& usage) {
   table
       .texts({"--barriers", "Barriers"}, sizes.barriers, kVectorFile, false,
              "with --coast follow: lines along which water is closed, half an element wide")
-      .needs({"--coast follow"});
+      .needs({"--coast follow"}, follows);
   table.section(Section::Sizes);
   table.number({"--time-step", "Time step"}, sizes.time_step_s, "S", {0.0, 1e6},
                "no element is smaller than --courant allows for this time step: sizes are at least 5/3 of that, as the "
                "shortest edges come out at 0.6 of the size; triangles that miss it are reported, with exit code 1; 0: "
-               "not used");
+               "not used",
+               &usage.time_step_given);
   table
       .number({"--courant", "Maximum Courant number"}, sizes.courant, "C", {1e-3, 1e3},
               "sqrt(9.81 depth) times the time step over the shortest edge of a triangle, with the depth of its "
               "deepest corner")
-      .needs({"--time-step"});
+      .needs({"--time-step"}, keepsTime);
 }
 
-void settleSizing(const SizingUsage& usage, const DepthOptions& depths, bool may_choose, SizeOptions& sizes) {
+void settleSizing(const SizingUsage& usage, const DepthOptions& depths, bool choose, SizeOptions& sizes) {
   sizes.bathymetry = depths.files;
   sizes.gaps = depths.fill == DepthFill::None      ? GapFill::None
                : depths.fill == DepthFill::Nearest ? GapFill::Nearest
@@ -146,13 +149,14 @@ void settleSizing(const SizingUsage& usage, const DepthOptions& depths, bool may
   sizes.depth.positive_down = depths.positive_down;
   sizes.depth.water_level_m = depths.water_level_m;
   sizes.depth.least_depth_m = std::max(sizes.depth.least_depth_m, depths.min_depth_m);
-  if (may_choose && !depths.files.empty() && !sizes.any() && sizes.most_m == SizeOptions::kNone) {
+  if (choose) {
     constexpr double kGradation = 0.2, kWaveElements = 100.0, kTimeStep = 5.0;
     sizes.choose = true;
     sizes.gradation = usage.grade_given ? sizes.gradation : kGradation;
     sizes.depth.wave_elements = kWaveElements;
-    if (sizes.time_step_s == 0.0) sizes.time_step_s = kTimeStep;
+    if (!usage.time_step_given) sizes.time_step_s = kTimeStep;
     if (!usage.coast_given) sizes.coast = CoastDetail::Follow;
+    sizes.given = {usage.shore_rate_given, usage.grade_given, usage.time_step_given, usage.coast_given};
   }
   if (!usage.filter_given) sizes.depth.slope_filter_m = sizes.least_m;
   if (sizes.least_m > sizes.most_m) throw OptionError("--size-min is more than --size-max");
@@ -190,7 +194,7 @@ std::vector<std::string> notesOnOverriddenSizes(const SizingUsage& usage, const 
   compare("--size-shore " + text(sizes.shore_m), sizes.shore_m);
   for (const DepthBand& band : sizes.depth.bands)
     compare("--depth-band " + text(band.from_m) + "," + text(band.to_m) + "," + text(band.size_m), band.size_m);
-  if (usage.shore_rate_given && std::isfinite(sizes.shore_m) && sizes.shore_rate > sizes.gradation)
+  if (usage.shore_rate_given && (sizes.choose || std::isfinite(sizes.shore_m)) && sizes.shore_rate > sizes.gradation)
     note("--shore-rate " + text(sizes.shore_rate), true, "--grade", sizes.gradation);
   return notes;
 }

@@ -1,10 +1,11 @@
 #include "gis/size/size_choice.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 
 #include "core/size/on_surface.hpp"
+#include "gis/clean/geodesic_area.hpp"
 #include "gis/geometry/box.hpp"
 
 namespace coastmesh {
@@ -20,48 +21,59 @@ constexpr int kRounds = 8;
 constexpr double kMostGrowth = 1000.0;
 // Smaller sizes are of no use if they raise the number of vertices by no more than this factor.
 constexpr double kHardlyMore = 1.05;
+constexpr double kBetweenProbes = 1.1;
 
 // Rounds to two digits, as a person would.
 double rounded(double size) {
-  const double unit = std::pow(10.0, std::floor(std::log10(size)) - 1.0);
-  return std::round(size / unit) * unit;
+  const double place = std::floor(std::log10(size)) - 1.0;
+  const double unit = std::pow(10.0, std::abs(place));  // a whole number, so that the result is the nearest to 0.3
+  return place < 0.0 ? std::round(size * unit) / unit : std::round(size / unit) * unit;
 }
 
 struct Expected {
   double vertices = 0.0;
   bool has_shore = true;
+  double floor_m = 0.0;  // the largest size that the time step requires
 };
 
 Expected expectedFor(const SizeOptions& options, const SizeInputs& inputs, const Domain& domain, const ItemLoop& loop) {
   constexpr double kFarTooMany = 100.0 * kVertices;
   try {
     const DomainSizes sizes = makeSizeFunction(options, inputs, domain, kFarTooMany, loop);
-    return {sizes.demand.vertices, sizes.has_shore};
+    return {sizes.demand.vertices, sizes.has_shore, sizes.floor_m};
   } catch (const TooManyVertices& error) {
-    return {std::max(kFarTooMany, error.demand.vertices)};
+    return {.vertices = std::max(kFarTooMany, error.demand.vertices)};
   }
+}
+
+// Square metres, or units of the plane if coordinates are used as they are.
+double waterArea(const Domain& domain, const SizeInputs& inputs) {
+  return geodesicArea(domain, domain.projection.isIdentity() ? Crs{} : inputs.crs);
 }
 
 }  // namespace
 
 SizeOptions chooseSizes(const SizeOptions& options, const SizeInputs& inputs, const Domain& domain,
-                        const ItemLoop& loop) {
+                        const ItemLoop& loop, double share) {
   Box box;
   for (const Point& p : domain.pslg.points) box.add(p);
   const Point middle{0.5 * (box.xmin + box.xmax), 0.5 * (box.ymin + box.ymax)};
   const double area = areaOn(domain.projection.surface(), {box.xmin, box.ymin}, {box.xmax, box.ymax});
   const double across = std::sqrt(area) / domain.projection.measureAt(middle);
-  const double most = rounded(across / kElementsAcross), finest = rounded(most / kMostGrowth);
+  const auto allowed = [&options](double size) { return std::max(rounded(size), options.least_m); };
+  const double most = allowed(across / kElementsAcross), finest = allowed(most / kMostGrowth);
   SizeOptions chosen = options;
   chosen.choose = false;
   chosen.most_m = most;
-  chosen.shore_m = rounded(most / 20.0);
+  chosen.shore_m = allowed(most / 20.0);
   SizeOptions before = chosen;
   double vertices_before = 0.0;
   bool has_shore = true, shore_decides = true;
   for (int round = 0; round < kRounds; ++round) {
     const Expected expected = expectedFor(chosen, inputs, domain, loop);
-    const double vertices = expected.vertices;
+    const double vertices = expected.vertices / share;
+    const double least_most = allowed(kBetweenProbes * expected.floor_m);
+    if (has_shore) chosen.most_m = std::max(chosen.most_m, least_most);
     if (has_shore && !expected.has_shore) {
       has_shore = shore_decides = false;
       chosen.shore_m = chosen.most_m = SizeOptions::kNone;
@@ -87,11 +99,13 @@ SizeOptions chooseSizes(const SizeOptions& options, const SizeInputs& inputs, co
     if (vertices > kFewEnough && size > most / 8.0)
       chosen.depth.wave_elements = std::round(0.6 * chosen.depth.wave_elements);
     if (!has_shore) {
-      chosen.size_m = rounded(std::min(size, most));
+      chosen.size_m = allowed(std::min(size, most));
     } else if (shore_decides || vertices > kFewEnough) {
-      chosen.shore_m = rounded(std::min(size, chosen.most_m));
+      chosen.shore_m = allowed(std::min(size, chosen.most_m));
     } else {
-      chosen.most_m = rounded(std::max(chosen.shore_m, chosen.most_m * std::sqrt(ratio)));
+      const double lacking = (kVertices - vertices) * share;
+      const double size_of_lacking = std::sqrt(2.0 / std::sqrt(3.0) * waterArea(domain, inputs) / lacking);
+      chosen.most_m = std::clamp(allowed(size_of_lacking), std::max(chosen.shore_m, least_most), chosen.most_m);
     }
   }
   return chosen;
@@ -100,20 +114,21 @@ SizeOptions chooseSizes(const SizeOptions& options, const SizeInputs& inputs, co
 std::string sizesAsOptions(const SizeOptions& options) {
   std::string text;
   const auto add = [&text](const char* option, double value) {
-    char number[40];
-    std::snprintf(number, sizeof number, " %.10g", value);
-    text += (text.empty() ? "" : " ") + std::string(option) + number;
+    char number[400];
+    const std::to_chars_result end = std::to_chars(number, number + sizeof number, value, std::chars_format::fixed);
+    text += (text.empty() ? "" : " ") + std::string(option) + " " + std::string(number, end.ptr);
   };
   if (std::isfinite(options.size_m)) add("--size", options.size_m);
   if (std::isfinite(options.shore_m)) {
     add("--size-shore", options.shore_m);
-    add("--shore-rate", options.shore_rate);
+    if (!options.given.shore_rate) add("--shore-rate", options.shore_rate);
   }
   if (std::isfinite(options.most_m)) add("--size-max", options.most_m);
-  add("--grade", options.gradation);
+  if (!options.given.gradation) add("--grade", options.gradation);
   add("--wave-elements", options.depth.wave_elements);
-  add("--time-step", options.time_step_s);
-  return text + (options.coast == CoastDetail::Follow ? " --coast follow" : " --coast keep");
+  if (!options.given.time_step) add("--time-step", options.time_step_s);
+  if (!options.given.coast) text += options.coast == CoastDetail::Follow ? " --coast follow" : " --coast keep";
+  return text;
 }
 
 }  // namespace coastmesh

@@ -8,13 +8,14 @@ namespace coastmesh {
 
 // Sizes for users who give none: a size at the shore for which 18,000 to 50,000 vertices are expected, and 20 elements
 // of the largest size across the domain. More across it if the shore is too short for so many vertices, and one size
-// everywhere if there is no shore. Sizes are rounded, to be written as options. Elements per wavelength are reduced if
-// the size at the shore does not determine the number of vertices; the other `options` (time step, gradation) are
-// unchanged. Throws like `makeSizeFunction`.
+// everywhere if there is no shore. No size is below the minimum of `options`, which may allow fewer vertices only.
+// Sizes are rounded, to be written as options. Elements per wavelength are reduced if the size at the shore does not
+// determine the number of vertices; the other `options` (time step, gradation) are unchanged. `share` of the vertices is
+// for this domain, the others are for the rest of the mesh. Throws like `makeSizeFunction`.
 SizeOptions chooseSizes(const SizeOptions& options, const SizeInputs& inputs, const Domain& domain,
-                        const ItemLoop& loop);
+                        const ItemLoop& loop, double share = 1.0);
 
-// As given on the command line: "--size-shore 1200 --size-max 40000 --grade 0.2 ...".
+// As given on the command line, besides the options that were given: "--size-shore 1200 --size-max 40000 ...".
 std::string sizesAsOptions(const SizeOptions& options);
 
 }  // namespace coastmesh

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <iterator>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "core/metric.hpp"
@@ -189,6 +190,29 @@ std::vector<std::unique_ptr<SizeField>> rasterFields(const std::vector<RasterGeo
   return by_rule;
 }
 
+// The centres of `across` by `across` squares, of those of a square that are wanted.
+template <typename IsWanted>
+std::vector<Point> probesOf(const SizeBox& square, int across, const IsWanted& is_wanted) {
+  const double step = 2.0 * square.half / across;
+  std::vector<Point> places;
+  for (int j = 0; j < across; ++j) {
+    for (int i = 0; i < across; ++i) {
+      const Point place = square.centre + Point{(i + 0.5) * step - square.half, (j + 0.5) * step - square.half};
+      if (is_wanted(SizeBox{place, 0.5 * step})) places.push_back(place);
+    }
+  }
+  return places;
+}
+
+// The largest value of a field in the domain, from probes.
+double largestOf(const SizeField& field, const DomainMask& mask, const SizeBox& square) {
+  constexpr int kProbes = 64;
+  const std::vector<Point> places = probesOf(square, kProbes, [&](const SizeBox& box) { return mask.meets(box); });
+  std::vector<double> sizes(places.size());
+  field.sample(places, sizes);
+  return std::accumulate(sizes.begin(), sizes.end(), 0.0, [](double a, double b) { return std::max(a, b); });
+}
+
 // The gradation to be reserved for changes of the measure k. The tree grades lengths k h on the surface, but lengths h
 // on the ground must be graded. k grad h is grad (k h) less h grad k: at most this value. In a plane k is the scale; on
 // a sphere it hardly changes. Infinite h counts as `most_m`.
@@ -196,13 +220,7 @@ double gradationForMeasure(const ComposedSizes& source, const ScaleTable& scales
                            double most_m) {
   constexpr int kProbes = 64;
   const double step = 2.0 * square.half / kProbes;
-  std::vector<Point> places;
-  for (int j = 0; j < kProbes; ++j) {
-    for (int i = 0; i < kProbes; ++i) {
-      const Point place = square.centre + Point{(i + 0.5) * step - square.half, (j + 0.5) * step - square.half};
-      if (source.isWanted({place, 0.5 * step})) places.push_back(place);
-    }
-  }
+  const std::vector<Point> places = probesOf(square, kProbes, [&](const SizeBox& box) { return source.isWanted(box); });
   std::vector<double> lengths(places.size());
   source.sample(places, lengths);
   double most = 0.0;
@@ -323,12 +341,7 @@ DepthSizes sizesOfDepths(const SizeOptions& options, const SizeInputs& inputs, c
 VertexDemand demandOf(const ComposedSizes& source, const SizeDemand& demand, const Projection& projection) {
   constexpr int kProbes = 8;
   const SizeBox& box = demand.most_in;
-  const double step = 2.0 * box.half / kProbes;
-  std::vector<Point> places;
-  for (int j = 0; j < kProbes; ++j)
-    for (int i = 0; i < kProbes; ++i)
-      places.push_back(box.centre + Point{(i + 0.5) * step - box.half, (j + 0.5) * step - box.half});
-  std::erase_if(places, [&](const Point& place) { return !source.isWanted({place, 0.5 * step}); });
+  std::vector<Point> places = probesOf(box, kProbes, [&](const SizeBox& part) { return source.isWanted(part); });
   if (places.empty()) places.push_back(box.centre);
   std::vector<double> sizes(places.size());
   source.sample(places, sizes);
@@ -501,6 +514,7 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
   DepthSizes depths = sizesOfDepths(options, inputs, domain, square, root, mask, source.leastWanted(), scale, loop);
   if (depths.asked) source.add(askingOfDepths(options.depth), std::move(depths.asked));
   RaisedShore raised;
+  double floor_m = 0.0;
   if (depths.step) {
     auto floor = std::make_unique<SizeFloor>(std::move(depths.step), options.gradation,
                                              source.leastWanted() / kShoreFloor, scale, root, mask, loop, surface);
@@ -509,6 +523,7 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
           std::make_unique<DistanceField>(shoreLines(domain.pslg, 0.0, options.gradation), scale, kInfinity, surface),
           kShoreFloor);
     raised = raisedShore(sized_shore, *floor, options.least_m, scale);
+    floor_m = largestOf(*floor, mask, root);
     source.setFloor(std::move(floor));
   }
   source.limitRate(options.gradation);
@@ -558,6 +573,7 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
   sizes.filled = depths.filled;
   sizes.has_shore = has_shore;
   sizes.raised = raised;
+  sizes.floor_m = floor_m;
   return sizes;
 }
 

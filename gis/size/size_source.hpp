@@ -51,7 +51,10 @@ struct SizeOptions {
   double passage_elements = 1.0;
   bool keep_water_given = false;  // false: a model's grid keeps the water connected to an open boundary
 
-  bool choose = false;  // sizes are chosen for each domain: `chooseSizes`
+  bool choose = false;  // sizes are to be chosen: `chooseSizes`
+  struct {
+    bool shore_rate = false, gradation = false, time_step = false, coast = false;
+  } given{};  // options beside chosen sizes that the user gave
 
   // True if anything other than bounds is requested.
   bool any() const {
@@ -136,6 +139,7 @@ struct DomainSizes {
   FilledWater filled{};
   bool has_shore = true;  // false: sizes at the shore are requested, but there is none
   RaisedShore raised{};
+  double floor_m = 0.0;  // the largest size that the time step requires anywhere, estimated from samples
 };
 
 // The sizes of a domain: the minimum that any of the options requests, within the bounds, not below what the time step
