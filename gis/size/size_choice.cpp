@@ -79,7 +79,7 @@ SizeOptions chooseSizes(const SizeOptions& options, const SizeInputs& inputs, co
       chosen.shore_m = chosen.most_m = SizeOptions::kNone;
       chosen.size_m = most;
     }
-    if (vertices > kManyEnough && vertices < kFewEnough) break;
+    if (vertices >= kManyEnough && vertices <= kFewEnough) break;
     // Finer sizes had no effect, perhaps because the time step does not allow them.
     if (vertices_before < kManyEnough && vertices < kHardlyMore * vertices_before) {
       chosen = before;
@@ -105,7 +105,7 @@ SizeOptions chooseSizes(const SizeOptions& options, const SizeInputs& inputs, co
     } else {
       const double lacking = (kVertices - vertices) * share;
       const double size_of_lacking = std::sqrt(2.0 / std::sqrt(3.0) * waterArea(domain, inputs) / lacking);
-      chosen.most_m = std::clamp(allowed(size_of_lacking), std::max(chosen.shore_m, least_most), chosen.most_m);
+      chosen.most_m = std::max({allowed(std::min(size_of_lacking, chosen.most_m)), chosen.shore_m, least_most});
     }
   }
   return chosen;

@@ -7,11 +7,11 @@
 namespace coastmesh {
 
 // Sizes for users who give none: a size at the shore for which 18,000 to 50,000 vertices are expected, and 20 elements
-// of the largest size across the domain. More across it if the shore is too short for so many vertices, and one size
-// everywhere if there is no shore. No size is below the minimum of `options`, which may allow fewer vertices only.
-// Sizes are rounded, to be written as options. Elements per wavelength are reduced if the size at the shore does not
-// determine the number of vertices; the other `options` (time step, gradation) are unchanged. `share` of the vertices is
-// for this domain, the others are for the rest of the mesh. Throws like `makeSizeFunction`.
+// of the largest size across the domain. More across it if the shore is too short for so many vertices, or finer sizes
+// there not allowed, and one size everywhere if there is no shore. The minimum size of `options` and the time step are
+// kept, even if that allows fewer vertices only. Sizes are rounded, to be written as options. Elements per wavelength
+// are reduced if the size at the shore does not determine the number of vertices; the other `options` are unchanged.
+// `share` of the vertices is for this domain, the others are for the rest of the mesh. Throws like `makeSizeFunction`.
 SizeOptions chooseSizes(const SizeOptions& options, const SizeInputs& inputs, const Domain& domain,
                         const ItemLoop& loop, double share = 1.0);
 

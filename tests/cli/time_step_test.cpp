@@ -328,7 +328,7 @@ TEST_F(TimeStep, ASeaForAModelHasSizesThatSuitIt) {
   const std::string lead = "as with ";
   const std::size_t at = run.output.find(lead);
   ASSERT_NE(at, std::string::npos) << run.output;
-  std::istringstream said(run.output.substr(at + lead.size(), run.output.find(';', at) - at - lead.size()));
+  std::istringstream said(run.output.substr(at + lead.size(), run.output.find(',', at) - at - lead.size()));
   std::vector<std::string> options{"-o", file("said.14")};
   for (std::string word; said >> word;) options.push_back(word);
   EXPECT_GE(options.size(), 14u);

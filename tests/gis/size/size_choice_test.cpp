@@ -63,5 +63,42 @@ TEST(SizeChoice, AStraightShoreDecides) {
   EXPECT_NEAR(chosen.shore_m, kSide / 4000.0, kSide / 8000.0);
 }
 
+TEST(SizeChoice, KeepsTheMinimumSize) {
+  Domain domain = openBox();
+  domain.pslg.segments[0].tag = 0;
+  SizeOptions options;
+  options.choose = true;
+  for (const double least : {300.0, 1234.5, 5000.0}) {
+    options.least_m = least;
+    const SizeOptions chosen = chooseSizes(options, {}, domain, inOrder);
+    EXPECT_GE(chosen.shore_m, least);
+    EXPECT_GE(chosen.most_m, chosen.shore_m);
+  }
+  // Where the shore may not be finer, the open sea is.
+  options.least_m = 200.0;
+  const SizeOptions chosen = chooseSizes(options, {}, domain, inOrder);
+  EXPECT_EQ(chosen.shore_m, 200.0);
+  EXPECT_GT(makeSizeFunction(chosen, {}, domain, 1e6, inOrder).demand.vertices, 18e3);
+}
+
+TEST(SizeChoice, LeavesVerticesToOtherDomains) {
+  const Domain domain = openBox();
+  SizeOptions options;
+  options.choose = true;
+  const double all = chooseSizes(options, {}, domain, inOrder).size_m;
+  EXPECT_NEAR(chooseSizes(options, {}, domain, inOrder, 0.25).size_m, 2.0 * all, 0.1 * all);
+}
+
+TEST(SizeChoice, OptionsThatWereGivenAreNotRepeated) {
+  SizeOptions options;
+  options.shore_m = 1.0 / 3.0;
+  options.time_step_s = 5.0;
+  EXPECT_EQ(sizesAsOptions(options),
+            "--size-shore 0.3333333333333333 --shore-rate 0.15 --grade 0.3 --wave-elements 0 --time-step 5 "
+            "--coast keep");
+  options.given = {true, true, true, true};
+  EXPECT_EQ(sizesAsOptions(options), "--size-shore 0.3333333333333333 --wave-elements 0");
+}
+
 }  // namespace
 }  // namespace coastmesh
