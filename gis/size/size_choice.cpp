@@ -46,9 +46,11 @@ Expected expectedFor(const SizeOptions& options, const SizeInputs& inputs, const
   }
 }
 
-// Square metres, or units of the plane if coordinates are used as they are.
-double waterArea(const Domain& domain, const SizeInputs& inputs) {
-  return geodesicArea(domain, domain.projection.isIdentity() ? Crs{} : inputs.crs);
+// The size with which a mesh of equal triangles has so many vertices.
+double uniformSize(const Domain& domain, const SizeInputs& inputs, double vertices) {
+  // With coordinates used as they are, lengths are in their units.
+  const double area = geodesicArea(domain, domain.projection.isIdentity() ? Crs{} : inputs.crs);
+  return std::sqrt(2.0 / std::sqrt(3.0) * area / vertices);
 }
 
 }  // namespace
@@ -72,7 +74,7 @@ SizeOptions chooseSizes(const SizeOptions& options, const SizeInputs& inputs, co
   for (int round = 0; round < kRounds; ++round) {
     const Expected expected = expectedFor(chosen, inputs, domain, loop);
     const double vertices = expected.vertices / share;
-    const double least_most = allowed(kBetweenProbes * expected.floor_m);
+    const double least_most = expected.floor_m > 0.0 ? allowed(kBetweenProbes * expected.floor_m) : options.least_m;
     if (has_shore) chosen.most_m = std::max(chosen.most_m, least_most);
     if (has_shore && !expected.has_shore) {
       has_shore = shore_decides = false;
@@ -103,9 +105,8 @@ SizeOptions chooseSizes(const SizeOptions& options, const SizeInputs& inputs, co
     } else if (shore_decides || vertices > kFewEnough) {
       chosen.shore_m = allowed(std::min(size, chosen.most_m));
     } else {
-      const double lacking = (kVertices - vertices) * share;
-      const double size_of_lacking = std::sqrt(2.0 / std::sqrt(3.0) * waterArea(domain, inputs) / lacking);
-      chosen.most_m = std::max({allowed(std::min(size_of_lacking, chosen.most_m)), chosen.shore_m, least_most});
+      const double of_lacking = uniformSize(domain, inputs, (kVertices - vertices) * share);
+      chosen.most_m = std::max({allowed(std::min(of_lacking, chosen.most_m)), chosen.shore_m, least_most});
     }
   }
   return chosen;
