@@ -22,6 +22,19 @@ std::string nameOf(const Repair& repair) { return repair.target ? nameOf(*repair
 
 constexpr double kMuchWater = 0.02;  // share of all water; losing more affects models
 
+// The places that are nodes of the grid, each once, in the order of `lexLess`.
+std::vector<Point> nodesAmong(const Grid& grid, std::vector<Point> places) {
+  if (places.empty()) return places;
+  std::ranges::sort(places, lexLess);
+  std::vector<Point> nodes;
+  for (const Point& node : grid.nodes)
+    if (std::ranges::binary_search(places, node, lexLess)) nodes.push_back(node);
+  std::ranges::sort(nodes, lexLess);
+  const auto repeated = std::ranges::unique(nodes);
+  nodes.erase(repeated.begin(), repeated.end());
+  return nodes;
+}
+
 std::string textOf(const DroppedWaters& dropped) {
   return areaInWords(dropped.area_m2, dropped.in_plane) + amount(" (%.2g %%)", 100.0 * dropped.share) +
          " of the water is left out, " + std::to_string(dropped.waters) +
@@ -47,6 +60,12 @@ std::vector<std::string> FinishReport::warnings() const {
     all.push_back("could not be repaired for " + nameOf(which.first) + ": " + std::string(toString(which.second)) +
                   ", " + std::to_string(count.first) + " in all, the first at " + pointText(count.second));
   if (dropped.share > kMuchWater) all.push_back(textOf(dropped));
+  if (!lost_asked.empty())
+    all.push_back(
+        std::to_string(lost_asked.size()) +
+        forCount(lost_asked.size(), " point of --constraints is no node", " points of --constraints are no nodes") +
+        " of the mesh, since the water there is left out, or its triangle has no neighbour: the first at " +
+        pointText(lost_asked.front()));
   if (apart > 0)
     all.push_back(std::to_string(apart) + forCount(apart, " water has", " waters have") +
                   " no connection to an open boundary; check names their places, and --coast follow with --keep-water "
@@ -56,6 +75,7 @@ std::vector<std::string> FinishReport::warnings() const {
 
 FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunControl& control, const ItemLoop& loop) {
   FinishReport report;
+  const std::vector<Point> asked = nodesAmong(grid, options.repair.asked);
   const std::vector<Target> targets = targetsNamed(options.targets);
   DepthOptions depth = options.depth;
   depth.keep_known = hasDepths(grid);
@@ -83,6 +103,7 @@ FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunContr
     std::ranges::move(again.repairs, std::back_inserter(report.repairs.repairs));
     report.repairs.left = std::move(again.left);
   }
+  std::ranges::set_difference(asked, nodesAmong(grid, asked), std::back_inserter(report.lost_asked), lexLess);
   if (!targets.empty() && !isOneWater(grid)) report.apart = apartWaters(grid).size();
   return report;
 }

@@ -33,6 +33,8 @@ struct FinishReport {
   RepairReport repairs;
   DroppedWaters dropped;
   std::size_t apart = 0;  // such waters that are left, if targets are given
+  std::vector<Point>
+      lost_asked;  // places of requested nodes (`RepairOptions::asked`) that are not in the mesh any more
 
   std::vector<std::string> notes() const;
   std::vector<std::string> warnings() const;

@@ -30,11 +30,11 @@ auto partsOf(auto& result) requires std::is_same_v<std::remove_cvref_t<decltype(
   auto& [grid, edits, edit_places, projection, projection_reason, surface, least_scale, greatest_scale, refine,
          short_of, quality, size_max, input_area_m2, digest, clean_s, size_s, check_s, mesh_s, pieces, log,
          estimated_vertices, refusal, over_budget, lacks_memory, refusal_place, unwanted, notes, warnings, idle,
-         took_part, waters, raised_shore] = result;
+         took_part, waters, raised_shore, asked] = result;
   return std::tie(grid, edits, edit_places, projection, projection_reason, surface, least_scale, greatest_scale, refine,
                   short_of, quality, input_area_m2, digest, clean_s, size_s, check_s, mesh_s, pieces,
                   estimated_vertices, refusal, over_budget, lacks_memory, refusal_place, unwanted, notes, warnings,
-                  size_max, idle, took_part, waters, raised_shore);
+                  size_max, idle, took_part, waters, raised_shore, asked);
 }
 
 namespace {

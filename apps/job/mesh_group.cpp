@@ -492,6 +492,7 @@ void fillGroup(const GroupTask& task, GroupResult& result) {
   MeshOptions options = optionsFor(task, domain, result.surface);
   const std::unique_ptr<SizeFunction> size = sizeStage(task, domain, result);
   options.refine.size = size.get();
+  for (const VertexId v : domain.asked) result.asked.push_back(domain.input_points[v]);
   if (domain.closed()) startGlobe(task, domain, size.get(), options);
   const RefineOptions asked = options.refine;
   task.control.checkpoint(kMeshing.from);

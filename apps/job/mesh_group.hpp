@@ -42,6 +42,7 @@ struct GroupResult {
   std::vector<std::uint32_t> took_part;  // features of lines and regions that the mesh has
   FollowedWaters waters;
   RaisedShore raised_shore;
+  std::vector<Point> asked;  // places of points that --constraints requested, in the grid's CRS
 };
 
 // The options for coasts that follow sizes.

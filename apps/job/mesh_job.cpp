@@ -125,6 +125,7 @@ void addGroup(const JobInput& input, std::size_t group, GroupResult&& part, Mesh
   result.took_part.insert(part.took_part.begin(), part.took_part.end());
   result.waters.append(std::move(part.waters));
   result.raised_shore.add(part.raised_shore);
+  result.asked.insert(result.asked.end(), part.asked.begin(), part.asked.end());
   result.pieces += part.pieces;
   if (part.pieces > 1) {
     result.log.append(std::move(part.log));
@@ -536,7 +537,7 @@ MeshJobResult runOnThreads(const MeshJob& given, const JobControl& control) {
   if (!given.sizes.choose) noteRaisedShore(result);
   result.log.append(recorder.finish("grid"));
   finish.repair = {job.sizes.time_step_s / job.sizes.courant, job.sizes.coast == CoastDetail::Follow,
-                   job.mesh.refine.min_angle_deg, job.mesh.refine.max_angle_deg};
+                   job.mesh.refine.min_angle_deg, job.mesh.refine.max_angle_deg, result.asked};
   finish.drop_apart = dropsWatersApart(job);
   if (finish.any()) {
     const Stopwatch finishing;

@@ -105,6 +105,7 @@ struct MeshJobResult {
   std::set<std::uint32_t> took_part;        // features of lines and regions that the mesh had before it was finished
   FollowedWaters waters;                    // of meshed groups, if coasts follow sizes
   RaisedShore raised_shore;
+  std::vector<Point> asked;   // places of points that --constraints requested; most are nodes
   std::string last_unwanted;  // why a group outside the requested area was skipped
   MeshQuality quality;
   std::optional<double> input_area_m2;  // of what was meshed; nullopt for a .poly

@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "core/point.hpp"
+
 namespace coastmesh {
 
 struct RepairOptions {
@@ -13,6 +15,7 @@ struct RepairOptions {
   // Degrees: the maximum angle of the mesh. Repairs for the time step, and the final increase of small angles, keep it;
   // other repairs may exceed it, since models may need them.
   double max_angle_deg = 180.0;
+  std::vector<Point> asked{};  // places of nodes that the user requested: no repair moves them
 };
 
 // Failed attempts of earlier repairs of a grid, which later ones skip.

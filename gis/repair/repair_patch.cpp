@@ -165,6 +165,7 @@ bool isOnFreeShore(const RepairView& view, std::uint32_t node) {
 }
 
 bool isMovable(const RepairView& view, std::uint32_t node) {
+  if (view.links.isAsked(node)) return false;
   if (view.links.on_boundary[node]) return view.shores != nullptr && isOnFreeShore(view, node);
   return fixedNeighbours(view, node).empty();
 }

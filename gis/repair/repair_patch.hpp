@@ -31,6 +31,9 @@ struct GridLinks {
   BoundaryKinds kinds;                                   // of boundary edges
   std::vector<bool> on_boundary;                         // one flag a node
   std::set<NodePair> line_edges;                         // by `edgeKey`; these must stay
+  std::vector<bool> asked;                               // one flag a node, or empty; these must stay
+
+  bool isAsked(std::uint32_t node) const { return node < asked.size() && asked[node]; }
 };
 
 class ShoreIndex;
@@ -129,8 +132,8 @@ bool isOnFreeShore(const RepairView& view, std::uint32_t node);
 // The neighbours of a node along boundary edges.
 std::vector<std::uint32_t> boundaryNeighbours(const RepairView& view, std::uint32_t node);
 
-// True if the node may move: no edge that must stay ends there, and it is an inner node or on a free shore that may
-// move.
+// True if the node may move: nobody requested it, no edge that must stay ends there, and it is an inner node or on a
+// free shore that may move.
 bool isMovable(const RepairView& view, std::uint32_t node);
 
 // Moves the node `share` of the way towards the midpoint of `a` and `b`, nodes of its ring.

@@ -140,7 +140,7 @@ std::vector<std::uint32_t> roundOf(const RepairState& state, std::uint32_t t) {
 // Removes an inner node of three triangles, which become one.
 void takeOutNode(RepairState& state, std::uint32_t node, const FoundDefect& found) {
   const std::vector<std::uint32_t>& round = state.links.triangles_at[node];
-  if (round.size() < 3 || !fixedNeighbours(state.view(), node).empty() || state.anyTaken(round)) return;
+  if (round.size() < 3 || !isMovable(state.view(), node) || state.anyTaken(round)) return;
   GridCorners corners = state.grid.triangles[round[0]];
   // The corner of the others that the first lacks replaces the node.
   for (const std::uint32_t other : state.grid.triangles[round[1]])
@@ -153,7 +153,8 @@ void takeOutNode(RepairState& state, std::uint32_t node, const FoundDefect& foun
 
 // Degrees: the smallest angle of the triangles around an inner node moved to `place`; 0 if one is not
 // counter-clockwise.
-double leastAngleRound(const Grid& grid, std::span<const std::uint32_t> ring, const Point& place) {
+double leastAngleRound(const RepairView& view, std::span<const std::uint32_t> ring, const Point& place) {
+  const Grid& grid = view.grid;
   double least = 180.0;
   for (std::size_t k = 0; k < ring.size(); ++k) {
     std::array<Point, 3> p{place, grid.nodes[ring[k]], grid.nodes[ring[(k + 1) % ring.size()]]};
@@ -169,11 +170,11 @@ std::optional<PatchEdit> bestUnfolding(const RepairView& view, std::uint32_t nod
   constexpr std::size_t kMostNeighbours = 16;
   std::optional<PatchEdit> best;
   const std::vector<std::uint32_t> ring = ringRound(view, node);
-  if (ring.size() > kMostNeighbours || !fixedNeighbours(view, node).empty()) return best;
+  if (ring.size() > kMostNeighbours || !isMovable(view, node)) return best;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     for (std::size_t j = i + 2; j < ring.size(); ++j) {
       PatchEdit edit = moveOf(view, node, ring[i], ring[j], 1.0);
-      const double angle = leastAngleRound(view.grid, ring, edit.place);
+      const double angle = leastAngleRound(view, ring, edit.place);
       if (angle <= least) continue;
       least = angle;
       best = std::move(edit);
@@ -319,7 +320,7 @@ void shareSmallAngle(RepairState& state, std::uint32_t t) {
 void mendValence(RepairState& state, const FoundDefect& found) {
   const auto node = static_cast<std::uint32_t>(found.defect.node);
   const std::vector<std::uint32_t>& round = state.links.triangles_at[node];
-  if (round.size() <= 3) return takeOutNode(state, node, found);
+  if (round.size() <= 3 && !state.links.isAsked(node)) return takeOutNode(state, node, found);
   if (state.hopeless_nodes[node]) return;
   const Attempt reshaped = reshape(state, withNeighbours(state.links.mesh, round), {kShares, {}}, found);
   if (reshaped.done) return;

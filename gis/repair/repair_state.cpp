@@ -164,6 +164,7 @@ void compact(RepairState& state) {
   state.metres_per_unit = renumbered(state.metres_per_unit, triangle_index, state.grid.triangles.size(), kUnmeasured);
   const std::vector<std::uint32_t> index = removeUnusedNodes(state.grid);
   state.hopeless_nodes = renumbered(state.hopeless_nodes, index, state.grid.nodes.size(), false);
+  state.links.asked = renumbered(state.links.asked, index, state.grid.nodes.size(), false);
   BoundaryKinds kinds;
   for (const auto& [edge, kind] : state.links.kinds)
     if (index[edge[0]] != kNone && index[edge[1]] != kNone) kinds[edgeKey(index[edge[0]], index[edge[1]])] = kind;

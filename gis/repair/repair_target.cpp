@@ -224,9 +224,20 @@ void reportLeft(std::vector<FoundDefect> defects, RepairReport& report) {
     if (found.target) report.left.emplace_back(*found.target, std::move(found.defect));
 }
 
+// A flag for each node: true at one of these places.
+std::vector<bool> nodesAt(const std::vector<Point>& nodes, std::vector<Point> places) {
+  std::vector<bool> flags;
+  if (places.empty()) return flags;
+  std::ranges::sort(places, lexLess);
+  for (const Point& node : nodes) flags.push_back(std::ranges::binary_search(places, node, lexLess));
+  return flags;
+}
+
+// `asked` has a flag for each node, as in GridLinks.
 RepairReport repairInOneTurn(Grid& grid, std::span<const Target> targets, const RepairOptions& options,
-                             RepairMemory* memory) {
+                             std::vector<bool> asked, RepairMemory* memory) {
   RepairState state{grid, targets, options};
+  state.links.asked = std::move(asked);
   std::vector<FoundDefect> defects = findDefects(grid, targets, options);
   if (defects.empty()) {
     reportLeft(findOverlaps(grid, targets), state.report);
@@ -260,8 +271,9 @@ RepairReport repairInOneTurn(Grid& grid, std::span<const Target> targets, const 
 RepairReport repairForTargets(Grid& grid, std::span<const Target> targets, const RepairOptions& options,
                               RepairMemory* memory) {
   // Longitudes are unwrapped as in the files that models read: across a jump of 360°, shapes in degrees would be wrong.
+  std::vector<bool> asked = nodesAt(grid.nodes, options.asked);
   const TurnedNodes turned(grid);
-  RepairReport report = repairInOneTurn(grid, targets, options, memory);
+  RepairReport report = repairInOneTurn(grid, targets, options, std::move(asked), memory);
   turned.putBack(grid);
   for (Repair& repair : report.repairs) repair.place = turned.putBack(repair.place);
   for (auto& [target, defect] : report.left) defect.place = turned.putBack(defect.place);

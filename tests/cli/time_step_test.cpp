@@ -92,6 +92,18 @@ class TimeStep : public ProgramTest {
   struct Node {
     double x, y, z;
   };
+  std::vector<Node> readNodes() const {
+    std::istringstream text(readText(file("bay.2dm")));
+    std::vector<Node> nodes;
+    for (std::string line; std::getline(text, line);) {
+      std::istringstream words(line);
+      std::string card;
+      std::size_t number = 0;
+      words >> card >> number;
+      if (card == "ND") words >> nodes.emplace_back().x >> nodes.back().y >> nodes.back().z;
+    }
+    return nodes;
+  }
   // The shortest time step in a .2dm, without code of the library; infinite if no node is under water.
   double leastStep() const {
     std::istringstream text(readText(file("bay.2dm")));
@@ -231,6 +243,33 @@ TEST_F(TimeStep, AQuietRunSaysThatSizeMinIsMissed) {
   EXPECT_TRUE(step().at("size_min").at("missed").get<bool>());
   EXPECT_THAT(run.errors, HasSubstr("edges are far shorter than --size-min"));
   EXPECT_THAT(run.errors, Not(HasSubstr("the time step is not held")));
+}
+
+// Repairs would move or remove many of them, since each has another 120 m away.
+TEST_F(TimeStep, RequestedPointsStayWhereTheyAre) {
+  std::string places, separator;
+  std::vector<std::pair<double, double>> given;
+  for (int i = 0; i < 40; ++i) {
+    const double x = 3000.0 + 2800.0 * (i % 20), y = 32000.0 + 20000.0 * (i / 20) + 700.0 * (i % 7);
+    for (const double apart : {0.0, 120.0}) {
+      given.emplace_back(x + apart, y);
+      places += separator + "[" + std::to_string(x + apart) + ", " + std::to_string(y) + "]";
+      separator = ", ";
+    }
+  }
+  const std::string points = write(
+      "gauges.geojson",
+      R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:32631"}}, )"
+      R"("features": [{"type": "Feature", "properties": {}, "geometry": {"type": "MultiPoint", "coordinates": [)" +
+          places + "]}}]}");
+  const ProgramRun run = runProgram({"mesh", raggedSea(), "--bathymetry", raggedBed(), "--size-shore", "800",
+                                     "--size-max", "4000", "--coast", "follow", "--time-step", "20", "--constraints",
+                                     points, "-o", file("bay.2dm"), "--report", file("r.json")});
+  EXPECT_GT(Json::parse(readText(file("r.json"))).at("repairs").at("done").size(), 20u) << run.errors;
+  const std::vector<Node> nodes = readNodes();
+  for (const auto& [x, y] : given)
+    EXPECT_EQ(std::ranges::count_if(nodes, [&](const Node& node) { return node.x == x && node.y == y; }), 1)
+        << x << ", " << y;
 }
 
 TEST_F(TimeStep, SizeMinHoldsForEdgesWhereTheCoastFollows) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -46,6 +47,21 @@ TEST(FinishGrid, DepthsAreThoseOfTheWaterThatIsLeft) {
     EXPECT_NEAR(report.depth.greatest_m, drops ? 20.0 : 400.0, 1e-6);
     EXPECT_EQ(report.depth.above_water, drops ? 0u : 2u);
   }
+}
+
+// The second square is left out, and with it one of the requested nodes; (5, 5) never was a node.
+TEST(FinishGrid, RequestedNodesThatAreLeftOutAreNamed) {
+  FinishOptions options;
+  options.drop_apart = true;
+  options.repair.asked = {{30.0, 10.0}, {5.0, 5.0}, {10.0, 0.0}, {30.0, 10.0}};
+  Grid grid = twoWaters();
+  const FinishReport report = finishGrid(grid, options);
+  EXPECT_EQ(report.lost_asked, (std::vector<Point>{{30.0, 10.0}}));
+  const std::vector<std::string> warnings = report.warnings();
+  EXPECT_EQ(
+      std::ranges::count_if(
+          warnings, [](const std::string& text) { return text.starts_with("1 point of --constraints is no node"); }),
+      1);
 }
 
 }  // namespace
