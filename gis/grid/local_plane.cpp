@@ -6,19 +6,19 @@
 
 namespace coastmesh {
 
-void flattenLocally(const Crs& crs, std::span<Point> places) {
+void flattenLocally(const Crs& crs, std::span<Point> places, EarthShape shape) {
   if (!crs.geographic || places.empty()) return;
   std::array<SphereVector, 4> few;
   std::vector<SphereVector> many;
   if (places.size() > few.size()) many.resize(places.size());
-  const std::span<SphereVector> on_sphere = many.empty() ? std::span(few).first(places.size()) : std::span(many);
-  for (std::size_t i = 0; i < places.size(); ++i) on_sphere[i] = onSphere(asLonLat(places[i]));
-  flattenLocally(crs, on_sphere, places);
+  const std::span<SphereVector> in_space = many.empty() ? std::span(few).first(places.size()) : std::span(many);
+  for (std::size_t i = 0; i < places.size(); ++i) in_space[i] = inSpace(asLonLat(places[i]), crs, shape);
+  flattenLocally(crs, in_space, places);
 }
 
-void flattenLocally(const Crs& crs, std::span<const SphereVector> on_sphere, std::span<Point> places) {
+void flattenLocally(const Crs& crs, std::span<const SphereVector> in_space, std::span<Point> places) {
   SphereVector middle{};
-  for (const SphereVector& place : on_sphere)
+  for (const SphereVector& place : in_space)
     for (std::size_t k = 0; k < 3; ++k) middle[k] += place[k];
   middle = unit(middle);
   // At a pole east is undefined; any direction will do.
@@ -27,19 +27,19 @@ void flattenLocally(const Crs& crs, std::span<const SphereVector> on_sphere, std
   east = unit(east);
   const SphereVector north = cross(middle, east);
   for (std::size_t i = 0; i < places.size(); ++i)
-    places[i] = {crs.semi_major_m * dot(on_sphere[i], east), crs.semi_major_m * dot(on_sphere[i], north)};
+    places[i] = {crs.semi_major_m * dot(in_space[i], east), crs.semi_major_m * dot(in_space[i], north)};
 }
 
-std::vector<Point> localPlane(const Crs& crs, std::span<const Point> places) {
+std::vector<Point> localPlane(const Crs& crs, std::span<const Point> places, EarthShape shape) {
   std::vector<Point> plane(places.begin(), places.end());
-  flattenLocally(crs, plane);
+  flattenLocally(crs, plane, shape);
   return plane;
 }
 
-std::vector<Point> localPlane(const Grid& grid, std::span<const std::uint32_t> nodes) {
+std::vector<Point> localPlane(const Grid& grid, std::span<const std::uint32_t> nodes, EarthShape shape) {
   std::vector<Point> places;
   for (const std::uint32_t node : nodes) places.push_back(grid.nodes[node]);
-  return localPlane(grid.crs, places);
+  return localPlane(grid.crs, places, shape);
 }
 
 }  // namespace coastmesh

@@ -13,13 +13,16 @@ namespace coastmesh {
 // small, and an edge as not Delaunay, only by more than this.
 inline constexpr double kAngleSlackDeg = 0.01;
 
-// Nodes that are close together, in a plane of their own: for longitudes and latitudes, metres in the tangent plane of
-// the sphere at their mean, so that poles and the jump of longitudes do not matter; otherwise their own coordinates.
-// Relative errors of angles and lengths are about the square of their extent over the Earth's radius.
-std::vector<Point> localPlane(const Grid& grid, std::span<const std::uint32_t> nodes);
-std::vector<Point> localPlane(const Crs& crs, std::span<const Point> places);
-void flattenLocally(const Crs& crs, std::span<Point> places);  // the same, in place
-// The same for longitudes and latitudes converted to places on the sphere beforehand, for repeated calls.
-void flattenLocally(const Crs& crs, std::span<const SphereVector> on_sphere, std::span<Point> places);
+// Nodes that are close together, in a plane of their own: for longitudes and latitudes, metres in a plane that touches
+// the Earth at their mean, so that poles and the jump of longitudes do not matter; otherwise their own coordinates.
+// Relative errors of angles and lengths on that shape of the Earth are about the square of their extent over its
+// radius, and 6e-6.
+std::vector<Point> localPlane(const Grid& grid, std::span<const std::uint32_t> nodes,
+                              EarthShape shape = EarthShape::Ellipsoid);
+std::vector<Point> localPlane(const Crs& crs, std::span<const Point> places, EarthShape shape = EarthShape::Ellipsoid);
+// The same, in place.
+void flattenLocally(const Crs& crs, std::span<Point> places, EarthShape shape = EarthShape::Ellipsoid);
+// The same for longitudes and latitudes converted by `inSpace` beforehand, for repeated calls.
+void flattenLocally(const Crs& crs, std::span<const SphereVector> in_space, std::span<Point> places);
 
 }  // namespace coastmesh

@@ -14,6 +14,19 @@ SphereVector onSphere(const LonLat& place) {
   return {cos_lat * cos_lon, cos_lat * sin_lon, sin_lat};
 }
 
+SphereVector inSpace(const LonLat& place, const Crs& crs, EarthShape shape) {
+  const SphereVector normal = onSphere(place);
+  if (shape == EarthShape::Sphere) return normal;
+  const double e2 = crs.flattening * (2.0 - crs.flattening);
+  const double n = 1.0 / std::sqrt(1.0 - e2 * normal[2] * normal[2]);
+  return {n * normal[0], n * normal[1], n * (1.0 - e2) * normal[2]};
+}
+
+SphereVector fromEllipsoid(const SphereVector& place, const Crs& crs) {
+  const double e2 = crs.flattening * (2.0 - crs.flattening);
+  return unit({place[0], place[1], place[2] / (1.0 - e2)});
+}
+
 LonLat placeOf(const SphereVector& v) {
   const double to_axis = std::hypot(v[0], v[1]);
   return {to_axis == 0.0 ? 0.0 : Math::atan2d(v[1], v[0]), Math::atan2d(v[2], to_axis)};

@@ -291,7 +291,7 @@ class TargetCheck {
         const EdgeRef e = edgeRef(t, i), twin = mesh_.twin(e);
         if (twin == kNone || triOf(twin) < t) continue;
         const std::array<std::uint32_t, 4> nodes{mesh_.origin(e), mesh_.target(e), mesh_.apex(e), mesh_.apex(twin)};
-        const std::vector<Point> p = localPlane(grid_, nodes);
+        const std::vector<Point> p = localPlane(grid_, nodes, EarthShape::Sphere);
         const FlowLink link = flowLinkAcross(p[0], p[1], p[2], p[3]);
         const Point place = middle(nodes[0], nodes[1]);
         if (link.cosine > kDflowfmLargestCosine) add(TargetDefectKind::NotOrthogonal, place, t, nodes[0], link.cosine);

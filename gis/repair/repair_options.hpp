@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/point.hpp"
+#include "gis/grid/on_sphere.hpp"
 
 namespace coastmesh {
 
@@ -15,7 +16,8 @@ struct RepairOptions {
   // Degrees: the maximum angle of the mesh. Repairs for the time step, and the final increase of small angles, keep it;
   // other repairs may exceed it, since models may need them.
   double max_angle_deg = 180.0;
-  std::vector<Point> asked{};  // places of nodes that the user requested: no repair moves them
+  std::vector<Point> asked{};                // places of nodes that the user requested: no repair moves them
+  EarthShape shape = EarthShape::Ellipsoid;  // on which angles are measured
 };
 
 // Failed attempts of earlier repairs of a grid, which later ones skip.

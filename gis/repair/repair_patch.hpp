@@ -55,10 +55,11 @@ struct RepairView {
   // By triangle, degrees: the smallest angle; negative for a triangle that is clockwise or without area, NaN until
   // computed. Valid for triangles not changed in this round.
   std::span<double> smallest_angle;
-  // By node of a geographic grid: its place on the sphere; NaN until computed. Valid for nodes of the same triangles.
-  std::span<SphereVector> on_sphere{};
+  // By node of a geographic grid: its place on `shape`; NaN until computed. Valid for nodes of the same triangles.
+  std::span<SphereVector> in_space{};
   StepBound step{};
-  const ShoreIndex* shores = nullptr;  // if set, nodes of the shore may move along it, or be removed
+  const ShoreIndex* shores = nullptr;        // if set, nodes of the shore may move along it, or be removed
+  EarthShape shape = EarthShape::Ellipsoid;  // on which angles are measured
 
   bool isFor(Target target) const { return std::ranges::count(targets, target) > 0; }
 };

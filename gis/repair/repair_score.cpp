@@ -23,7 +23,7 @@ namespace {
 class EditedView {
  public:
   EditedView(const RepairView& of, const PatchEdit& by) : view(of), edit(by) {
-    if (view.grid.crs.geographic && edit.placed != kNone) placed_ = onSphere(asLonLat(edit.place));
+    if (view.grid.crs.geographic && edit.placed != kNone) placed_ = inSpace(edit.place);
   }
 
   template <std::size_t N>
@@ -36,18 +36,29 @@ class EditedView {
   template <std::size_t N>
   std::array<Point, N> planeOf(const std::array<std::uint32_t, N>& nodes) const {
     if (!view.grid.crs.geographic) return placesOf(nodes);
+    std::array<SphereVector, N> in_space;
+    for (std::size_t i = 0; i < N; ++i) in_space[i] = inSpaceOf(nodes[i]);
+    std::array<Point, N> places;
+    flattenLocally(view.grid.crs, in_space, places);
+    return places;
+  }
+
+  // The same on the sphere of models, whatever the view's shape of the Earth.
+  template <std::size_t N>
+  std::array<Point, N> spherePlaneOf(const std::array<std::uint32_t, N>& nodes) const {
+    if (!view.grid.crs.geographic || view.shape == EarthShape::Sphere) return planeOf(nodes);
     std::array<SphereVector, N> on_sphere;
-    for (std::size_t i = 0; i < N; ++i) on_sphere[i] = onSphereOf(nodes[i]);
+    for (std::size_t i = 0; i < N; ++i) on_sphere[i] = fromEllipsoid(inSpaceOf(nodes[i]), view.grid.crs);
     std::array<Point, N> places;
     flattenLocally(view.grid.crs, on_sphere, places);
     return places;
   }
 
-  SphereVector onSphereOf(std::uint32_t node) const {
+  SphereVector inSpaceOf(std::uint32_t node) const {
     if (node == edit.placed) return placed_;
-    if (node >= view.on_sphere.size()) return onSphere(asLonLat(view.grid.nodes[node]));
-    SphereVector& known = view.on_sphere[node];
-    if (std::isnan(known[0])) known = onSphere(asLonLat(view.grid.nodes[node]));
+    if (node >= view.in_space.size()) return inSpace(view.grid.nodes[node]);
+    SphereVector& known = view.in_space[node];
+    if (std::isnan(known[0])) known = inSpace(view.grid.nodes[node]);
     return known;
   }
 
@@ -55,6 +66,10 @@ class EditedView {
   const PatchEdit& edit;
 
  private:
+  SphereVector inSpace(const Point& place) const {
+    return coastmesh::inSpace(asLonLat(place), view.grid.crs, view.shape);
+  }
+
   SphereVector placed_{};
 };
 
@@ -93,7 +108,7 @@ class RoughTriangle {
  public:
   RoughTriangle(const EditedView& edited, const GridCorners& v) {
     std::array<SphereVector, 3> p;
-    for (unsigned i = 0; i < 3; ++i) p[i] = edited.onSphereOf(v[i]);
+    for (unsigned i = 0; i < 3; ++i) p[i] = edited.inSpaceOf(v[i]);
     for (unsigned i = 0; i < 3; ++i) {
       const SphereVector side = minus(p[prev3(i)], p[next3(i)]);
       squared_[i] = dot(side, side);
@@ -120,7 +135,7 @@ class RoughTriangle {
   }
 
  private:
-  std::array<double, 3> squared_{};  // squared lengths of the edges opposite the corners, on the unit sphere
+  std::array<double, 3> squared_{};  // squared lengths of the edges opposite the corners, in semi-major axes
   double radius_m_ = 0.0;
 };
 
@@ -203,7 +218,7 @@ std::vector<std::uint32_t> replacedBy(const PatchEdit& edit) {
 
 int edgeDefects(const EditedView& edited, const NodePair& edge, std::span<const std::uint32_t> apexes) {
   if (apexes.size() != 2) return 0;
-  auto p = edited.planeOf(std::array{edge[0], edge[1], apexes[0], apexes[1]});
+  auto p = edited.spherePlaneOf(std::array{edge[0], edge[1], apexes[0], apexes[1]});
   if (orient2d(p[0], p[1], p[2]) < 0) std::swap(p[0], p[1]);
   const FlowLink link = flowLinkAcross(p[0], p[1], p[2], p[3]);
   return (link.cosine > kDflowfmLargestCosine ? 1 : 0) + (link.length < kDflowfmSmallestLink ? 1 : 0);

@@ -76,8 +76,8 @@ void offerMoves(Contest& contest, const RepairView& view, std::uint32_t node) {
 }
 
 // The square of what the smallest angle of a triangle lacks of `goal_deg`; infinite if it is clockwise.
-double squaredLack(const Crs& crs, std::array<Point, 3> p, double goal_deg) {
-  flattenLocally(crs, p);
+double squaredLack(const RepairView& view, std::array<Point, 3> p, double goal_deg) {
+  flattenLocally(view.grid.crs, p, view.shape);
   if (orient2d(p[0], p[1], p[2]) <= 0) return std::numeric_limits<double>::infinity();
   const double lack = std::max(0.0, goal_deg - leastAngleDeg(p[0], p[1], p[2]));
   return lack * lack;
@@ -152,7 +152,7 @@ double lackOfAngles(const RepairView& view, std::span<const std::uint32_t> trian
   for (const std::uint32_t t : triangles) {
     std::array<Point, 3> p;
     for (unsigned i = 0; i < 3; ++i) p[i] = view.grid.nodes[view.grid.triangles[t][i]];
-    sum += squaredLack(view.grid.crs, p, goal_deg);
+    sum += squaredLack(view, p, goal_deg);
   }
   return sum;
 }
@@ -170,7 +170,7 @@ std::optional<PatchEdit> bestSharing(const RepairView& view, std::uint32_t node,
       std::array<Point, 3> p;
       for (unsigned i = 0; i < 3; ++i)
         p[i] = triangle.v[i] == edit.placed ? edit.place : view.grid.nodes[triangle.v[i]];
-      lack += squaredLack(view.grid.crs, p, goal_deg);
+      lack += squaredLack(view, p, goal_deg);
       if (lack >= least) return;
     }
     const ScoreBar bar{.defects = 1, .largest_angle_deg = view.step.largest_angle_deg};

@@ -158,7 +158,7 @@ double leastAngleRound(const RepairView& view, std::span<const std::uint32_t> ri
   double least = 180.0;
   for (std::size_t k = 0; k < ring.size(); ++k) {
     std::array<Point, 3> p{place, grid.nodes[ring[k]], grid.nodes[ring[(k + 1) % ring.size()]]};
-    flattenLocally(grid.crs, p);
+    flattenLocally(grid.crs, p, view.shape);
     if (orient2d(p[0], p[1], p[2]) <= 0) return 0.0;
     least = std::min(least, leastAngleDeg(p[0], p[1], p[2]));
   }
@@ -214,7 +214,7 @@ class MovedNodes {
   void forgetMeasures(std::uint32_t node) {
     constexpr double kUnmeasured = std::numeric_limits<double>::quiet_NaN();
     for (const std::uint32_t t : state_.links.triangles_at[node]) state_.smallest_angle[t] = kUnmeasured;
-    if (!state_.on_sphere.empty()) state_.on_sphere[node][0] = kUnmeasured;
+    if (!state_.in_space.empty()) state_.in_space[node][0] = kUnmeasured;
   }
 
   RepairState& state_;
@@ -294,7 +294,7 @@ void shareSmallAngle(RepairState& state, std::uint32_t t) {
   const std::vector<std::uint32_t> affected = patchRound(view, around).triangles;
   const auto countSmall = [&] {
     return std::ranges::count_if(affected, [&](std::uint32_t of) {
-      const std::vector<Point> p = localPlane(state.grid, state.grid.triangles[of]);
+      const std::vector<Point> p = localPlane(state.grid, state.grid.triangles[of], state.options.shape);
       return leastAngleDeg(p[0], p[1], p[2]) < bound;
     });
   };

@@ -70,7 +70,7 @@ void measureGround(RepairState& state) {
   for (std::size_t k = 0; k < which.size(); ++k) {
     std::array<Point, 3> p;
     for (unsigned i = 0; i < 3; ++i) p[i] = nodes[corners[k][i]];
-    flattenLocally(grid.crs, p);
+    flattenLocally(grid.crs, p, state.options.shape);
     const auto shortest = std::ranges::min_element(lengths[k]);
     const auto i = static_cast<unsigned>(shortest - lengths[k].begin());
     state.metres_per_unit[which[k]] = *shortest / distance(p[i], p[next3(i)]);
@@ -153,7 +153,7 @@ void startRound(RepairState& state) {
     flags->assign(grid.triangles.size(), false);
   state.smallest_angle.assign(grid.triangles.size(), std::numeric_limits<double>::quiet_NaN());
   if (grid.crs.geographic)
-    state.on_sphere.assign(grid.nodes.size(), SphereVector{std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0});
+    state.in_space.assign(grid.nodes.size(), SphereVector{std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0});
   if (state.options.shore_moves) state.shores.emplace(state.view());
 }
 

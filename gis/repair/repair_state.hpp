@@ -21,10 +21,10 @@ struct RepairState {
   GridLinks links{};
   // By triangle, in this round: `touched` has changed, or is in the patch of an edit; `dead` is removed.
   std::vector<bool> touched{}, dead{};
-  mutable std::vector<double> smallest_angle{};   // as in RepairView, cached: a node may have thousands of triangles
-  mutable std::vector<SphereVector> on_sphere{};  // likewise
-  std::vector<double> metres_per_unit{};          // as in StepBound; of this round
-  std::optional<ShoreIndex> shores{};             // set if nodes of the shore may move; of this round
+  mutable std::vector<double> smallest_angle{};  // as in RepairView, cached: a node may have thousands of triangles
+  mutable std::vector<SphereVector> in_space{};  // likewise
+  std::vector<double> metres_per_unit{};         // as in StepBound; of this round
+  std::optional<ShoreIndex> shores{};            // set if nodes of the shore may move; of this round
   // By triangle, in all rounds: changed since it was measured.
   std::vector<bool> changed{};
   // By triangle, and by node: a repair has failed. `disturbed` triangles have changed since: attempts near them are
@@ -37,7 +37,7 @@ struct RepairState {
     // With a fixed shore the time step can seldom be reached everywhere, so no angles are sacrificed for it.
     const StepBound step{options.time_step_s, options.shore_moves ? 20.0 : options.min_angle_deg, metres_per_unit,
                          options.max_angle_deg};
-    return {grid, links, targets, smallest_angle, on_sphere, step, shores ? &*shores : nullptr};
+    return {grid, links, targets, smallest_angle, in_space, step, shores ? &*shores : nullptr, options.shape};
   }
   bool isTaken(std::uint32_t t) const { return touched[t] || dead[t]; }
   bool anyTaken(std::span<const std::uint32_t> triangles) const;

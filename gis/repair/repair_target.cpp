@@ -172,19 +172,19 @@ bool mendRound(RepairState& state, const std::vector<FoundDefect>& defects, bool
   return again;
 }
 
-double smallestAngle(const Grid& grid, std::size_t t) {
-  const std::vector<Point> p = localPlane(grid, grid.triangles[t]);
+double smallestAngle(const Grid& grid, std::size_t t, EarthShape shape) {
+  const std::vector<Point> p = localPlane(grid, grid.triangles[t], shape);
   return leastAngleDeg(p[0], p[1], p[2]);
 }
 
-void measureChanged(Grid& grid, const std::vector<bool>& changed) {
+void measureChanged(Grid& grid, const std::vector<bool>& changed, EarthShape shape) {
   std::vector<GridCorners> corners;
   std::vector<std::size_t> which;
   for (std::size_t t = 0; t < changed.size(); ++t) {
     if (!changed[t]) continue;
     which.push_back(t);
     corners.push_back(grid.triangles[t]);
-    if (!grid.min_angle_deg.empty()) grid.min_angle_deg[t] = smallestAngle(grid, t);
+    if (!grid.min_angle_deg.empty()) grid.min_angle_deg[t] = smallestAngle(grid, t, shape);
   }
   if (grid.area_m2.empty() || which.empty()) return;
   const std::vector<double> areas = areasOfFew(grid.nodes, corners, grid.crs);
@@ -192,9 +192,10 @@ void measureChanged(Grid& grid, const std::vector<bool>& changed) {
 }
 
 std::vector<std::uint32_t> sharpened(const RepairState& state) {
+  const RepairOptions& options = state.options;
   std::vector<std::uint32_t> found;
   for (std::uint32_t t = 0; t < state.grid.triangles.size(); ++t)
-    if (state.changed[t] && smallestAngle(state.grid, t) < state.options.min_angle_deg - kAngleSlackDeg)
+    if (state.changed[t] && smallestAngle(state.grid, t, options.shape) < options.min_angle_deg - kAngleSlackDeg)
       found.push_back(t);
   return found;
 }
@@ -261,7 +262,7 @@ RepairReport repairInOneTurn(Grid& grid, std::span<const Target> targets, const 
   reportLeft(findOverlaps(grid, targets), state.report);
   if (keepsBoundaries(state) && std::ranges::count(state.changed, true) > 0) rebuildBoundaries(state);
   if (memory != nullptr) *memory = memoryOf(state);
-  measureChanged(grid, state.changed);
+  measureChanged(grid, state.changed, options.shape);
   requireConsistent(grid);
   return std::move(state.report);
 }

@@ -245,6 +245,33 @@ TEST_F(TimeStep, AQuietRunSaysThatSizeMinIsMissed) {
   EXPECT_THAT(run.errors, Not(HasSubstr("the time step is not held")));
 }
 
+// At the equator angles on a sphere with unchanged latitudes differ most from those on the ellipsoid, which count.
+TEST_F(TimeStep, RepairsKeepTheMinimumAngleAtTheEquator) {
+  std::string ring;
+  for (int i = 0; i <= 600; ++i) {
+    const double x = 200.0 * i;
+    const double y = -20000.0 + 3000.0 * std::sin(x / 9000.0) + 1500.0 * std::sin(x / 2300.0) +
+                     700.0 * std::sin(x / 870.0) + 300.0 * (i % 3);
+    ring += "[" + std::to_string(x / 1e5) + ", " + std::to_string(y / 1e5) + "], ";
+  }
+  const std::string sea =
+      write("equator.geojson", R"({"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {}, )"
+                               R"("geometry": {"type": "Polygon", "coordinates": [[)" +
+                                   ring + "[1.2, 0.4], [0, 0.4], [0, -0.2]]]}}]}");
+  std::string bed = "ncols 240\nnrows 160\nxllcorner 0\nyllcorner -0.4\ncellsize 0.005\n";
+  for (int j = 0; j < 160; ++j) {
+    const double z = -5.0 - 300.0 * std::clamp((66000.0 - 500.0 * (j + 0.5)) / 20000.0, 0.0, 1.0);
+    for (int i = 0; i < 240; ++i) bed += std::to_string(z) + " ";
+    bed += "\n";
+  }
+  const std::string depths = write("equator.asc", bed);
+  runProgram({"mesh", sea, "--bathymetry", depths, "--size-shore", "800", "--size-max", "4000", "--time-step", "30",
+              "-o", file("e.2dm"), "--report", file("r.json")});
+  const Json report = Json::parse(readText(file("r.json")));
+  EXPECT_GT(report.at("repairs").at("done").size(), 20u);
+  EXPECT_EQ(report.at("refine").at("unresolved").at("count"), 0);
+}
+
 // Repairs would move or remove many of them, since each has another 120 m away.
 TEST_F(TimeStep, RequestedPointsStayWhereTheyAre) {
   std::string places, separator;

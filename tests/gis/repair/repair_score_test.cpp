@@ -8,6 +8,7 @@
 #include <random>
 
 #include "core/quality.hpp"
+#include "gis/grid/local_plane.hpp"
 #include "gis/model/check_target.hpp"
 #include "gis/repair/repair_shore.hpp"
 #include "gis/repair/repair_target.hpp"
@@ -166,9 +167,9 @@ void forEachInnerNode(std::span<const Target> targets, const Crs& crs, auto&& us
     const GridLinks links = linksOf(grid);
     constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
     std::vector<double> smallest_angle(grid.triangles.size(), kUnknown);
-    std::vector<SphereVector> on_sphere(crs.geographic ? grid.nodes.size() : 0, SphereVector{kUnknown, 0.0, 0.0});
+    std::vector<SphereVector> in_space(crs.geographic ? grid.nodes.size() : 0, SphereVector{kUnknown, 0.0, 0.0});
     const std::vector<double> metres(grid.triangles.size(), 1.001);
-    const RepairView view{grid, links, targets, smallest_angle, on_sphere, {kStep, 0.0, metres}};
+    const RepairView view{grid, links, targets, smallest_angle, in_space, {kStep, 0.0, metres}};
     for (std::uint32_t node = 0; node < grid.nodes.size(); ++node)
       if (isMovable(view, node)) use(view, patchRound(view, links.triangles_at[node]), node);
   }
@@ -182,6 +183,41 @@ std::vector<PatchEdit> movesOf(const RepairView& view, std::uint32_t node) {
 }
 
 constexpr std::array<std::array<Target, 1>, 3> kTargetsOfScores{{{Target::Fvcom}, {Target::Swan}, {Target::Dflowfm}}};
+
+TEST(RepairScore, AnglesAreThoseOnTheShapeOfTheEarth) {
+  for (const EarthShape shape : {EarthShape::Ellipsoid, EarthShape::Sphere}) {
+    int judged = 0;
+    double apart = 0.0;  // the largest difference from angles on the other shape
+    forEachInnerNode({}, wgs84(), [&](const RepairView& view, const GridPatch& patch, std::uint32_t node) {
+      std::vector<double> unknown(view.grid.triangles.size(), std::numeric_limits<double>::quiet_NaN());
+      RepairView shaped = view;
+      shaped.shape = shape;
+      shaped.in_space = {};
+      shaped.smallest_angle = unknown;
+      const PatchScale scale = scaleOf(shaped, patch);
+      for (const PatchEdit& edit : movesOf(shaped, node)) {
+        const EditScore score = scoreOf(shaped, patch, scale, edit);
+        if (score.defects == kTurnedOver) continue;
+        double least = 180.0, least_of_other = 180.0;
+        for (const EditedTriangle& triangle : edit.triangles) {
+          std::array<Point, 3> p;
+          for (unsigned i = 0; i < 3; ++i)
+            p[i] = triangle.v[i] == edit.placed ? edit.place : view.grid.nodes[triangle.v[i]];
+          for (const EarthShape of : {EarthShape::Ellipsoid, EarthShape::Sphere}) {
+            const std::vector<Point> plane = localPlane(view.grid.crs, p, of);
+            double& angle = of == shape ? least : least_of_other;
+            angle = std::min(angle, leastAngleDeg(plane[0], plane[1], plane[2]));
+          }
+        }
+        EXPECT_NEAR(score.made_angle, least, 1e-9);
+        apart = std::max(apart, std::abs(score.made_angle - least_of_other));
+        ++judged;
+      }
+    });
+    EXPECT_GT(judged, 100);
+    EXPECT_GT(apart, 0.1);
+  }
+}
 
 // A score is returned if and only if it reaches the bar, however early that is excluded.
 TEST(RepairScore, AboveABarIsTheScoreThatReachesIt) {
