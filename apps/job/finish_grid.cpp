@@ -10,6 +10,7 @@
 #include "apps/job/places.hpp"
 #include "gis/follow/water_notes.hpp"
 #include "gis/for_count.hpp"
+#include "parallel/stage_progress.hpp"
 
 namespace coastmesh {
 
@@ -74,31 +75,35 @@ std::vector<std::string> FinishReport::warnings() const {
 }
 
 FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunControl& control, const ItemLoop& loop) {
+  constexpr int kRounds = 3;
+  constexpr ProgressPart kDepths{0.0, 0.3}, kFirst{0.3, 0.7}, kFurther{0.7, 1.0};
   FinishReport report;
+  report.mended = !options.targets.empty() || options.repair.time_step_s > 0.0;
+  const RunControl of_depths = report.mended ? stageControl(control, kDepths) : control;
   const std::vector<Point> asked = nodesAmong(grid, options.repair.asked);
   const std::vector<Target> targets = targetsNamed(options.targets);
   DepthOptions depth = options.depth;
   depth.keep_known = hasDepths(grid);
-  if (!grid.triangles.empty()) report.depth = setDepths(grid, depth, control, loop);
+  if (!grid.triangles.empty()) report.depth = setDepths(grid, depth, of_depths, loop);
   if (!grid.triangles.empty()) report.boundaries = assignBoundaries(grid, options.boundaries);
   if (options.drop_apart) report.dropped = dropApartWaters(grid);
   // The report is of the water that is left.
-  if (report.dropped.waters > 0 && !depth.files.empty()) report.depth = setDepths(grid, depth, control, loop);
-  report.mended = !targets.empty() || options.repair.time_step_s > 0.0;
+  if (report.dropped.waters > 0 && !depth.files.empty()) report.depth = setDepths(grid, depth, of_depths, loop);
   RepairMemory memory;
   if (!grid.triangles.empty() && report.mended)
-    report.repairs = repairForTargets(grid, targets, options.repair, &memory);
+    report.repairs = repairForTargets(grid, targets, options.repair, &memory, stageControl(control, kFirst));
   // Nodes that repairs made or moved get new depths, which may put openings above the water or make time steps too
   // short: hence further rounds.
-  constexpr int kRounds = 3;
   const auto ofDepths = [](const Repair& repair) { return repair.kind == TargetDefectKind::DryOpening; };
   bool changed = !std::ranges::all_of(report.repairs.repairs, ofDepths);
   for (int round = 0; round < kRounds && changed && !options.depth.files.empty(); ++round) {
     const std::vector<std::string> warnings = std::move(report.depth.warnings);
-    report.depth = setDepths(grid, depth, control, loop);
+    const ProgressPart part = kFurther.part(static_cast<double>(round) / kRounds, (round + 1.0) / kRounds);
+    report.depth = setDepths(grid, depth, stageControl(control, part.part(0.0, 0.5)), loop);
     report.depth.warnings = warnings;
     std::erase_if(report.repairs.repairs, ofDepths);
-    RepairReport again = repairForTargets(grid, targets, options.repair, &memory);
+    RepairReport again =
+        repairForTargets(grid, targets, options.repair, &memory, stageControl(control, part.part(0.5, 1.0)));
     changed = !std::ranges::all_of(again.repairs, ofDepths);
     std::ranges::move(again.repairs, std::back_inserter(report.repairs.repairs));
     report.repairs.left = std::move(again.left);

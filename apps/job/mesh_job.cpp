@@ -538,7 +538,7 @@ MeshJobResult runOnThreads(const MeshJob& given, const JobControl& control) {
   result.log.append(recorder.finish("grid"));
   finish.repair = {job.sizes.time_step_s / job.sizes.courant, job.sizes.coast == CoastDetail::Follow,
                    job.mesh.refine.min_angle_deg, job.mesh.refine.max_angle_deg, result.asked};
-  if (result.surfaces.contains(SurfaceKind::Sphere)) finish.repair.shape = EarthShape::Sphere;
+  finish.repair.on_sphere = result.surfaces.contains(SurfaceKind::Sphere);
   finish.drop_apart = dropsWatersApart(job);
   if (finish.any()) {
     const Stopwatch finishing;

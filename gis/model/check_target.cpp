@@ -10,6 +10,7 @@
 #include "core/quality.hpp"
 #include "core/tri_mesh.hpp"
 #include "gis/grid/boundary_kinds.hpp"
+#include "gis/grid/geographic_nodes.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/ground_orientation.hpp"
 #include "gis/grid/local_plane.hpp"
@@ -65,20 +66,6 @@ std::vector<TargetDefect> courantsBeyond(const Grid& grid, double time_step_s, b
   return found;
 }
 
-// Degrees: the largest angle if the model rejects it, else 0.
-double angleBeyond(const Grid& grid, Target target, const std::array<std::uint32_t, 3>& corners) {
-  const Point &a = grid.nodes[corners[0]], &b = grid.nodes[corners[1]], &c = grid.nodes[corners[2]];
-  if (target == Target::Swan) {
-    const double largest = largestFileAngle(a, b, c);
-    return largest > kSwanLargestAngleDeg ? largest : 0.0;
-  }
-  if (target == Target::Mpas) {
-    const double largest = largestSphereAngle(grid.crs, a, b, c);
-    return largest > kMpasLargestAngleDeg ? largest : 0.0;
-  }
-  return 0.0;
-}
-
 class TargetCheck {
  public:
   TargetCheck(const Grid& grid, Target target, const TargetCheckOptions& options)
@@ -91,6 +78,7 @@ class TargetCheck {
     mesh_ = linkTriangles(grid_.nodes, grid_.triangles, conflicts_);
     for (const EdgeConflict& conflict : conflicts_) add(TargetDefectKind::BrokenEdge, middle(conflict.a, conflict.b));
     if (mindsJumps(target_) && grid_.crs.geographic) checkJumps();
+    if (target_ == Target::Mpas && isProjectedForMpas(grid_.crs)) on_earth_ = geographicNodes(grid_);
     checkTriangles();
     checkNodes();
     for (const std::uint32_t node : hangingNodes(grid_, mesh_))
@@ -111,6 +99,21 @@ class TargetCheck {
   void add(TargetDefectKind kind, const Point& place, std::int64_t triangle = -1, std::int64_t node = -1,
            double value = 0.0) {
     defects_.push_back({kind, place, triangle, node, value, {}});
+  }
+
+  // Degrees: the largest angle of a triangle if the model rejects it, else 0.
+  double angleBeyond(const std::array<std::uint32_t, 3>& corners) const {
+    const std::vector<Point>& nodes = on_earth_.empty() ? grid_.nodes : on_earth_;
+    const Point &a = nodes[corners[0]], &b = nodes[corners[1]], &c = nodes[corners[2]];
+    if (target_ == Target::Swan) {
+      const double largest = largestFileAngle(a, b, c);
+      return largest > kSwanLargestAngleDeg ? largest : 0.0;
+    }
+    if (target_ == Target::Mpas) {
+      const double largest = grid_.crs.isPlane() ? largestFileAngle(a, b, c) : largestSphereAngle(a, b, c);
+      return largest > kMpasLargestAngleDeg ? largest : 0.0;
+    }
+    return 0.0;
   }
 
   Point middle(std::uint32_t a, std::uint32_t b) const {
@@ -137,7 +140,7 @@ class TargetCheck {
       }
       // In a mesh around a pole, angles in degrees are meaningless, and no change of the mesh helps.
       if (target_ == Target::Swan && goes_round_) continue;
-      if (const double largest = angleBeyond(grid_, target_, grid_.triangles[t]); largest > 0.0)
+      if (const double largest = angleBeyond(grid_.triangles[t]); largest > 0.0)
         add(TargetDefectKind::LargeAngle, middle(t), static_cast<std::int64_t>(t), -1, largest);
     }
   }
@@ -315,17 +318,19 @@ class TargetCheck {
   TriMesh mesh_;
   std::vector<EdgeConflict> conflicts_;
   std::vector<TargetDefect> defects_;
-  bool goes_round_ = false;  // around a pole or the globe
+  std::vector<Point> on_earth_;  // longitudes and latitudes of the nodes, if the model uses these instead
+  bool goes_round_ = false;      // around a pole or the globe
 };
 
 }  // namespace
 
 std::string_view toString(TargetDefectKind kind) { return kKindNames[static_cast<std::size_t>(kind)]; }
 
-double largestSphereAngle(const Crs& crs, const Point& a, const Point& b, const Point& c) {
-  if (!crs.geographic) return std::ranges::max(anglesDeg(a, b, c));
+double largestSphereAngle(const Point& a, const Point& b, const Point& c) {
   return std::ranges::max(flatAnglesDeg(onSphere(asLonLat(a)), onSphere(asLonLat(b)), onSphere(asLonLat(c))));
 }
+
+bool isProjectedForMpas(const Crs& crs) { return !crs.geographic && !crs.isPlane(); }
 
 double largestFileAngle(const Point& a, const Point& b, const Point& c) { return std::ranges::max(anglesDeg(a, b, c)); }
 

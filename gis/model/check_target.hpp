@@ -70,9 +70,12 @@ std::vector<TargetDefect> checkTarget(const Grid& grid, Target target, const Tar
 // The same for the time step alone, for any model: triangles with a Courant number above 1, starting with the worst.
 std::vector<TargetDefect> checkTimeStep(const Grid& grid, double time_step_s);
 
-// MPAS' measure: the largest angle in degrees of the flat triangle through three points of a sphere, with unchanged
-// latitudes; coordinates other than longitudes and latitudes are used as they are.
-double largestSphereAngle(const Crs& crs, const Point& a, const Point& b, const Point& c);
+// MPAS' measure: the largest angle in degrees of the flat triangle through three points of a sphere, from longitudes
+// and unchanged latitudes.
+double largestSphereAngle(const Point& a, const Point& b, const Point& c);
+
+// True if MPAS' file has other places than a grid in this CRS: on its sphere, not in a projected CRS.
+bool isProjectedForMpas(const Crs& crs);
 
 // SWAN's measure: the largest angle in degrees, from coordinates as they are in the file. It treats longitudes and
 // latitudes as a plane.

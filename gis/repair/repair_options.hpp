@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "core/point.hpp"
-#include "gis/grid/on_sphere.hpp"
 
 namespace coastmesh {
 
@@ -16,8 +15,8 @@ struct RepairOptions {
   // Degrees: the maximum angle of the mesh. Repairs for the time step, and the final increase of small angles, keep it;
   // other repairs may exceed it, since models may need them.
   double max_angle_deg = 180.0;
-  std::vector<Point> asked{};                // places of nodes that the user requested: no repair moves them
-  EarthShape shape = EarthShape::Ellipsoid;  // on which angles are measured
+  std::vector<Point> asked{};  // places of nodes that the user requested: no repair moves them
+  bool on_sphere = false;      // angles are those on a sphere with unchanged latitudes, not on the ellipsoid
 };
 
 // Failed attempts of earlier repairs of a grid, which later ones skip.

@@ -36,6 +36,7 @@ struct GridLinks {
   bool isAsked(std::uint32_t node) const { return node < asked.size() && asked[node]; }
 };
 
+class CrsMap;
 class ShoreIndex;
 
 // The time step that triangles must allow (`timeSteps`).
@@ -60,6 +61,9 @@ struct RepairView {
   StepBound step{};
   const ShoreIndex* shores = nullptr;        // if set, nodes of the shore may move along it, or be removed
   EarthShape shape = EarthShape::Ellipsoid;  // on which angles are measured
+  // Set if a model measures in longitudes and latitudes what lies in a projected CRS; those of nodes as in `in_space`.
+  const CrsMap* to_earth = nullptr;
+  std::span<Point> on_earth{};
 
   bool isFor(Target target) const { return std::ranges::count(targets, target) > 0; }
 };

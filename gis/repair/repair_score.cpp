@@ -10,6 +10,7 @@
 #include "core/metric.hpp"
 #include "core/predicates.hpp"
 #include "core/quality.hpp"
+#include "gis/crs/crs_map.hpp"
 #include "gis/grid/ground_orientation.hpp"
 #include "gis/grid/local_plane.hpp"
 #include "gis/long_wave.hpp"
@@ -62,15 +63,33 @@ class EditedView {
     return known;
   }
 
+  // The largest angle of the triangle in MPAS' file.
+  double mpasAngleDeg(const GridCorners& v) const {
+    if (view.grid.crs.isPlane()) {
+      const auto p = placesOf(v);
+      return largestFileAngle(p[0], p[1], p[2]);
+    }
+    return largestSphereAngle(lonLatOf(v[0]), lonLatOf(v[1]), lonLatOf(v[2]));
+  }
+
   const RepairView& view;
   const PatchEdit& edit;
 
  private:
+  Point lonLatOf(std::uint32_t node) const {
+    const Point& place = node == edit.placed ? edit.place : view.grid.nodes[node];
+    if (view.to_earth == nullptr) return place;
+    Point& known = node == edit.placed ? placed_on_earth_ : view.on_earth[node];
+    if (std::isnan(known.x)) known = view.to_earth->forward(place);
+    return known;
+  }
+
   SphereVector inSpace(const Point& place) const {
     return coastmesh::inSpace(asLonLat(place), view.grid.crs, view.shape);
   }
 
   SphereVector placed_{};
+  mutable Point placed_on_earth_{std::numeric_limits<double>::quiet_NaN(), 0.0};
 };
 
 const PatchEdit kNoEdit;
@@ -166,10 +185,7 @@ int triangleDefects(const EditedView& edited, const GridCorners& v, std::uint32_
     const auto q = edited.placesOf(v);
     defects += largestFileAngle(q[0], q[1], q[2]) > kSwanLargestAngleDeg;
   }
-  if (view.isFor(Target::Mpas)) {
-    const auto q = edited.placesOf(v);
-    defects += largestSphereAngle(view.grid.crs, q[0], q[1], q[2]) > kMpasLargestAngleDeg;
-  }
+  if (view.isFor(Target::Mpas)) defects += edited.mpasAngleDeg(v) > kMpasLargestAngleDeg;
   int open = 0, solid = 0;
   for (unsigned i = 0; i < 3; ++i) {
     const BoundaryKind* const kind = kindOf(view, edited.edit, v[i], v[next3(i)]);

@@ -215,6 +215,7 @@ class MovedNodes {
     constexpr double kUnmeasured = std::numeric_limits<double>::quiet_NaN();
     for (const std::uint32_t t : state_.links.triangles_at[node]) state_.smallest_angle[t] = kUnmeasured;
     if (!state_.in_space.empty()) state_.in_space[node][0] = kUnmeasured;
+    if (!state_.on_earth.empty()) state_.on_earth[node].x = kUnmeasured;
   }
 
   RepairState& state_;
@@ -283,7 +284,7 @@ bool relaxTriangle(RepairState& state, std::uint32_t t) {
   return chosen.has_value();
 }
 
-void shareSmallAngle(RepairState& state, std::uint32_t t) {
+bool shareSmallAngle(RepairState& state, std::uint32_t t) {
   constexpr int kRings = 3, kMostSweeps = 80;
   constexpr double kBeyondDeg = 1.0;  // above the bound: larger angles are free to become smaller
   const RepairView view = state.view();
@@ -294,12 +295,12 @@ void shareSmallAngle(RepairState& state, std::uint32_t t) {
   const std::vector<std::uint32_t> affected = patchRound(view, around).triangles;
   const auto countSmall = [&] {
     return std::ranges::count_if(affected, [&](std::uint32_t of) {
-      const std::vector<Point> p = localPlane(state.grid, state.grid.triangles[of], state.options.shape);
+      const std::vector<Point> p = localPlane(state.grid, state.grid.triangles[of], state.shape());
       return leastAngleDeg(p[0], p[1], p[2]) < bound;
     });
   };
   const auto small_before = countSmall();
-  if (small_before == 0) return;
+  if (small_before == 0) return false;
   MovedNodes moved(state);
   for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
     bool any = false;
@@ -314,7 +315,9 @@ void shareSmallAngle(RepairState& state, std::uint32_t t) {
     }
     if (!any || countSmall() == 0) break;
   }
-  if (countSmall() >= small_before) moved.putBack();
+  if (countSmall() < small_before) return true;
+  moved.putBack();
+  return false;
 }
 
 void mendValence(RepairState& state, const FoundDefect& found) {

@@ -25,8 +25,8 @@ void unfoldTriangle(RepairState& state, const FoundDefect& found);
 bool relaxTriangle(RepairState& state, std::uint32_t t);
 
 // For a triangle whose smallest angle no single edit increases: moves nodes up to three edges away, if that lets fewer
-// triangles miss the minimum angle. Call after `startRound`; the triangles keep their corners.
-void shareSmallAngle(RepairState& state, std::uint32_t t);
+// triangles miss the minimum angle; returns whether it did. Call after `startRound`; the triangles keep their corners.
+bool shareSmallAngle(RepairState& state, std::uint32_t t);
 
 void mendValence(RepairState& state, const FoundDefect& found);
 

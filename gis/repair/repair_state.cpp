@@ -7,6 +7,7 @@
 
 #include "core/metric.hpp"
 #include "gis/crs/geodesy.hpp"
+#include "gis/crs/ogr_support.hpp"
 #include "gis/grid/local_plane.hpp"
 
 namespace coastmesh {
@@ -70,7 +71,7 @@ void measureGround(RepairState& state) {
   for (std::size_t k = 0; k < which.size(); ++k) {
     std::array<Point, 3> p;
     for (unsigned i = 0; i < 3; ++i) p[i] = nodes[corners[k][i]];
-    flattenLocally(grid.crs, p, state.options.shape);
+    flattenLocally(grid.crs, p, state.shape());
     const auto shortest = std::ranges::min_element(lengths[k]);
     const auto i = static_cast<unsigned>(shortest - lengths[k].begin());
     state.metres_per_unit[which[k]] = *shortest / distance(p[i], p[next3(i)]);
@@ -114,6 +115,9 @@ void startRepairs(RepairState& state, const RepairMemory* memory) {
   state.changed.assign(state.grid.triangles.size(), false);
   state.hopeless_triangles = state.disturbed = state.stuck = state.changed;
   state.hopeless_nodes.assign(state.grid.nodes.size(), false);
+  const Crs& crs = state.grid.crs;
+  if (std::ranges::count(state.targets, Target::Mpas) > 0 && isProjectedForMpas(crs))
+    state.to_earth.emplace(toOgr(crs), toOgr(wgs84()));
   if (memory != nullptr) recall(*memory, state);
 }
 
@@ -154,6 +158,7 @@ void startRound(RepairState& state) {
   state.smallest_angle.assign(grid.triangles.size(), std::numeric_limits<double>::quiet_NaN());
   if (grid.crs.geographic)
     state.in_space.assign(grid.nodes.size(), SphereVector{std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0});
+  if (state.to_earth) state.on_earth.assign(grid.nodes.size(), Point{kUnmeasured, kUnmeasured});
   if (state.options.shore_moves) state.shores.emplace(state.view());
 }
 

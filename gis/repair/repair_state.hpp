@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "gis/crs/crs_map.hpp"
 #include "gis/repair/repair_options.hpp"
 #include "gis/repair/repair_patch.hpp"
 #include "gis/repair/repair_report.hpp"
@@ -23,6 +24,8 @@ struct RepairState {
   std::vector<bool> touched{}, dead{};
   mutable std::vector<double> smallest_angle{};  // as in RepairView, cached: a node may have thousands of triangles
   mutable std::vector<SphereVector> in_space{};  // likewise
+  std::optional<CrsMap> to_earth{};              // as in RepairView; in all rounds
+  mutable std::vector<Point> on_earth{};         // likewise; of this round
   std::vector<double> metres_per_unit{};         // as in StepBound; of this round
   std::optional<ShoreIndex> shores{};            // set if nodes of the shore may move; of this round
   // By triangle, in all rounds: changed since it was measured.
@@ -33,11 +36,21 @@ struct RepairState {
   // By triangle: no edit at its corners lets it reach the time step, as long as the triangles there do not change.
   std::vector<bool> stuck{};
 
+  EarthShape shape() const { return options.on_sphere ? EarthShape::Sphere : EarthShape::Ellipsoid; }
   RepairView view() const {
     // With a fixed shore the time step can seldom be reached everywhere, so no angles are sacrificed for it.
     const StepBound step{options.time_step_s, options.shore_moves ? 20.0 : options.min_angle_deg, metres_per_unit,
                          options.max_angle_deg};
-    return {grid, links, targets, smallest_angle, in_space, step, shores ? &*shores : nullptr, options.shape};
+    return {grid,
+            links,
+            targets,
+            smallest_angle,
+            in_space,
+            step,
+            shores ? &*shores : nullptr,
+            shape(),
+            to_earth ? &*to_earth : nullptr,
+            on_earth};
   }
   bool isTaken(std::uint32_t t) const { return touched[t] || dead[t]; }
   bool anyTaken(std::span<const std::uint32_t> triangles) const;

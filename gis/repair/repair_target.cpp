@@ -1,6 +1,7 @@
 #include "gis/repair/repair_target.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <set>
 
@@ -23,7 +24,20 @@ namespace {
 
 constexpr int kMostRounds = 40;
 constexpr int kRelaxRounds = 12;
+constexpr double kRelaxFrom = 0.9;        // share of the progress when all rounds are done
 constexpr std::size_t kMostShared = 100;  // triangles: each takes some milliseconds
+
+// The control of the part of all repairs that reports progress between these shares.
+RunControl partOf(const RunControl& control, double from, double to) {
+  if (!control.progress) return control;
+  return {control.cancelled, [&control, from, to](double share) { control.progress(from + (to - from) * share); }};
+}
+
+// A round takes about half the time of the one before.
+RunControl roundOf(const RunControl& control, int round) {
+  const auto at = [](int of) { return kRelaxFrom * (1.0 - std::exp2(-of)); };
+  return partOf(control, at(round), at(round + 1));
+}
 
 std::vector<FoundDefect> findDefects(const Grid& grid, std::span<const Target> targets, const RepairOptions& options) {
   std::vector<FoundDefect> found;
@@ -146,9 +160,17 @@ void mend(RepairState& state, const FoundDefect& found) {
 // True if no repair changes a boundary edge; boundaries are then rebuilt once, at the end.
 bool keepsBoundaries(const RepairState& state) { return state.targets.empty() && !state.options.shore_moves; }
 
+// True if a round repaired so many of the defects that another one is worth its time.
+bool isWorthwhile(std::size_t repaired, std::size_t defects) {
+  constexpr std::size_t kLeast = 1000;  // one in so many
+  return repaired > 0 && repaired >= defects / kLeast;
+}
+
 // Returns whether another round may find more to do. Defects of boundaries alone warrant one more round only, since
 // those that `cutLoops` cannot repair remain.
-bool mendRound(RepairState& state, const std::vector<FoundDefect>& defects, bool& boundaries_done) {
+bool mendRound(RepairState& state, const std::vector<FoundDefect>& defects, bool& boundaries_done,
+               const RunControl& control) {
+  constexpr std::size_t kStride = 1024;  // between checkpoints
   startRound(state);
   const std::size_t repairs_before = state.report.repairs.size();
   std::vector<FoundDefect> of_boundaries;
@@ -156,18 +178,20 @@ bool mendRound(RepairState& state, const std::vector<FoundDefect>& defects, bool
   mendClockwise(state, once);
   // The other defects were found while these triangles were not linked to their neighbours: search again.
   if (state.report.repairs.size() > repairs_before) return true;
-  for (const FoundDefect& found : once) {
-    if (isOfBoundaries(found.defect.kind)) of_boundaries.push_back(found);
-    mend(state, found);
+  for (std::size_t i = 0; i < once.size(); ++i) {
+    if (i % kStride == 0) control.checkpoint(static_cast<double>(i) / static_cast<double>(once.size()));
+    if (isOfBoundaries(once[i].defect.kind)) of_boundaries.push_back(once[i]);
+    mend(state, once[i]);
   }
-  const bool changed = state.report.repairs.size() > repairs_before;
+  const std::size_t repaired = state.report.repairs.size() - repairs_before;
+  const bool changed = repaired > 0;
   state.grid.notes.clear();
   if (!changed && of_boundaries.empty()) return false;
   if (changed) compact(state);
   const std::size_t boundaries_before = state.grid.boundaries.size();
   if (!keepsBoundaries(state)) rebuildBoundaries(state);
   reportRebuilt(state, of_boundaries, boundaries_before);
-  const bool again = changed || !boundaries_done;
+  const bool again = isWorthwhile(repaired, once.size()) || !boundaries_done;
   boundaries_done = true;
   return again;
 }
@@ -192,32 +216,39 @@ void measureChanged(Grid& grid, const std::vector<bool>& changed, EarthShape sha
 }
 
 std::vector<std::uint32_t> sharpened(const RepairState& state) {
-  const RepairOptions& options = state.options;
   std::vector<std::uint32_t> found;
   for (std::uint32_t t = 0; t < state.grid.triangles.size(); ++t)
-    if (state.changed[t] && smallestAngle(state.grid, t, options.shape) < options.min_angle_deg - kAngleSlackDeg)
+    if (state.changed[t] && smallestAngle(state.grid, t, state.shape()) < state.options.min_angle_deg - kAngleSlackDeg)
       found.push_back(t);
   return found;
 }
 
-// Repairs may leave small angles; this pass changes the triangles and nodes around to enlarge them.
-void relax(RepairState& state) {
+// Repairs may leave small angles; this pass changes the triangles and nodes around to enlarge them. Returns whether it
+// changed any.
+bool relax(RepairState& state, const RunControl& control) {
+  bool changed = false;
   for (int round = 0; round < kRelaxRounds; ++round) {
+    control.checkpoint(static_cast<double>(round) / kRelaxRounds);
     const std::vector<std::uint32_t> small = sharpened(state);
-    if (small.empty()) return;
+    if (small.empty()) return changed;
     startRound(state);
     bool any = false;
     for (const std::uint32_t t : small)
       if (relaxTriangle(state, t)) any = true;
     if (!any) break;
+    changed = true;
     if (std::ranges::count(state.dead, true) == 0) continue;
     compact(state);
     if (!keepsBoundaries(state)) rebuildBoundaries(state);
   }
   const std::vector<std::uint32_t> small = sharpened(state);
-  if (small.empty() || small.size() > kMostShared) return;
+  if (small.empty() || small.size() > kMostShared) return changed;
   startRound(state);
-  for (const std::uint32_t t : small) shareSmallAngle(state, t);
+  for (const std::uint32_t t : small) {
+    control.checkpoint(1.0);
+    if (shareSmallAngle(state, t)) changed = true;
+  }
+  return changed;
 }
 
 void reportLeft(std::vector<FoundDefect> defects, RepairReport& report) {
@@ -236,7 +267,7 @@ std::vector<bool> nodesAt(const std::vector<Point>& nodes, std::vector<Point> pl
 
 // `asked` has a flag for each node, as in GridLinks.
 RepairReport repairInOneTurn(Grid& grid, std::span<const Target> targets, const RepairOptions& options,
-                             std::vector<bool> asked, RepairMemory* memory) {
+                             std::vector<bool> asked, RepairMemory* memory, const RunControl& control) {
   RepairState state{grid, targets, options};
   state.links.asked = std::move(asked);
   std::vector<FoundDefect> defects = findDefects(grid, targets, options);
@@ -253,16 +284,16 @@ RepairReport repairInOneTurn(Grid& grid, std::span<const Target> targets, const 
   state.links.kinds = takeBoundaryKinds(grid);
   bool again = true, boundaries_done = false;
   for (int round = 0; round < kMostRounds && again && !defects.empty(); ++round) {
-    again = mendRound(state, defects, boundaries_done);
+    again = mendRound(state, defects, boundaries_done, roundOf(control, round));
     defects = findDefects(grid, targets, options);
   }
   requireTriangles(grid, targets);
-  relax(state);
+  if (relax(state, partOf(control, kRelaxFrom, 1.0)) && !targets.empty()) defects = findDefects(grid, targets, options);
   reportLeft(std::move(defects), state.report);
   reportLeft(findOverlaps(grid, targets), state.report);
   if (keepsBoundaries(state) && std::ranges::count(state.changed, true) > 0) rebuildBoundaries(state);
   if (memory != nullptr) *memory = memoryOf(state);
-  measureChanged(grid, state.changed, options.shape);
+  measureChanged(grid, state.changed, state.shape());
   requireConsistent(grid);
   return std::move(state.report);
 }
@@ -270,11 +301,11 @@ RepairReport repairInOneTurn(Grid& grid, std::span<const Target> targets, const 
 }  // namespace
 
 RepairReport repairForTargets(Grid& grid, std::span<const Target> targets, const RepairOptions& options,
-                              RepairMemory* memory) {
+                              RepairMemory* memory, const RunControl& control) {
   // Longitudes are unwrapped as in the files that models read: across a jump of 360°, shapes in degrees would be wrong.
   std::vector<bool> asked = nodesAt(grid.nodes, options.asked);
   const TurnedNodes turned(grid);
-  RepairReport report = repairInOneTurn(grid, targets, options, std::move(asked), memory);
+  RepairReport report = repairInOneTurn(grid, targets, options, std::move(asked), memory, control);
   turned.putBack(grid);
   for (Repair& repair : report.repairs) repair.place = turned.putBack(repair.place);
   for (auto& [target, defect] : report.left) defect.place = turned.putBack(defect.place);

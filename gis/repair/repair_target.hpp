@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/run_control.hpp"
 #include "gis/grid/grid.hpp"
 #include "gis/model/check_target.hpp"
 #include "gis/repair/repair_options.hpp"
@@ -21,7 +22,8 @@ namespace coastmesh {
 // triangles are measured again. Longitudes that jump are unwrapped during repairs, and restored at the end. Throws
 // InputError if the grid has weirs and defects other than wrong counts, or if no triangle is left. `memory` comes from
 // the last call with the same options, on the grid that it left, whose depths may have changed since. It is updated.
+// A round that repairs less than a thousandth of the defects is the last. Throws Cancelled.
 RepairReport repairForTargets(Grid& grid, std::span<const Target> targets, const RepairOptions& options = {},
-                              RepairMemory* memory = nullptr);
+                              RepairMemory* memory = nullptr, const RunControl& control = {});
 
 }  // namespace coastmesh

@@ -8,11 +8,14 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <set>
 
 #include "core/quality.hpp"
+#include "gis/crs/crs.hpp"
 #include "gis/error.hpp"
 #include "gis/format/grid_io.hpp"
+#include "gis/grid/geographic_nodes.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/model/assign_boundaries.hpp"
 #include "gis/model/flow_links.hpp"
@@ -432,8 +435,29 @@ TEST(CheckTarget, MpasMeasuresAnglesOnItsSphere) {
   }
   // With a node at the pole, the others are far apart in longitude. The chords of an octant have 60 degrees in each
   // corner.
-  EXPECT_NEAR(largestSphereAngle(wgs84(), {0, 0}, {90, 0}, {123, 90}), 60.0, 1e-12);
-  EXPECT_NEAR(largestSphereAngle(wgs84(), {170, 80}, {-170, 80}, {0, 90}), 80.03844190190964, 1e-9);
+  EXPECT_NEAR(largestSphereAngle({0, 0}, {90, 0}, {123, 90}), 60.0, 1e-12);
+  EXPECT_NEAR(largestSphereAngle({170, 80}, {-170, 80}, {0, 90}), 80.03844190190964, 1e-9);
+}
+
+// MPAS' file holds meshes of any CRS on the sphere. Equilateral triangles of an equal-area CRS are obtuse there, and
+// the other way round.
+TEST(CheckTarget, MpasMeasuresProjectedMeshesOnItsSphere) {
+  for (const bool sound_on_sphere : {false, true}) {
+    Grid grid = soundGrid();
+    if (sound_on_sphere) {  // at 55 degrees north
+      const double scale = std::cos(55.0 * std::numbers::pi / 180.0);
+      for (Point& p : grid.nodes) p = {p.x / scale, 5'200'000.0 + p.y * scale};
+    }
+    grid.crs = parseCrs(sound_on_sphere ? "+proj=cea +lat_ts=0 +datum=WGS84" : "+proj=cea +lat_ts=50 +datum=WGS84");
+    EXPECT_EQ(kindsIn(grid, Target::Mpas).contains(TargetDefectKind::LargeAngle), !sound_on_sphere);
+    const RepairReport report = repairForTargets(grid, std::array{Target::Mpas});
+    EXPECT_EQ(report.repairs.empty(), sound_on_sphere);
+    Grid geographic = grid;
+    geographic.nodes = geographicNodes(grid);
+    geographic.crs = wgs84();
+    EXPECT_EQ(checkTarget(geographic, Target::Mpas).size(), report.left.size());
+    EXPECT_EQ(checkTarget(grid, Target::Mpas).size(), report.left.size());
+  }
 }
 
 TEST(CheckTarget, ObtuseTrianglesAreMendedForMpas) {
