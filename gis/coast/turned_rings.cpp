@@ -1,5 +1,6 @@
 #include "gis/coast/turned_rings.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -17,18 +18,41 @@ Step stepOf(const Point& a, const Point& b) {
 
 int turnOf(const Point& a, const Point& b) { return a.x > b.x ? 1 : -1; }
 
+// True for a band round the globe: the others of its places lie between its edges of 360 degrees, and it runs along the
+// meridian where they end, as a map does. Where an island crosses that meridian, either is mostly not so.
+bool isBand(const Ring& ring) {
+  double south = 90, north = -90, west = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point &a = ring[i], &b = ring[(i + 1) % ring.size()];
+    if (stepOf(a, b) != Step::WholeTurn) continue;
+    south = std::min({south, a.y, b.y});
+    north = std::max({north, a.y, b.y});
+    west = std::min(a.x, b.x);
+  }
+  bool along = false;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point &a = ring[i], &b = ring[(i + 1) % ring.size()];
+    if (a.y < south || a.y > north) return false;
+    along = along || (a.x == b.x && a.y != b.y && (a.x == west || a.x == west + 360));
+  }
+  return along;
+}
+
 // True if edges of exactly 360 degrees jump.
 bool wholeTurnsJump(const std::vector<Point>& lonlat, std::size_t edges) {
-  bool others = false;
-  int by_jumps = 0, by_whole_turns = 0;
+  const bool closed = edges == lonlat.size();
+  bool by_others = false, any = false;
+  int net_of_others = 0, net = 0;
   for (std::size_t i = 0; i < edges; ++i) {
     const Point &a = lonlat[i], &b = lonlat[(i + 1) % lonlat.size()];
     const Step step = stepOf(a, b);
-    others = others || step == Step::Jump;
-    if (step == Step::Jump) by_jumps += turnOf(a, b);
-    if (step == Step::WholeTurn) by_whole_turns += turnOf(a, b);
+    by_others = by_others || step == Step::Jump;
+    any = any || step == Step::WholeTurn;
+    if (step == Step::Jump) net_of_others += turnOf(a, b);
+    if (step == Step::WholeTurn) net += turnOf(a, b);
   }
-  return others && !(by_jumps == 0 && by_whole_turns != 0);
+  if (!any) return false;
+  return by_others ? net_of_others != 0 || net == 0 : closed && net == 0 && !isBand(lonlat);
 }
 
 }  // namespace
@@ -56,10 +80,13 @@ Turns turnsOf(const std::vector<Point>& lonlat, bool closed) {
 }
 
 bool longitudesJump(const Ring& lonlat) {
+  bool whole_turns = false;
   for (std::size_t i = 0; i < lonlat.size(); ++i) {
-    if (stepOf(lonlat[i], lonlat[(i + 1) % lonlat.size()]) == Step::Jump) return true;
+    const Step step = stepOf(lonlat[i], lonlat[(i + 1) % lonlat.size()]);
+    if (step == Step::Jump) return true;
+    whole_turns = whole_turns || step == Step::WholeTurn;
   }
-  return false;
+  return whole_turns && wholeTurnsJump(lonlat, lonlat.size());
 }
 
 double poleWithin(const Ring& lonlat) {

@@ -15,8 +15,9 @@ struct Turns {
 
 // An edge of more than 180 degrees jumps from one end of the map to the other. An edge of exactly 360 jumps if others
 // do, since both of its ends are then on one meridian, unless it alone would keep the ring from closing. If no other
-// edge jumps, the ring is one of the map, and such an edge runs along all of it. An edge from a pole to the same pole
-// has no length, whatever its longitudes.
+// edge jumps, it does so in rings that close and are no band round the globe: an island across the antimeridian. In
+// others, such as boxes of the map, it runs along all of the map. An edge from a pole to the same pole has no length,
+// whatever its longitudes.
 Turns turnsOf(const std::vector<Point>& lonlat, bool closed);
 
 // True if some edge jumps from one end of the map to the other: the ring crosses the antimeridian or surrounds a pole.

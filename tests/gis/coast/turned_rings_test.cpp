@@ -44,6 +44,50 @@ TEST(TurnedRings, RoundAPole) {
   }
 }
 
+// Islands whose rings cross the antimeridian only by edges from end to end, as in Natural Earth.
+TEST(TurnedRings, EdgesFromEndToEndAloneCrossTheAntimeridianToo) {
+  const std::vector<Ring> islands{
+      {{-180, -16.5}, {180, -16.5}, {179.9, -16.6}, {179.9, -16.4}, {180, -16.45}},
+      {{-180, -16.5}, {180, -16.5}, {179.9, -16.48}, {180, -16.45}, {-180, -16.45}, {-179.9, -16.48}},
+      {{-180, -16.5},
+       {180, -16.5},
+       {180, -16.55},
+       {179.9, -16.6},
+       {179.9, -16.4},
+       {180, -16.45},
+       {-180, -16.45},
+       {-179.9, -16.4}}};
+  for (Ring ring : islands) {
+    for (std::size_t first = 0; first < ring.size(); ++first) {
+      std::ranges::rotate(ring, ring.begin() + 1);
+      for (int way = 0; way < 2; ++way) {
+        std::ranges::reverse(ring);
+        EXPECT_TRUE(longitudesJump(ring));
+        EXPECT_EQ(locate(ring, {179.95, -16.48}), Location::Inside);
+        EXPECT_EQ(locate(ring, {0, -16.48}), Location::Outside);
+        EXPECT_EQ(locate(ring, {-179.8, -16.48}), Location::Outside);
+      }
+    }
+  }
+}
+
+// The sea of a map, without land that crosses the antimeridian.
+TEST(TurnedRings, BandsRoundTheGlobeStayAsTheyAre) {
+  for (const Ring& ring : {Ring{{-180, -60}, {180, -60}, {180, 80}, {-180, 80}}, Ring{{-180, -60},
+                                                                                      {180, -60},
+                                                                                      {180, 65},
+                                                                                      {175, 68},
+                                                                                      {180, 70},
+                                                                                      {180, 80},
+                                                                                      {-180, 80},
+                                                                                      {-180, 70},
+                                                                                      {-172, 67},
+                                                                                      {-180, 65}}}) {
+    EXPECT_FALSE(longitudesJump(ring));
+    EXPECT_EQ(turnedRings(ring), std::vector<Ring>{ring});
+  }
+}
+
 // A small island on the antimeridian with an edge from one end of the map to the other, from every starting point, in
 // both directions, with the meridian as 180 or -180: it never becomes a band around the Earth.
 TEST(TurnedRings, AnEdgeFromEndToEndBesideAJumpHasNoLength) {
