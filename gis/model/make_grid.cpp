@@ -190,27 +190,28 @@ std::vector<NodePair> openEdges(const Domain& domain, const TriMesh& mesh, const
   return open;
 }
 
-// Cuts a loop where open water and land meet, so that each piece is one or the other; they share their end nodes.
+// Cuts a loop where open water and land meet, so that each piece is one or the other; they share their end nodes. Only
+// a whole loop is an island.
 std::vector<Boundary> splitLoop(Boundary&& loop, const std::vector<NodePair>& open) {
   const std::size_t n = loop.nodes.size();
   std::vector<char> is_open(n);
   for (std::size_t i = 0; i < n; ++i) {
     is_open[i] = std::ranges::binary_search(open, NodePair{loop.nodes[i], loop.nodes[(i + 1) % n]});
   }
-  const auto roleOf = [&](std::size_t i) { return is_open[i] ? BoundaryRole::Open : loop.role; };
   std::vector<std::size_t> starts;
   for (std::size_t i = 0; i < n; ++i) {
     if (is_open[i] != is_open[(i + n - 1) % n]) starts.push_back(i);
   }
   std::vector<Boundary> pieces;
   if (starts.empty()) {
-    loop.role = roleOf(0);
+    if (is_open[0]) loop.role = BoundaryRole::Open;
     pieces.push_back(std::move(loop));
     return pieces;
   }
   for (std::size_t s = 0; s < starts.size(); ++s) {
     const std::size_t first = starts[s], last = starts[(s + 1) % starts.size()];
-    Boundary& piece = pieces.emplace_back(Boundary{roleOf(first), false, {}});
+    const BoundaryRole role = is_open[first] ? BoundaryRole::Open : BoundaryRole::Land;
+    Boundary& piece = pieces.emplace_back(Boundary{role, false, {}});
     for (std::size_t i = first; i != last; i = (i + 1) % n) piece.nodes.push_back(loop.nodes[i]);
     piece.nodes.push_back(loop.nodes[last]);
   }

@@ -10,6 +10,7 @@
 
 #include "core/quality.hpp"
 #include "gis/clean/geodesic_area.hpp"
+#include "gis/coast/segment_tags.hpp"
 #include "gis/grid/one_turn.hpp"
 #include "gis/model/make_grid.hpp"
 #include "tests/gis/grid_samples.hpp"
@@ -128,6 +129,30 @@ TEST(MakeGrid, InputVerticesKeepTheirBits) {
     const auto angles = anglesDeg(lake.mesh.points[a], lake.mesh.points[b], lake.mesh.points[c]);
     EXPECT_EQ(grid.min_angle_deg[t], std::ranges::min(angles));
   }
+}
+
+// A frame across an island makes two boundaries of its shore, an opening and land.
+TEST(MakeGrid, OnlyAWholeLoopIsAnIsland) {
+  TriMesh mesh = lattice(3, 3, [](int i, int j) { return i != 1 || j != 1; });
+  mesh.input_vertices = static_cast<VertexId>(mesh.points.size());
+  Domain domain;
+  domain.input_points = domain.pslg.points = mesh.points;
+  const auto isSouthOfIsland = [](const Point& a, const Point& b) {
+    return a.y == b.y && a.y == 1.0 && std::min(a.x, b.x) == 1.0 && std::max(a.x, b.x) == 2.0;
+  };
+  for (Triangle& triangle : mesh.triangles) {
+    for (unsigned i = 0; i < 3; ++i) {
+      const VertexId a = triangle.v[next3(i)], b = triangle.v[prev3(i)];
+      if (triangle.adj[i] != kNone || !isSouthOfIsland(mesh.points[a], mesh.points[b])) continue;
+      triangle.seg[i] = static_cast<SegmentId>(domain.pslg.segments.size());
+      domain.pslg.segments.push_back({a, b, kOpenTag});
+    }
+  }
+  ASSERT_EQ(domain.pslg.segments.size(), 1u);
+  const Grid grid = makeGrid({{&domain, &mesh}}, {});
+  Roles roles = rolesOf(grid.boundaries);
+  std::ranges::sort(roles);
+  EXPECT_EQ(roles, (Roles{BoundaryRole::Land, BoundaryRole::Land, BoundaryRole::Open}));
 }
 
 TEST(MakeGrid, AreasAddUpToThePolygon) {
