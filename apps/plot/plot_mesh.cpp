@@ -514,8 +514,9 @@ bool plotMesh(const Grid& grid, const PlotOptions& options, const std::string& p
   GridPiece piece = makePiece(grid, std::move(shown), projection, LineEdges(grid));
   if (isTooLargeForAPlane(piece)) {
     if (!options.bbox) return false;
-    throw OptionError("--bbox shows too much of the Earth for a plane: make it smaller, or leave it out and give --view "
-                      "natural-earth or orthographic");
+    throw OptionError(
+        "--bbox shows too much of the Earth for a plane: make it smaller, or leave it out and give --view "
+        "natural-earth or orthographic");
   }
   if (options.color == PlotColor::Piece) {
     for (std::size_t t = 0; t < piece.triangles.size(); ++t)
