@@ -10,6 +10,7 @@
 #include <mutex>
 #include <numeric>
 #include <set>
+#include <string>
 #include <thread>
 
 #include "apps/cli/exit_codes.hpp"
@@ -254,11 +255,21 @@ class Maker {
     return true;
   }
 
-  // Warnings for inputs that have no effect on any feature that was meshed.
+  // Warnings for inputs that have no effect on any feature that was meshed, and for openings and rivers that none has.
   std::vector<std::string> idleInputs() const {
     std::vector<std::string> warnings = idle_inputs_.ofAll(meshed_);
-    for (const auto& [file, idle] : idle_boundaries_)
-      if (idle.features == meshed_) warnings.push_back(idle.warning);
+    std::set<std::string> idle_files;
+    for (const auto& [file, idle] : idle_boundaries_) {
+      if (idle.features != meshed_) continue;
+      warnings.push_back(idle.warning);
+      idle_files.insert(job_.finish.boundaries.files[file]);
+    }
+    for (const auto& [file, of_file] : missed_) {
+      MissedOfFile missed{file, idle_files.contains(file), {}};
+      for (const auto& [rule, each] : of_file)
+        if (each.features == meshed_) missed.missed.push_back(each.missed);
+      std::ranges::move(missedWarnings(missed), std::back_inserter(warnings));
+    }
     return warnings;
   }
   // Notes on such inputs.
@@ -270,7 +281,12 @@ class Maker {
     std::string warning;
   };
 
-  // A file that has no effect on this feature may have one on another.
+  struct Missed {
+    std::size_t features = 0;  // that do not have it
+    MissedRule missed;
+  };
+
+  // An input, or an opening in it, that has no effect on this feature may have one on another.
   void noteIdle(MeshJobResult& result) {
     std::vector<std::string> notes;
     for (const auto& [text, regions] : result.idle) notes.push_back(text);
@@ -286,6 +302,14 @@ class Maker {
     }
     boundaries.warnings.erase(boundaries.warnings.begin(),
                               boundaries.warnings.begin() + static_cast<std::ptrdiff_t>(boundaries.idle_files.size()));
+    for (MissedOfFile& file : boundaries.missed) {
+      for (const MissedRule& missed : file.missed) {
+        if (!missed.whole) continue;
+        Missed& noted = missed_[file.file][missed.rule];
+        if (noted.features++ == 0 || (missed.inside && !noted.missed.inside)) noted.missed = missed;
+      }
+      std::erase_if(file.missed, &MissedRule::whole);
+    }
   }
 
   // One feature at a time: format libraries and the partitioner are not thread-safe. Nothing in here may run in
@@ -317,6 +341,7 @@ class Maker {
   std::size_t meshed_ = 0;
   CountedTexts idle_inputs_, idle_notes_;
   std::map<std::size_t, IdleFile> idle_boundaries_;
+  std::map<std::string, std::map<std::uint32_t, Missed>> missed_;  // by file and rule
 };
 
 void warnOf(const std::vector<FeatureOutcome>& features, Run& run) {

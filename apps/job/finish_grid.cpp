@@ -54,6 +54,7 @@ std::vector<std::string> FinishReport::notes() const {
 std::vector<std::string> FinishReport::warnings() const {
   std::vector<std::string> all = depth.warnings;
   all.insert(all.end(), boundaries.warnings.begin(), boundaries.warnings.end());
+  for (const MissedOfFile& file : boundaries.missed) std::ranges::move(missedWarnings(file), std::back_inserter(all));
   std::map<std::pair<Target, TargetDefectKind>, std::pair<std::size_t, Point>> left;
   for (const auto& [target, defect] : repairs.left)
     ++left.try_emplace({target, defect.kind}, 0, defect.place).first->second.first;

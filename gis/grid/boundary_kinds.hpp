@@ -18,6 +18,11 @@ struct BoundaryKind {
   friend bool operator==(const BoundaryKind&, const BoundaryKind&) = default;
 };
 
+// True for an open boundary or a river, which water passes.
+inline bool isOpening(const BoundaryKind& kind) {
+  return kind.role == BoundaryRole::Open || kind.role == BoundaryRole::River;
+}
+
 // The grid's boundary as closed loops of nodes with the mesh to the left; see `boundaryLoops`.
 std::vector<std::vector<std::uint32_t>> boundaryLoops(const Grid& grid);
 

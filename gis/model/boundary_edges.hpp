@@ -29,13 +29,24 @@ struct BoundaryOptions {
   }
 };
 
+// What a file, or the input, asks for in vain.
+struct MissedOfFile {
+  std::string file;
+  bool idle = false;               // it defines nothing, which `warnings` says
+  std::vector<MissedRule> missed;  // including those outside the mesh
+};
+
 struct BoundaryReport {
   std::size_t edges_by_file = 0;        // boundary edges defined by the input or a file
   std::size_t edges_by_depth = 0;       // boundary edges opened by their depth
   std::size_t merged = 0;               // boundaries that were too short
   std::vector<std::size_t> idle_files;  // indices of `files` that define no boundary edge
   std::vector<std::string> warnings;    // one for each of these, and if depths open no edge
+  std::vector<MissedOfFile> missed;
 };
+
+// Warnings of what is missed within the mesh, unless the file is idle.
+std::vector<std::string> missedWarnings(const MissedOfFile& file);
 
 // The boundary edges of a mesh, or of a domain to be meshed, loop by loop; all loops are closed.
 struct BoundaryEdges {
@@ -44,6 +55,8 @@ struct BoundaryEdges {
   std::vector<BoundaryKind> kinds;     // of each edge; islands count as land
   std::vector<bool> outer;             // of each edge: its loop surrounds the mesh
   std::vector<double> share{};         // see `BoundaryRules::kindsOf`
+  // Of each edge: the number of the rule that makes it an opening or river; kNone: none. Set by `defineKinds`.
+  std::vector<std::uint32_t> asked{};
 };
 
 // The places of the ends of boundary edges, in a CRS. `z` is positive up, and only used to open boundaries by their
@@ -59,7 +72,7 @@ struct BoundaryPlaces {
 BoundaryReport defineKinds(const BoundaryPlaces& at, const BoundaryOptions& options, BoundaryEdges& boundary);
 
 // Merges boundaries shorter than `least_m` metres, the shortest first, into the longer one beside them; returns their
-// number.
+// number. Each opening or river of a rule keeps its longest part.
 std::size_t mergeShort(const BoundaryPlaces& at, double least_m, BoundaryEdges& boundary);
 
 // Reads `options.files`. Throws InputError.

@@ -4,20 +4,31 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "gis/coast/turned_rings.hpp"
 #include "gis/crs/crs_map.hpp"
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
-#include "gis/geometry/box_tree.hpp"
 #include "gis/grid/ibtype.hpp"
 #include "gis/lower_case.hpp"
 #include "gis/read/cleaned_layers.hpp"
 #include "gis/read/raw_layer.hpp"
 #include "gis/read/read_layers.hpp"
+#include "gis/rules/rough_lines.hpp"
+#include "gis/rules/rule_shapes.hpp"
 
 namespace coastmesh {
+
+// Edges whose types are wanted: see `BoundaryRules::kindsOf`.
+struct EdgesToType {
+  const Crs& crs;
+  const std::vector<Point>& places;
+  const std::vector<NodePair>& edges;
+  const std::vector<bool>& outer;
+  const std::vector<double>& share;
+};
+
 namespace {
 
 constexpr std::array kColumns{"type", "role", "boundary", "ibtype", "kind"};
@@ -71,42 +82,75 @@ std::string inWords(const std::set<std::string>& columns) {
   return columns.size() > kShown ? text + " and " + std::to_string(columns.size() - kShown) + " more" : text;
 }
 
-// Even-odd rule for one ring: true if a ray from `p` eastwards crosses it an odd number of times.
-bool crossesOddly(const Ring& ring, const Point& p) {
-  bool odd = false;
-  for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-    const Point &a = ring[i], &b = ring[j];
-    if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) odd = !odd;
+constexpr double kTurn = 360.0;
+constexpr double kAround = 3.0;  // elements: lines farther away have nothing to do with an edge
+constexpr double kSmall = 2.0;   // elements: a smaller polygon may be about a single edge
+
+std::vector<Point> turnedLine(const std::vector<Point>& line, const Turns& turns) {
+  std::vector<Point> turned = line;
+  for (std::size_t i = 0; i < turned.size(); ++i) turned[i].x += kTurn * turns.of[i];
+  return turned;
+}
+
+// A ring without jumps; one around a pole is closed through the pole.
+Ring turnedRing(const Ring& ring) {
+  const Turns turns = turnsOf(ring, true);
+  return turns.round != 0 ? turnedRings(ring)[1] : turnedLine(ring, turns);
+}
+
+Polygon turnedPolygon(const Polygon& polygon) {
+  Polygon turned{turnedRing(polygon.outer), {}};
+  for (const Ring& hole : polygon.holes) turned.holes.push_back(turnedRing(hole));
+  return turned;
+}
+
+bool jumps(const Polygon& polygon) {
+  const auto ringJumps = [](const Ring& ring) { return turnsOf(ring, true).any; };
+  return ringJumps(polygon.outer) || std::ranges::any_of(polygon.holes, ringJumps);
+}
+
+// Converts places of a mesh to coordinates of a layer, and back.
+class LayerPlaces {
+ public:
+  LayerPlaces(const Crs& crs, const std::optional<Crs>& layer)
+      // Coordinates in a plane are not degrees, whatever CRS a GeoJSON layer implies.
+      : plane_(!crs.isPlane() && (layer ? layer->geographic : crs.geographic)) {
+    const bool as_is = crs.isPlane() || !layer || layer->isPlane() || sameCrs(crs, *layer);
+    if (!as_is) map_.emplace(toOgr(crs), toOgr(*layer));
   }
-  return odd;
-}
 
-bool contains(const Polygon& polygon, const Point& p) {
-  bool inside = crossesOddly(polygon.outer, p);
-  for (const Ring& hole : polygon.holes) inside = inside != crossesOddly(hole, p);
-  return inside;
-}
+  const RulePlane& plane() const { return plane_; }
+  Point toLayer(const Point& p) const { return map_ ? map_->forward(p) : p; }
+  Point toMesh(const Point& p) const { return map_ ? map_->inverse(p) : p; }
 
-// An edge of the boundary in the layer's CRS.
-struct PlacedEdge {
-  Point a, b;
-  double share = 1.0;  // of the mesh edge that it is a piece of
+  // nullopt if it has no place in the layer's CRS.
+  std::optional<PlacedEdge> place(const EdgesToType& edges, std::size_t e) const {
+    PlacedEdge edge{toLayer(edges.places[edges.edges[e][0]]), toLayer(edges.places[edges.edges[e][1]])};
+    if (!std::isfinite(edge.a.x + edge.a.y + edge.b.x + edge.b.y)) return std::nullopt;
+    if (plane_.geographic()) edge.b.x = edge.a.x + std::remainder(edge.b.x - edge.a.x, kTurn);
+    edge.length = plane_.distance(edge.a, edge.b);
+    edge.element = edge.length / (edges.share.empty() ? 1.0 : edges.share[e]);
+    edge.outer = edges.outer[e];
+    return edge;
+  }
 
-  Point middle() const { return {(a.x + b.x) / 2.0, (a.y + b.y) / 2.0}; }
+ private:
+  RulePlane plane_;
+  std::optional<CrsMap> map_;
 };
 
-double distanceToSegment(const Point& p, const Point& a, const Point& b, double shrink) {
-  const double dx = (b.x - a.x) * shrink, dy = b.y - a.y, px = (p.x - a.x) * shrink, py = p.y - a.y;
-  const double square = dx * dx + dy * dy;
-  const double t = square > 0.0 ? std::clamp((px * dx + py * dy) / square, 0.0, 1.0) : 0.0;
-  return std::hypot(px - t * dx, py - t * dy);
-}
-
-constexpr double kTurn = 360.0;
-
-// Shifts to try, in degrees: longitudes of edge and layer may be in different turns.
-std::vector<double> turnsToTry(bool geographic) {
-  return geographic ? std::vector<double>{0.0, -kTurn, kTurn} : std::vector<double>{0.0};
+// Sets the edges after each other. Where the boundary touches itself in a node, the next in order is taken.
+void linkEdges(const EdgesToType& edges, const std::vector<std::size_t>& index, std::vector<NearEdge>& near) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> by_start;  // first node, place in `near`
+  for (std::uint32_t i = 0; i < index.size(); ++i) by_start.emplace_back(edges.edges[index[i]][0], i);
+  std::ranges::sort(by_start);
+  for (std::uint32_t i = 0; i < index.size(); ++i) {
+    const std::uint32_t end = edges.edges[index[i]][1];
+    const auto first = std::ranges::lower_bound(by_start, std::pair(end, std::uint32_t{0}));
+    if (first == by_start.end() || first->first != end) continue;
+    const auto after = std::ranges::lower_bound(by_start, std::pair(end, i + 1));
+    near[i].next = after != by_start.end() && after->first == end ? after->second : first->second;
+  }
 }
 
 }  // namespace
@@ -135,123 +179,124 @@ std::string textOfKind(const BoundaryKind& kind) {
   return kind.ibtype >= 0 ? std::to_string(kind.ibtype) : std::string(toString(kind.role));
 }
 
-// The rules of a layer, in its CRS, numbered in the layer's order; the last that applies counts.
-class BoundaryRules::Layer {
+// The types of boundary that the features of a layer define, in its CRS: one rule for each polygon and line, numbered
+// in the layer's order; the last that applies counts.
+class BoundaryLayer {
  public:
-  explicit Layer(const RawLayer& raw) : crs_(raw.crs) {}
+  explicit BoundaryLayer(std::optional<Crs> crs) : crs_(std::move(crs)) {}
 
-  bool empty() const { return kinds_.empty(); }
-
-  void addArea(const BoundaryKind& kind, const Polygon& polygon) {
-    areas_.push_back({kinds_.size(), polygon});
-    kinds_.push_back(kind);
-  }
-  void addLine(const BoundaryKind& kind, const std::vector<Point>& line) {
-    for (std::size_t i = 0; i + 1 < line.size(); ++i) pieces_.push_back({kinds_.size(), line[i], line[i + 1]});
-    kinds_.push_back(kind);
-  }
-  void addRing(const BoundaryKind& kind, const Ring& ring) {
-    if (ring.empty()) return;
-    addLine(kind, ring);
-    pieces_.push_back({kinds_.size() - 1, ring.back(), ring.front()});
-  }
-
+  void addArea(const BoundaryKind& kind, const Feature& feature, const Polygon& polygon);
+  void addLine(const BoundaryKind& kind, const Feature& feature, const std::vector<Point>& line);
+  // A polygon's own shore.
+  void addShore(const BoundaryKind& kind, const Feature& feature, const Ring& ring);
   // Call after the last rule is added.
-  void build() {
-    std::vector<Box> boxes;
-    for (const Area& area : areas_) {
-      Box& box = boxes.emplace_back();
-      for (const Point& p : area.polygon.outer) box.add(p);
-    }
-    area_tree_ = BoxTree(boxes, BoxTree::Order::Hilbert);
-    boxes.clear();
-    for (const Piece& piece : pieces_) boxes.push_back(Box::of(piece.a, piece.b));
-    piece_tree_ = BoxTree(boxes, BoxTree::Order::Hilbert);
-  }
+  void build();
 
-  // Sets the kinds of edges that it has rules for.
-  void apply(const Crs& crs, const std::vector<Point>& places, const std::vector<NodePair>& edges,
-             const std::vector<bool>& outer, const std::vector<double>& share,
-             std::vector<std::optional<BoundaryKind>>& kinds) const {
-    const bool as_is = crs.isPlane() || !crs_ || crs_->isPlane() || sameCrs(crs, *crs_);
-    std::optional<CrsMap> map;
-    if (!as_is) map.emplace(toOgr(crs), toOgr(*crs_));
-    const auto place = [&](std::uint32_t node) { return map ? map->forward(places[node]) : places[node]; };
-    // Coordinates in a plane are not degrees, whatever CRS a GeoJSON layer implies.
-    const bool geographic = !crs.isPlane() && (crs_ ? crs_->geographic : crs.geographic);
-    const std::vector<double> turns = turnsToTry(geographic);
-    for (std::size_t e = 0; e < edges.size(); ++e) {
-      const Point a = place(edges[e][0]);
-      Point b = place(edges[e][1]);
-      if (!std::isfinite(a.x + a.y + b.x + b.y)) continue;
-      if (geographic) b.x = a.x + std::remainder(b.x - a.x, kTurn);
-      std::optional<std::size_t> last;
-      for (const double turn : turns) {
-        const PlacedEdge edge{{a.x + turn, a.y}, {b.x + turn, b.y}, share.empty() ? 1.0 : share[e]};
-        const double shrink = geographic ? std::max(1e-6, std::cos(edge.middle().y * std::numbers::pi / 180.0)) : 1.0;
-        last = std::max({last, lastLineAlong(edge, shrink), lastAreaAround(edge.middle(), outer[e])});
-      }
-      if (last) kinds[e] = kinds_[*last];
-    }
-  }
+  bool empty() const { return rules_.empty(); }
+  std::size_t size() const { return rules_.size(); }
+
+  // Sets the types of the edges that it has rules for. `first` is the number of its first rule in `ruled`. `roughly`:
+  // see `BoundaryRules::roughKindsOf`.
+  void apply(const EdgesToType& edges, bool roughly, std::size_t first, RuledEdges& ruled) const;
 
  private:
-  struct Area {
-    std::size_t rule = 0;
-    Polygon polygon;
-  };
-  struct Piece {  // of a line
-    std::size_t rule = 0;
-    Point a, b;
-  };
+  struct Typing;
 
-  std::optional<std::size_t> lastLineAlong(const PlacedEdge& edge, double shrink) const {
-    constexpr double kFarthest = 0.2;  // share of the edge's length
-    const double length = std::hypot((edge.b.x - edge.a.x) * shrink, edge.b.y - edge.a.y);
-    const double far = kFarthest * length / edge.share;
-    std::vector<std::size_t> common;
-    const std::array<Point, 3> places{edge.a, edge.middle(), edge.b};
-    for (std::size_t k = 0; k < places.size(); ++k) {
-      const Point& p = places[k];
-      Box query;
-      query.add(Point{p.x - far / shrink, p.y - far});
-      query.add(Point{p.x + far / shrink, p.y + far});
-      std::vector<std::size_t> near;
-      piece_tree_.visit(query, [&](std::uint32_t i) {
-        const Piece& piece = pieces_[i];
-        if (distanceToSegment(p, piece.a, piece.b, shrink) <= far) near.push_back(piece.rule);
-      });
-      std::ranges::sort(near);
-      const auto repeated = std::ranges::unique(near);
-      near.erase(repeated.begin(), repeated.end());
-      if (k == 0) {
-        common = std::move(near);
-      } else {
-        std::erase_if(common, [&](std::size_t rule) { return !std::ranges::binary_search(near, rule); });
-      }
-      if (common.empty()) return std::nullopt;
-    }
-    return common.back();
-  }
-
-  std::optional<std::size_t> lastAreaAround(const Point& p, bool outer) const {
-    std::optional<std::size_t> last;
-    area_tree_.visit(Box::of(p, p), [&](std::uint32_t i) {
-      const auto& [rule, polygon] = areas_[i];
-      if (last && rule < *last) return;
-      const BoundaryRole role = kinds_[rule].role;
-      if (!outer && (role == BoundaryRole::Open || role == BoundaryRole::River)) return;
-      if (contains(polygon, p)) last = rule;
-    });
-    return last;
-  }
+  void addRule(const BoundaryKind& kind, const Feature& feature, RuleForm form);
+  void applyRoughly(Typing& typing, std::size_t first, RuledEdges& ruled) const;
 
   std::optional<Crs> crs_;
-  std::vector<BoundaryKind> kinds_;  // one for each rule
-  std::vector<Area> areas_;
-  std::vector<Piece> pieces_;
-  BoxTree area_tree_, piece_tree_;
+  std::vector<BoundaryRule> rules_;
+  RuleShapes as_given_;
+  RuleShapes turned_;   // continued past the antimeridian
+  bool jumps_ = false;  // true if the two differ
 };
+
+// What is known while edges get their types.
+struct BoundaryLayer::Typing {
+  const RuleShapes& shapes;
+  const LayerPlaces& places;
+  std::vector<bool> used;            // rules with an area that contains an edge
+  std::vector<NearEdge> near{};      // edges that may be near a line
+  std::vector<std::size_t> index{};  // of these among all
+  Box bounds{};                      // of all edges
+};
+
+void BoundaryLayer::addRule(const BoundaryKind& kind, const Feature& feature, RuleForm form) {
+  rules_.push_back({kind, form, feature.fid});
+}
+
+void BoundaryLayer::addArea(const BoundaryKind& kind, const Feature& feature, const Polygon& polygon) {
+  if (polygon.outer.empty()) return;
+  as_given_.addArea(rules_.size(), polygon);
+  turned_.addArea(rules_.size(), turnedPolygon(polygon));
+  jumps_ = jumps_ || jumps(polygon);
+  addRule(kind, feature, RuleForm::Area);
+}
+
+void BoundaryLayer::addLine(const BoundaryKind& kind, const Feature& feature, const std::vector<Point>& line) {
+  const Turns turns = turnsOf(line, false);
+  as_given_.addLine(rules_.size(), line, false);
+  turned_.addLine(rules_.size(), turnedLine(line, turns), false);
+  jumps_ = jumps_ || turns.any;
+  addRule(kind, feature, RuleForm::Line);
+}
+
+void BoundaryLayer::addShore(const BoundaryKind& kind, const Feature& feature, const Ring& ring) {
+  if (ring.empty()) return;
+  const Turns turns = turnsOf(ring, true);
+  as_given_.addLine(rules_.size(), ring, true);
+  std::vector<Point> turned = turnedLine(ring, turns);
+  turned.push_back({ring.front().x + kTurn * turns.round, ring.front().y});
+  turned_.addLine(rules_.size(), turned, false);
+  jumps_ = jumps_ || turns.any;
+  addRule(kind, feature, RuleForm::Shore);
+}
+
+void BoundaryLayer::build() {
+  as_given_.build();
+  if (jumps_) turned_.build();
+  if (!jumps_) turned_ = {};
+}
+
+void BoundaryLayer::apply(const EdgesToType& edges, bool roughly, std::size_t first, RuledEdges& ruled) const {
+  const LayerPlaces places(edges.crs, crs_);
+  const RulePlane& plane = places.plane();
+  Typing typing{plane.geographic() && jumps_ ? turned_ : as_given_, places, std::vector(rules_.size(), false)};
+  const auto set = [&](std::size_t e, std::size_t rule) {
+    ruled.kinds[e] = rules_[rule].kind;
+    ruled.rules[e] = static_cast<std::uint32_t>(first + rule);
+  };
+  for (std::size_t e = 0; e < edges.edges.size(); ++e) {
+    const std::optional<PlacedEdge> edge = places.place(edges, e);
+    if (!edge) continue;
+    const auto last = std::max(typing.shapes.lastAlong(*edge, rules_, plane),
+                               typing.shapes.lastAround(*edge, rules_, plane, typing.used));
+    if (last) set(e, *last);
+    if (!roughly) continue;
+    typing.bounds.add(Box::of(edge->a, edge->b));
+    if (!typing.shapes.anyNear(*edge, kAround * edge->element, kSmall * edge->element, plane)) continue;
+    typing.near.push_back({*edge, last, kNone});
+    typing.index.push_back(e);
+  }
+  if (!roughly) return;
+  linkEdges(edges, typing.index, typing.near);
+  applyRoughly(typing, first, ruled);
+  for (std::size_t i = 0; i < typing.near.size(); ++i)
+    if (typing.near[i].rule) set(typing.index[i], *typing.near[i].rule);
+}
+
+void BoundaryLayer::applyRoughly(Typing& typing, std::size_t first, RuledEdges& ruled) const {
+  const RulePlane& plane = typing.places.plane();
+  for (const MissedPart& part : takeRoughly(typing.shapes, rules_, plane, typing.used, typing.near)) {
+    const bool inside = std::ranges::any_of(plane.turns(), [&](double turn) {
+      const Point place{part.place.x + turn, part.place.y};
+      return typing.bounds.meets(Box::of(place, place));
+    });
+    ruled.missed.push_back({static_cast<std::uint32_t>(first + part.rule), rules_[part.rule].fid, part.whole, inside,
+                            typing.places.toMesh(part.place), part.parts});
+  }
+}
 
 BoundaryRules BoundaryRules::ofFile(const std::string& path, const std::string& column) {
   BoundaryRules rules;
@@ -283,7 +328,7 @@ void BoundaryRules::add(const std::vector<RawLayer>& layers, const std::string& 
                      inWords(columns));
   for (const RawLayer& raw : layers) {
     if (edge_by_edge && !isOfTypes(raw)) continue;
-    const auto layer = std::make_shared<Layer>(raw);
+    const auto layer = std::make_shared<BoundaryLayer>(raw.crs);
     const auto kindOf = [&](const Feature& feature) -> std::optional<BoundaryKind> {
       const auto text = typeOf(feature, feature.use == FeatureUse::Boundary ? kBoundaryField : column);
       const std::string what = feature.source + ", feature " + std::to_string(feature.fid);
@@ -299,15 +344,17 @@ void BoundaryRules::add(const std::vector<RawLayer>& layers, const std::string& 
       for (const Polygon& polygon : feature.polygons) {
         // A polygon of the input is meshed, so its type is meant for its own boundary.
         if (all_have_it) {
-          layer->addArea(*kind, polygon);
+          layer->addArea(*kind, feature, polygon);
         } else {
-          layer->addRing(*kind, polygon.outer);
-          for (const Ring& hole : polygon.holes) layer->addRing(*kind, hole);
+          layer->addShore(*kind, feature, polygon.outer);
+          for (const Ring& hole : polygon.holes) layer->addShore(*kind, feature, hole);
         }
       }
     }
-    for (const RawLayer::Line& line : raw.lines)
-      if (const auto kind = kindOf(raw.line_features[line.feature])) layer->addLine(*kind, line.points);
+    for (const RawLayer::Line& line : raw.lines) {
+      const Feature& feature = raw.line_features[line.feature];
+      if (const auto kind = kindOf(feature)) layer->addLine(*kind, feature, line.points);
+    }
     layer->build();
     if (!layer->empty()) layers_.push_back(layer);
   }
@@ -317,9 +364,31 @@ std::vector<std::optional<BoundaryKind>> BoundaryRules::kindsOf(const Crs& crs, 
                                                                 const std::vector<NodePair>& edges,
                                                                 const std::vector<bool>& outer,
                                                                 const std::vector<double>& share) const {
-  std::vector<std::optional<BoundaryKind>> kinds(edges.size());
-  for (const auto& layer : layers_) layer->apply(crs, places, edges, outer, share, kinds);
-  return kinds;
+  return ruledEdges({crs, places, edges, outer, share}, false).kinds;
+}
+
+RuledEdges BoundaryRules::roughKindsOf(const Crs& crs, const std::vector<Point>& places,
+                                       const std::vector<NodePair>& edges, const std::vector<bool>& outer,
+                                       const std::vector<double>& share) const {
+  return ruledEdges({crs, places, edges, outer, share}, true);
+}
+
+std::size_t BoundaryRules::size() const {
+  std::size_t size = 0;
+  for (const auto& layer : layers_) size += layer->size();
+  return size;
+}
+
+RuledEdges BoundaryRules::ruledEdges(const EdgesToType& edges, bool roughly) const {
+  RuledEdges ruled;
+  ruled.kinds.resize(edges.edges.size());
+  ruled.rules.resize(edges.edges.size(), kNone);
+  std::size_t first = 0;
+  for (const auto& layer : layers_) {
+    layer->apply(edges, roughly, first, ruled);
+    first += layer->size();
+  }
+  return ruled;
 }
 
 }  // namespace coastmesh

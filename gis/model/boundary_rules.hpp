@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <set>
@@ -11,6 +12,7 @@
 
 namespace coastmesh {
 
+struct EdgesToType;
 struct RawLayer;
 
 // The meaning of a column's text: land (shore, coast, wall, closed, solid, mainland, island), open (ocean, sea, tidal,
@@ -20,10 +22,30 @@ BoundaryKind kindOfText(const std::string& text, const std::string& what);
 // A text that `kindOfText` maps to this kind.
 std::string textOfKind(const BoundaryKind& kind);
 
+// An opening or river that a polygon or line defines, and that the mesh does not have.
+struct MissedRule {
+  std::uint32_t rule = 0;  // its number, the same for every mesh
+  std::int64_t fid = 0;    // of the feature
+  bool whole = false;      // no part of it is on the mesh's boundary
+  bool inside = false;     // within the bounds of the mesh
+  Point place;             // the middle of what is missed, in the mesh's CRS
+  std::size_t parts = 1;   // parts of a line, of which this is the longest
+};
+
+// What rules say of the boundary's edges.
+struct RuledEdges {
+  std::vector<std::optional<BoundaryKind>> kinds;  // nullopt: no rule applies
+  std::vector<std::uint32_t> rules;                // number of the rule that applies; kNone if none
+  std::vector<MissedRule> missed;
+};
+
+class BoundaryLayer;
+
 // Boundary types defined by polygons and lines: an edge whose midpoint is in a polygon, or that runs along a line
-// (entirely within a fifth of its length), gets the type of the feature. If there are several, the last applies. The
-// rules are read once, since a stream can be read only once; then they are searched by place, for any number of grids,
-// from several threads. Cheap to copy.
+// (entirely within a fifth of its length), gets the type of the feature. If there are several, the last applies; lines
+// of one type may continue each other within an edge. Polygons and lines of longitudes and latitudes continue past the
+// antimeridian where an edge of more than 180 degrees jumps. The rules are read once, since a stream can be read only
+// once; then they are searched by place, for any number of grids, from several threads. Cheap to copy.
 class BoundaryRules {
  public:
   // The rules of a file, all of whose features have a type in `column` (empty: the first named type, role, boundary,
@@ -49,12 +71,20 @@ class BoundaryRules {
                                                    const std::vector<NodePair>& edges, const std::vector<bool>& outer,
                                                    const std::vector<double>& share = {}) const;
 
- private:
-  class Layer;
+  // The same for a mesh that follows its shore only roughly, and lines drawn by hand. Lines also get edges that they
+  // pass within half an element, if no other edge is closer. A polygon or line shorter than two elements that would get
+  // none gets the one closest to its middle, if that is within an element. `missed` are openings and rivers without any
+  // edge, and where lines leave walls in what they open.
+  RuledEdges roughKindsOf(const Crs& crs, const std::vector<Point>& places, const std::vector<NodePair>& edges,
+                          const std::vector<bool>& outer, const std::vector<double>& share = {}) const;
+  // The number of rules.
+  std::size_t size() const;
 
+ private:
+  RuledEdges ruledEdges(const EdgesToType& edges, bool roughly) const;
   void add(const std::vector<RawLayer>& layers, const std::string& column, bool all_have_it);
 
-  std::vector<std::shared_ptr<const Layer>> layers_;  // in their order; a later one takes precedence
+  std::vector<std::shared_ptr<const BoundaryLayer>> layers_;  // in their order; a later one takes precedence
   std::set<std::string> columns_of_input_;
   bool input_is_typed_ = false;  // a cleaned file defines its own boundary
 };

@@ -94,7 +94,7 @@ TEST_F(AssignBoundaries, LinesTellWhatRunsAlongThem) {
 TEST_F(AssignBoundaries, AFileThatSaysNothingOfTheBoundaryIsWarnedOf) {
   Grid grid = sea();
   const auto near = put("near.geojson", feature("\"open\"", "LineString", "[[10,50],[10,60]]"));
-  const auto far = put("far.geojson", feature("\"open\"", "LineString", "[[9.5,50],[9.5,60]]"));
+  const auto far = put("far.geojson", feature("\"open\"", "LineString", "[[8.9,50],[8.9,60]]"));
   BoundaryOptions options;
   options.files = {near};
   EXPECT_TRUE(assignBoundaries(grid, options).warnings.empty());
@@ -103,6 +103,41 @@ TEST_F(AssignBoundaries, AFileThatSaysNothingOfTheBoundaryIsWarnedOf) {
   EXPECT_EQ(report.edges_by_file, 10u);
   ASSERT_EQ(report.warnings.size(), 1u);
   EXPECT_THAT(report.warnings[0], HasSubstr("far.geojson: says nothing of the mesh's boundary"));
+}
+
+// One of several rivers may be missing for the model alone.
+TEST_F(AssignBoundaries, AFeatureThatSaysNothingOfTheBoundaryIsNamed) {
+  Grid grid = sea();
+  BoundaryOptions options;
+  options.files = {put("rivers.geojson", feature("\"river\"", "LineString", "[[10,51],[10,53]]") + "," +
+                                             feature("\"river\"", "LineString", "[[12.5,53],[12.5,57]]") + "," +
+                                             feature("\"river\"", "LineString", "[[30,50],[40,50]]"))};
+  const BoundaryReport report = assignBoundaries(grid, options);
+  EXPECT_TRUE(report.warnings.empty());
+  ASSERT_EQ(report.missed.size(), 1u);
+  const std::vector<std::string> warnings = missedWarnings(report.missed[0]);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_THAT(warnings[0], HasSubstr("rivers.geojson: these openings or rivers are not in the mesh"));
+  EXPECT_THAT(warnings[0], HasSubstr("feature 1 at (12.5, 55)"));
+  EXPECT_THAT(warnings[0], ::testing::Not(HasSubstr("feature 2")));
+}
+
+TEST_F(AssignBoundaries, AShortRiverOfAFileIsNotMergedAway) {
+  Grid grid = sea();
+  for (const Point& node : grid.nodes) grid.z.push_back(node.x > 19.5 && node.y < 52.5 ? -100.0 : -1.0);
+  BoundaryOptions options;
+  // Two edges of the west each, with one between.
+  options.files = {put("river.geojson", feature("\"river\"", "LineString", "[[10,54],[10,56]]") + "," +
+                                            feature("\"open\"", "MultiPolygon",
+                                                    "[[[[9,50.9],[11,50.9],[11,53.1],[9,53.1],[9,50.9]]]]"))};
+  options.open_deeper_m = 50.0;  // two edges of the east
+  options.least_length_m = 500'000.0;
+  const BoundaryReport report = assignBoundaries(grid, options);
+  EXPECT_EQ(edgesOfRole(grid, BoundaryRole::River) + edgesOfRole(grid, BoundaryRole::Open), 5u);
+  EXPECT_GE(edgesOfRole(grid, BoundaryRole::River), 2u);
+  EXPECT_GE(edgesOfRole(grid, BoundaryRole::Open), 2u);
+  EXPECT_EQ(report.merged, 2u);  // the shore between, and what depths open
+  expectWholeBoundary(grid);
 }
 
 TEST_F(AssignBoundaries, LinesOpenIslands) {

@@ -73,9 +73,10 @@ TEST_F(ShoreForSizes, PolygonsOpenPartsOfOuterSegmentsAndNoIslands) {
 }
 
 TEST_F(ShoreForSizes, LinesOpenWhatTheyRunAlongIslandsToo) {
-  // 150 m off, less than a fifth of an element.
-  EXPECT_NEAR(leftBy(of("open", "LineString", "[[2000,-150],[8000,-150]]")).outer, 32000.0 - 6000.0, 800.0);
-  EXPECT_EQ(leftBy(of("open", "LineString", "[[2000,-250],[8000,-250]]")).outer, 32000.0);
+  // Less than half an element off, and more.
+  for (const std::string y : {"-150", "-450"})
+    EXPECT_NEAR(leftBy(of("open", "LineString", "[[2000," + y + "],[8000," + y + "]]")).outer, 32000.0 - 6000.0, 800.0);
+  EXPECT_EQ(leftBy(of("open", "LineString", "[[2000,-550],[8000,-550]]")).outer, 32000.0);
   EXPECT_EQ(leftBy(of("open", "LineString", "[[4000,2000],[4000,3000],[5000,3000],[5000,2000],[4000,2000]]")).island,
             0.0);
 }
@@ -91,10 +92,10 @@ TEST_F(ShoreForSizes, WhatTheFrameOpensStaysAsItIs) {
   EXPECT_FALSE(shoreForSizes(domain, {}, all, {}, {50.0, 1000.0}).has_value());
 }
 
-TEST_F(ShoreForSizes, ShortOpeningsAreMergedAndShortShoresStay) {
+TEST_F(ShoreForSizes, ShortShoresAreMergedButStayShores) {
   auto options = of("open", "LineString", "[[2000,0],[3000,0]]");
   options.least_length_m = 1500.0;
-  EXPECT_EQ(leftBy(options).outer, 32000.0);
+  EXPECT_NEAR(leftBy(options).outer, 32000.0 - 1000.0, 400.0);  // no file's opening is merged
   // All but a short piece of the south is open. The grid's boundary loses that piece; here it stays a shore.
   options =
       of("open", "Polygon",
@@ -115,6 +116,8 @@ TEST_F(ShoreForSizes, DepthsOpenOuterBoundariesThatAreDeep) {
   EXPECT_NEAR(left.outer, 32000.0 - 4000.0 - 1000.0 - 5000.0, 300.0);
   EXPECT_EQ(left.island, 4000.0);
   EXPECT_EQ(leftBy(options, {}).outer, 32000.0);
+  options.least_length_m = 20000.0;  // short openings by depth are merged
+  EXPECT_EQ(leftBy(options, depths).outer, 32000.0);
 }
 
 TEST_F(ShoreForSizes, GraphsWithoutLabelsToo) {

@@ -1,0 +1,333 @@
+#include "gis/rules/rough_lines.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "gis/rules/rule_chains.hpp"
+
+namespace coastmesh {
+namespace {
+
+constexpr double kBeside = 0.5;      // elements: a line as close is beside the boundary
+constexpr double kMostOfEdge = 0.6;  // share of an edge that a line has to pass
+constexpr double kContinues = 0.5;   // elements: a line that begins as close to another's end continues it
+constexpr double kDetour = 2.0;      // edges between two of a line are at most as many times its length
+constexpr double kStep = 0.125;      // of an edge, between samples of a line
+constexpr double kMostSteps = 1e6;   // of a line
+constexpr double kShort = 2.0;       // elements: a shorter line or polygon may be about a single edge
+constexpr double kEnd = 1.5;         // elements: the end of a line that stays as close is not one that leads away
+constexpr double kWall = 3.0;  // elements: a line that goes no farther away, and comes back, is about the boundary
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// The closest edge.
+struct Closest {
+  std::size_t edge = 0;
+  double distance = kInfinity;
+  double share = 0.0;  // of the way from its first end
+
+  bool any() const { return distance < kInfinity; }
+};
+
+// A place on a line.
+struct Sample {
+  Point place;
+  double length = 0.0;   // of the line, from the sample before
+  std::size_t rule = 0;  // of the line
+  Closest closest;
+};
+
+class EdgeSearch {
+ public:
+  EdgeSearch(const std::vector<NearEdge>& edges, const RulePlane& plane) : edges_(edges), plane_(plane) {
+    std::vector<Box> boxes;
+    for (const NearEdge& near : edges) boxes.push_back(Box::of(near.edge.a, near.edge.b));
+    tree_ = BoxTree(boxes, BoxTree::Order::Hilbert);
+  }
+
+  Closest closestTo(const Point& p, bool outer_only) const {
+    Closest best;
+    for (const double turn : plane_.turns()) {
+      const Point place{p.x + turn, p.y};
+      tree_.descend([&](const Box& box, std::size_t, std::size_t) { return distanceOf(place, box) <= best.distance; },
+                    [&](std::uint32_t i) {
+                      const PlacedEdge& edge = edges_[i].edge;
+                      if (outer_only && !edge.outer) return;
+                      double share = 0.0;
+                      const double distance = plane_.distance(place, edge.a, edge.b, &share);
+                      const bool closer = distance < best.distance || (distance == best.distance && i < best.edge);
+                      if (closer) best = {i, distance, share};
+                    });
+    }
+    return best;
+  }
+
+ private:
+  double distanceOf(const Point& p, const Box& box) const {
+    const double dx = std::max({0.0, box.xmin - p.x, p.x - box.xmax}) * plane_.shrinkAt(p.y);
+    return std::hypot(dx, std::max({0.0, box.ymin - p.y, p.y - box.ymax}));
+  }
+
+  const std::vector<NearEdge>& edges_;
+  const RulePlane& plane_;
+  BoxTree tree_;
+};
+
+class RoughLines {
+ public:
+  RoughLines(const RuleShapes& shapes, const std::vector<BoundaryRule>& rules, const RulePlane& plane,
+             std::vector<NearEdge>& edges)
+      : shapes_(shapes), rules_(rules), plane_(plane), edges_(edges), search_(edges, plane) {
+    std::vector<BoundaryKind> kinds;
+    for (const BoundaryRule& rule : rules) {
+      const auto at = std::ranges::find(kinds, rule.kind);
+      kind_of_.push_back(static_cast<std::size_t>(at - kinds.begin()));
+      if (at == kinds.end()) kinds.push_back(rule.kind);
+    }
+    const auto reach = [this](const Point& end) {
+      const Closest closest = search_.closestTo(end, false);
+      return closest.any() ? kContinues * edges_[closest.edge].edge.element : 0.0;
+    };
+    for (const RuleChain& chain : chainsOf(shapes, rules, plane, reach)) walks_.push_back(samplesOf(chain));
+  }
+
+  void takePassed() {
+    std::map<std::pair<std::size_t, std::size_t>, Passed> passed;  // by edge and kind
+    for (const Walk& walk : walks_) {
+      for (const Sample& sample : walk) {
+        if (!isBeside(sample, kBeside) || isSettled(sample)) continue;
+        Passed& edge = passed.try_emplace({sample.closest.edge, kind_of_[sample.rule]}).first->second;
+        edge.begin = std::min(edge.begin, sample.closest.share);
+        edge.end = std::max(edge.end, sample.closest.share);
+        edge.rule = std::max(edge.rule, sample.rule);
+      }
+    }
+    for (const auto& [which, edge] : passed)
+      if (edge.end - edge.begin >= kMostOfEdge) give(which.first, edge.rule);
+  }
+
+  // Takes edges between those where a line leaves the boundary and where it comes back.
+  void takeBetween() {
+    for (const Walk& walk : walks_) {
+      for (const Stretch& stretch : stretchesOf(walk)) {
+        const std::optional<Path> path = pathBeside(walk, stretch);
+        if (!path || !staysNear(*path, walk, stretch)) continue;
+        for (const std::uint32_t edge : *path) give(edge, walk[stretch.first].rule);
+      }
+    }
+  }
+
+  std::vector<MissedPart> missed(const std::vector<bool>& used) {
+    std::vector<MissedPart> parts;
+    for (const Walk& walk : walks_)
+      if (const auto part = missedOf(walk)) parts.push_back(*part);
+    for (std::size_t rule = 0; rule < rules_.size(); ++rule) {
+      if (rules_[rule].form != RuleForm::Area || !rules_[rule].opens() || used[rule]) continue;
+      if (const auto part = missedOfArea(rule)) parts.push_back(*part);
+    }
+    return parts;
+  }
+
+ private:
+  using Walk = std::vector<Sample>;         // along a chain of lines
+  using Path = std::vector<std::uint32_t>;  // edges, one after another
+  struct Passed {                           // the part of an edge
+    double begin = 1.0, end = 0.0;
+    std::size_t rule = 0;
+  };
+  struct Stretch {  // samples [first, last) without an edge, the longest such
+    std::size_t first = 0, last = 0;
+  };
+
+  const PlacedEdge& edgeAt(const Sample& sample) const { return edges_[sample.closest.edge].edge; }
+  bool isBeside(const Sample& sample, double elements) const {
+    return sample.closest.any() && sample.closest.distance <= elements * edgeAt(sample).element;
+  }
+  // True if the edge has the rule's type, or a later rule's.
+  bool isSettled(std::size_t edge, std::size_t rule) const {
+    const std::optional<std::size_t> has = edges_[edge].rule;
+    return has && (*has >= rule || rules_[*has].kind == rules_[rule].kind);
+  }
+  bool isSettled(const Sample& sample) const { return isSettled(sample.closest.edge, sample.rule); }
+  bool hasEdge(const Sample& sample) const { return isBeside(sample, kBeside) && isSettled(sample); }
+  void give(std::size_t edge, std::size_t rule) {
+    edges_[edge].rule = std::max(edges_[edge].rule, std::optional(rule));
+  }
+
+  // Places along a chain, close together beside the boundary.
+  Walk samplesOf(const RuleChain& chain) const {
+    double whole = 0.0;
+    for (const RuleLine& line : chain)
+      for (std::size_t i = 0; i + 1 < line.points.size(); ++i)
+        whole += plane_.distance(line.points[i], line.points[i + 1]);
+    Walk walk;
+    const auto add = [&](const Point& p, double length, std::size_t rule) {
+      walk.push_back({p, length, rule, search_.closestTo(p, false)});
+    };
+    for (const RuleLine& line : chain) {
+      add(line.points.front(), 0.0, line.rule);
+      for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
+        const Point &a = line.points[i], &b = line.points[i + 1];
+        const double length = plane_.distance(a, b);
+        for (double at = 0.0; at < length;) {
+          const double step = std::min(stepAfter(walk.back(), whole), length - at);
+          at = length - at - step < 1e-9 * length ? length : at + step;
+          const double share = at / length;
+          add({a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)}, step, line.rule);
+        }
+      }
+    }
+    return walk;
+  }
+  double stepAfter(const Sample& sample, double whole) const {
+    if (!sample.closest.any()) return whole;
+    const double away = 0.5 * (sample.closest.distance - kWall * edgeAt(sample).element);
+    return std::max({kStep * edgeAt(sample).length, away, whole / kMostSteps});
+  }
+
+  std::vector<Stretch> stretchesOf(const Walk& walk) const {
+    std::vector<Stretch> stretches;
+    for (std::size_t i = 0; i < walk.size(); ++i) {
+      if (hasEdge(walk[i])) continue;
+      Stretch stretch{i, i + 1};
+      while (stretch.last < walk.size() && !hasEdge(walk[stretch.last])) ++stretch.last;
+      stretches.push_back(stretch);
+      i = stretch.last;
+    }
+    return stretches;
+  }
+  static bool isEnd(const Walk& walk, const Stretch& stretch) {
+    return stretch.first == 0 || stretch.last == walk.size();
+  }
+
+  // The edges from the one that the line leaves to the one that it comes back to, along the boundary; nullopt for an
+  // end, and if they are much longer than the line.
+  std::optional<Path> pathBeside(const Walk& walk, const Stretch& stretch) const {
+    if (isEnd(walk, stretch)) return std::nullopt;
+    const Sample &before = walk[stretch.first - 1], &after = walk[stretch.last];
+    const double most = kDetour * (lengthOf(walk, stretch) + edgeAt(before).element + edgeAt(after).element);
+    const auto there = pathFrom(before.closest.edge, after.closest.edge, most);
+    return there ? there : pathFrom(after.closest.edge, before.closest.edge, most);
+  }
+  std::optional<Path> pathFrom(std::size_t first, std::size_t last, double most) const {
+    Path path;
+    double length = 0.0;
+    for (std::size_t edge = first; edge != last;) {
+      edge = edges_[edge].next;
+      if (edge == kNone) return std::nullopt;
+      if (edge == last) break;
+      length += edges_[edge].edge.length;
+      if (length > most || path.size() == edges_.size()) return std::nullopt;
+      path.push_back(static_cast<std::uint32_t>(edge));
+    }
+    return path;
+  }
+  bool staysNear(const Path& path, const Walk& walk, const Stretch& stretch) const {
+    return std::ranges::all_of(path, [&](std::uint32_t e) {
+      const Point middle = edges_[e].edge.middle();
+      double least = kInfinity;
+      for (std::size_t i = stretch.first - 1; i <= stretch.last; ++i)
+        for (const double turn : plane_.turns())
+          least = std::min(least, plane_.distance({middle.x + turn, middle.y}, walk[i].place));
+      return least <= kEnd * edges_[e].edge.element;
+    });
+  }
+
+  std::optional<MissedPart> missedOfArea(std::size_t rule) {
+    const Box box = shapes_.boxOf(rule);
+    const Point middle{(box.xmin + box.xmax) / 2.0, (box.ymin + box.ymax) / 2.0};
+    const double size = plane_.distance({box.xmin, box.ymin}, {box.xmax, box.ymax});
+    if (takesSingleEdge(rule, size, search_.closestTo(middle, true))) return std::nullopt;
+    return MissedPart{rule, true, middle};
+  }
+
+  std::optional<MissedPart> missedOf(const Walk& walk) {
+    const BoundaryRule& rule = rules_[walk.front().rule];
+    if (!rule.opens() || rule.form == RuleForm::Shore) return std::nullopt;
+    const Stretch all{0, walk.size()};
+    if (std::ranges::any_of(walk, [&](const Sample& sample) { return hasEdge(sample); })) return longestMissed(walk);
+    const auto [middle, of] = middleOf(walk, all);
+    if (takesSingleEdge(of, lengthOf(walk, all), search_.closestTo(middle, false))) return std::nullopt;
+    return MissedPart{of, true, middle};
+  }
+
+  bool takesSingleEdge(std::size_t rule, double size, const Closest& closest) {
+    if (!closest.any()) return false;
+    const double element = edges_[closest.edge].edge.element;
+    if (size > kShort * element || closest.distance > element) return false;
+    give(closest.edge, rule);
+    return true;
+  }
+
+  // The longest part of a line that should have edges.
+  std::optional<MissedPart> longestMissed(const Walk& walk) const {
+    std::optional<MissedPart> missed;
+    double longest = 0.0;
+    std::size_t parts = 0;
+    for (const Stretch& stretch : stretchesOf(walk)) {
+      if (!isMissed(walk, stretch)) continue;
+      ++parts;
+      const double length = lengthOf(walk, stretch);
+      if (missed && length <= longest) continue;
+      longest = length;
+      const auto [middle, rule] = middleOf(walk, stretch);
+      missed = MissedPart{rule, false, middle};
+    }
+    if (missed) missed->parts = parts;
+    return missed;
+  }
+
+  bool isMissed(const Walk& walk, const Stretch& stretch) const {
+    const double elements = isEnd(walk, stretch) ? kEnd : kWall;
+    double element = 0.0;
+    for (std::size_t i = stretch.first; i < stretch.last; ++i) {
+      if (!isBeside(walk[i], elements)) return false;
+      element = std::max(element, edgeAt(walk[i]).element);
+    }
+    if (isEnd(walk, stretch)) return lengthOf(walk, stretch) >= kShort * element;
+    const std::optional<Path> path = pathBeside(walk, stretch);
+    const std::size_t rule = walk[stretch.first].rule;
+    return !path || !std::ranges::all_of(*path, [&](std::uint32_t edge) { return isSettled(edge, rule); });
+  }
+
+  static double lengthOf(const Walk& walk, const Stretch& stretch) {
+    double length = 0.0;
+    for (std::size_t i = stretch.first; i < stretch.last; ++i) length += walk[i].length;
+    return length;
+  }
+  // With the rule there.
+  static std::pair<Point, std::size_t> middleOf(const Walk& walk, const Stretch& stretch) {
+    double left = lengthOf(walk, stretch) / 2.0;
+    std::size_t i = stretch.first;
+    while (i + 1 < stretch.last && walk[i].length < left) left -= walk[i++].length;
+    const Sample& sample = walk[i];
+    if (i == 0 || !(sample.length > 0.0)) return {sample.place, sample.rule};
+    const Point& before = walk[i - 1].place;
+    const double share = left / sample.length;
+    return {{before.x + share * (sample.place.x - before.x), before.y + share * (sample.place.y - before.y)},
+            sample.rule};
+  }
+
+  const RuleShapes& shapes_;
+  const std::vector<BoundaryRule>& rules_;
+  const RulePlane& plane_;
+  std::vector<std::size_t> kind_of_;  // by rule, numbered
+  std::vector<NearEdge>& edges_;
+  EdgeSearch search_;
+  std::vector<Walk> walks_;
+};
+
+}  // namespace
+
+std::vector<MissedPart> takeRoughly(const RuleShapes& shapes, const std::vector<BoundaryRule>& rules,
+                                    const RulePlane& plane, const std::vector<bool>& used,
+                                    std::vector<NearEdge>& edges) {
+  RoughLines lines(shapes, rules, plane, edges);
+  lines.takePassed();
+  lines.takeBetween();
+  return lines.missed(used);
+}
+
+}  // namespace coastmesh

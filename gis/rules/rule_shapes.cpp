@@ -1,0 +1,177 @@
+#include "gis/rules/rule_shapes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace coastmesh {
+namespace {
+
+constexpr double kTurn = 360.0;
+constexpr double kFarthest = 0.2;  // share of a mesh edge's length: places farther from a line are not along it
+
+// Even-odd rule for one ring: true if a ray from `p` eastwards crosses it an odd number of times.
+bool crossesOddly(const Ring& ring, const Point& p) {
+  bool odd = false;
+  for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+    const Point &a = ring[i], &b = ring[j];
+    if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) odd = !odd;
+  }
+  return odd;
+}
+
+// True if the ring contains the place in any of its turns.
+bool contains(const Ring& ring, const Point& p, const RulePlane& plane) {
+  return std::ranges::any_of(plane.turns(), [&](double turn) { return crossesOddly(ring, {p.x + turn, p.y}); });
+}
+
+bool contains(const Polygon& polygon, const Point& p, const RulePlane& plane) {
+  bool inside = contains(polygon.outer, p, plane);
+  for (const Ring& hole : polygon.holes) inside = inside != contains(hole, p, plane);
+  return inside;
+}
+
+Box shifted(const Box& box, double dx) { return {box.xmin + dx, box.ymin, box.xmax + dx, box.ymax}; }
+
+}  // namespace
+
+RulePlane::RulePlane(bool geographic)
+    : geographic_(geographic), turns_(geographic ? std::vector{0.0, -kTurn, kTurn} : std::vector{0.0}) {}
+
+double RulePlane::shrinkAt(double y) const {
+  return geographic_ ? std::max(1e-6, std::cos(y * std::numbers::pi / 180.0)) : 1.0;
+}
+
+double RulePlane::distance(const Point& a, const Point& b) const {
+  return std::hypot((b.x - a.x) * shrinkAt((a.y + b.y) / 2.0), b.y - a.y);
+}
+
+double RulePlane::distance(const Point& p, const Point& a, const Point& b, double* share) const {
+  const double shrink = shrinkAt(p.y);
+  const double dx = (b.x - a.x) * shrink, dy = b.y - a.y, px = (p.x - a.x) * shrink, py = p.y - a.y;
+  const double square = dx * dx + dy * dy;
+  const double t = square > 0.0 ? std::clamp((px * dx + py * dy) / square, 0.0, 1.0) : 0.0;
+  if (share != nullptr) *share = t;
+  return std::hypot(px - t * dx, py - t * dy);
+}
+
+Box RulePlane::around(const Box& box, double reach) const {
+  const double shrink = std::min(shrinkAt(box.ymin), shrinkAt(box.ymax));
+  return {box.xmin - reach / shrink, box.ymin - reach, box.xmax + reach / shrink, box.ymax + reach};
+}
+
+void RuleShapes::addArea(std::size_t rule, Polygon polygon) {
+  Box box;
+  for (const Point& p : polygon.outer) box.add(p);
+  areas_.push_back({rule, std::move(polygon), box});
+}
+
+void RuleShapes::addLine(std::size_t rule, const std::vector<Point>& line, bool closed) {
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) pieces_.push_back({rule, line[i], line[i + 1]});
+  if (closed && !line.empty()) pieces_.push_back({rule, line.back(), line.front()});
+}
+
+void RuleShapes::build() {
+  std::vector<Box> boxes;
+  for (const Area& area : areas_) boxes.push_back(area.box);
+  area_tree_ = BoxTree(boxes, BoxTree::Order::Hilbert);
+  boxes.clear();
+  for (const Piece& piece : pieces_) boxes.push_back(Box::of(piece.a, piece.b));
+  piece_tree_ = BoxTree(boxes, BoxTree::Order::Hilbert);
+}
+
+std::vector<std::size_t> RuleShapes::rulesNear(const Point& p, double far, const RulePlane& plane) const {
+  std::vector<std::size_t> near;
+  for (const double turn : plane.turns()) {
+    const Point place{p.x + turn, p.y};
+    piece_tree_.visit(plane.around(Box::of(place, place), far), [&](std::uint32_t i) {
+      const Piece& piece = pieces_[i];
+      if (plane.distance(place, piece.a, piece.b) <= far) near.push_back(piece.rule);
+    });
+  }
+  std::ranges::sort(near);
+  const auto repeated = std::ranges::unique(near);
+  near.erase(repeated.begin(), repeated.end());
+  return near;
+}
+
+// One opening or river may be drawn in several lines, which meet within an edge: for each of the edge's places the last
+// line of a kind counts, and the first of these for the edge. Where lines of different kinds meet within an edge that
+// they cover together, its middle decides.
+std::optional<std::size_t> RuleShapes::lastAlong(const PlacedEdge& edge, const std::vector<BoundaryRule>& rules,
+                                                 const RulePlane& plane) const {
+  const double far = kFarthest * edge.element;
+  std::array<std::vector<std::size_t>, 3> near;
+  const std::array<Point, 3> places{edge.a, edge.middle(), edge.b};
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    near[k] = rulesNear(places[k], far, plane);
+    if (near[k].empty()) return std::nullopt;
+  }
+  const auto lastOfKind = [&](const std::vector<std::size_t>& some, const BoundaryKind& kind) {
+    std::optional<std::size_t> last;
+    for (const std::size_t rule : some)
+      if (rules[rule].kind == kind) last = rule;
+    return last;
+  };
+  std::optional<std::size_t> last;
+  for (const std::size_t rule : near[1]) {
+    const BoundaryKind& kind = rules[rule].kind;
+    last = std::max(last, std::min({lastOfKind(near[0], kind), lastOfKind(near[1], kind), lastOfKind(near[2], kind)}));
+  }
+  if (last) return last;
+  const bool covered = !rulesNear(edge.at(0.25), far, plane).empty() && !rulesNear(edge.at(0.75), far, plane).empty();
+  return covered ? std::optional(near[1].back()) : std::nullopt;
+}
+
+std::optional<std::size_t> RuleShapes::lastAround(const PlacedEdge& edge, const std::vector<BoundaryRule>& rules,
+                                                  const RulePlane& plane, std::vector<bool>& used) const {
+  std::optional<std::size_t> last;
+  const Point p = edge.middle();
+  for (const double turn : plane.turns()) {
+    const Point place{p.x + turn, p.y};
+    area_tree_.visit(Box::of(place, place), [&](std::uint32_t i) {
+      const auto& [rule, polygon, box] = areas_[i];
+      if (last && rule < *last && used[rule]) return;
+      if (!edge.outer && rules[rule].opens()) return;
+      if (!contains(polygon, p, plane)) return;
+      used[rule] = true;
+      last = std::max(last, std::optional(rule));
+    });
+  }
+  return last;
+}
+
+bool RuleShapes::anyNear(const PlacedEdge& edge, double reach, double most, const RulePlane& plane) const {
+  const Box box = plane.around(Box::of(edge.a, edge.b), reach);
+  bool found = false;
+  for (const double turn : plane.turns()) {
+    const auto enter = [&](const Box& other, std::size_t, std::size_t) {
+      return !found && other.meets(shifted(box, turn));
+    };
+    piece_tree_.descend(enter, [&](std::uint32_t) { found = true; });
+    area_tree_.descend(enter, [&](std::uint32_t i) {
+      const Box& area = areas_[i].box;
+      found = found || plane.distance({area.xmin, area.ymin}, {area.xmax, area.ymax}) <= most;
+    });
+  }
+  return found;
+}
+
+std::vector<Point> RuleShapes::lineOf(std::size_t rule) const {
+  std::vector<Point> line;
+  for (auto piece = std::ranges::lower_bound(pieces_, rule, {}, &Piece::rule);
+       piece != pieces_.end() && piece->rule == rule; ++piece) {
+    if (line.empty()) line.push_back(piece->a);
+    line.push_back(piece->b);
+  }
+  return line;
+}
+
+Box RuleShapes::boxOf(std::size_t rule) const {
+  const auto area = std::ranges::lower_bound(areas_, rule, {}, &Area::rule);
+  return area != areas_.end() && area->rule == rule ? area->box : Box{};
+}
+
+}  // namespace coastmesh
