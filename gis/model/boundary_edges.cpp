@@ -136,7 +136,8 @@ BoundaryReport defineKinds(const BoundaryPlaces& at, const BoundaryOptions& opti
   std::uint32_t first = 0;  // number of the first rule
   const auto apply = [&](const BoundaryRules& rules, const std::string& file) {
     if (rules.empty()) return false;
-    RuledEdges ruled = rules.roughKindsOf(at.crs, at.places, boundary.edges, boundary.outer, boundary.share);
+    RuledEdges ruled =
+        rules.roughKindsOf(at.crs, at.places, boundary.edges, boundary.outer, boundary.share, boundary.kinds);
     bool any = false;
     for (std::size_t e = 0; e < said.size(); ++e) {
       if (!ruled.kinds[e]) continue;

@@ -27,6 +27,7 @@ struct EdgesToType {
   const std::vector<NodePair>& edges;
   const std::vector<bool>& outer;
   const std::vector<double>& share;
+  const std::vector<BoundaryKind>& before;
 };
 
 namespace {
@@ -276,7 +277,7 @@ void BoundaryLayer::apply(const EdgesToType& edges, bool roughly, std::size_t fi
     if (!roughly) continue;
     typing.bounds.add(Box::of(edge->a, edge->b));
     if (!typing.shapes.anyNear(*edge, kAround * edge->element, kSmall * edge->element, plane)) continue;
-    typing.near.push_back({*edge, last, kNone});
+    typing.near.push_back({*edge, last, kNone, edges.before.empty() ? BoundaryKind{} : edges.before[e]});
     typing.index.push_back(e);
   }
   if (!roughly) return;
@@ -364,13 +365,14 @@ std::vector<std::optional<BoundaryKind>> BoundaryRules::kindsOf(const Crs& crs, 
                                                                 const std::vector<NodePair>& edges,
                                                                 const std::vector<bool>& outer,
                                                                 const std::vector<double>& share) const {
-  return ruledEdges({crs, places, edges, outer, share}, false).kinds;
+  return ruledEdges({crs, places, edges, outer, share, {}}, false).kinds;
 }
 
 RuledEdges BoundaryRules::roughKindsOf(const Crs& crs, const std::vector<Point>& places,
                                        const std::vector<NodePair>& edges, const std::vector<bool>& outer,
-                                       const std::vector<double>& share) const {
-  return ruledEdges({crs, places, edges, outer, share}, true);
+                                       const std::vector<double>& share,
+                                       const std::vector<BoundaryKind>& before) const {
+  return ruledEdges({crs, places, edges, outer, share, before}, true);
 }
 
 std::size_t BoundaryRules::size() const {

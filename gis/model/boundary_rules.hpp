@@ -74,9 +74,11 @@ class BoundaryRules {
   // The same for a mesh that follows its shore only roughly, and lines drawn by hand. Lines also get edges that they
   // pass within half an element, if no other edge is closer. A polygon or line shorter than two elements that would get
   // none gets the one closest to its middle, if that is within an element. `missed` are openings and rivers without any
-  // edge, and where lines leave walls in what they open.
+  // edge, and where lines leave walls in what they open. `before`: the types of edges without these rules, which may
+  // be openings too; empty: unknown.
   RuledEdges roughKindsOf(const Crs& crs, const std::vector<Point>& places, const std::vector<NodePair>& edges,
-                          const std::vector<bool>& outer, const std::vector<double>& share = {}) const;
+                          const std::vector<bool>& outer, const std::vector<double>& share = {},
+                          const std::vector<BoundaryKind>& before = {}) const;
   // The number of rules.
   std::size_t size() const;
 

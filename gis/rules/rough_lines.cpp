@@ -137,7 +137,7 @@ class RoughLines {
     double begin = 1.0, end = 0.0;
     std::size_t rule = 0;
   };
-  struct Stretch {  // samples [first, last) without an edge, the longest such
+  struct Stretch {  // samples [first, last) without an edge, the longest such; none where a line skips edges
     std::size_t first = 0, last = 0;
   };
 
@@ -190,13 +190,21 @@ class RoughLines {
   std::vector<Stretch> stretchesOf(const Walk& walk) const {
     std::vector<Stretch> stretches;
     for (std::size_t i = 0; i < walk.size(); ++i) {
-      if (hasEdge(walk[i])) continue;
+      if (hasEdge(walk[i])) {
+        if (i > 0 && skipsEdges(walk[i - 1], walk[i])) stretches.push_back({i, i});
+        continue;
+      }
       Stretch stretch{i, i + 1};
       while (stretch.last < walk.size() && !hasEdge(walk[stretch.last])) ++stretch.last;
       stretches.push_back(stretch);
       i = stretch.last;
     }
     return stretches;
+  }
+  // True if other edges lie between those of two samples.
+  bool skipsEdges(const Sample& a, const Sample& b) const {
+    const std::size_t from = a.closest.edge, to = b.closest.edge;
+    return hasEdge(a) && from != to && edges_[from].next != to && edges_[to].next != from;
   }
   static bool isEnd(const Walk& walk, const Stretch& stretch) {
     return stretch.first == 0 || stretch.last == walk.size();
@@ -280,16 +288,29 @@ class RoughLines {
   }
 
   bool isMissed(const Walk& walk, const Stretch& stretch) const {
-    const double elements = isEnd(walk, stretch) ? kEnd : kWall;
-    double element = 0.0;
-    for (std::size_t i = stretch.first; i < stretch.last; ++i) {
-      if (!isBeside(walk[i], elements)) return false;
+    const bool is_end = isEnd(walk, stretch);
+    double element = 0.0, farthest = 0.0;
+    for (std::size_t i = stretch.first - (is_end ? 0 : 1); i < stretch.last + (is_end ? 0 : 1); ++i) {
+      if (!walk[i].closest.any()) return false;
       element = std::max(element, edgeAt(walk[i]).element);
+      farthest = std::max(farthest, walk[i].closest.distance);
     }
-    if (isEnd(walk, stretch)) return lengthOf(walk, stretch) >= kShort * element;
-    const std::optional<Path> path = pathBeside(walk, stretch);
+    if (farthest > (is_end ? kEnd : kWall) * element) return false;
+    if (is_end) return lengthOf(walk, stretch) >= kShort * element;
+    const std::size_t before = walk[stretch.first - 1].closest.edge, after = walk[stretch.last].closest.edge;
     const std::size_t rule = walk[stretch.first].rule;
-    return !path || !std::ranges::all_of(*path, [&](std::uint32_t edge) { return isSettled(edge, rule); });
+    if (stretch.first == stretch.last && !pathBeside(walk, stretch)) return false;  // of another loop
+    return !areJoined(before, after, rule) && !areJoined(after, before, rule);
+  }
+  // True if all edges from one to the other, along the boundary, have the rule's type, perhaps without it.
+  bool areJoined(std::size_t first, std::size_t last, std::size_t rule) const {
+    std::size_t steps = 0;
+    for (std::size_t edge = first; edge != last; edge = edges_[edge].next) {
+      const std::uint32_t next = edges_[edge].next;
+      const bool is_so = !edges_[edge].rule && edges_[edge].before == rules_[rule].kind;
+      if (!(is_so || isSettled(edge, rule)) || next == kNone || ++steps > edges_.size()) return false;
+    }
+    return true;
   }
 
   static double lengthOf(const Walk& walk, const Stretch& stretch) {

@@ -14,6 +14,7 @@ struct NearEdge {
   PlacedEdge edge;
   std::optional<std::size_t> rule{};  // the last that applies to it
   std::uint32_t next = kNone;         // the edge after it along the boundary; kNone if that is not near
+  BoundaryKind before{};              // its type without rules
 };
 
 // A part of the boundary that a rule asks for and does not get.

@@ -274,6 +274,15 @@ TEST(RoughBoundaryRules, AMouthNarrowerThanAnEdgeIsTheClosestEdge) {
   EXPECT_TRUE(ruled.missed.empty());
 }
 
+// All of the shore is open, though the line takes a shorter way through the water.
+TEST(RoughBoundaryRules, AWayAcrossOpenedWaterIsNoWall) {
+  RawLayer layer = layerOf(FeatureUse::Area);
+  addLine(layer, "type", "open", {{8, 0}, {8, 2.5}, {10, 2.5}, {10, 0}, {3, 0}});
+  const RuledEdges ruled = roughlyRuled(layer);
+  EXPECT_EQ(inLetters(ruled.kinds), "...ooooooo oo........ .......... ..........");
+  EXPECT_TRUE(ruled.missed.empty());
+}
+
 TEST(RoughBoundaryRules, WhatIsMissedHasItsPlace) {
   RawLayer layer = layerOf(FeatureUse::Area);
   addLine(layer, "type", "open", {{0, 0}, {2, 0}, {2.5, 2.5}, {7.5, 2.5}, {8, 0}, {10, 0}});  // a wall of six edges
