@@ -10,6 +10,7 @@
 #include "gis/file/prj_file.hpp"
 #include "gis/format/grid_formats.hpp"
 #include "gis/format/grid_io.hpp"
+#include "gis/grid/boundary_kinds.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/one_turn.hpp"
 
@@ -31,6 +32,10 @@ bool sameBytes(const fs::path& a, const fs::path& b) {
   std::ifstream first(a, std::ios::binary), second(b, std::ios::binary);
   using Bytes = std::istreambuf_iterator<char>;
   return first && second && std::equal(Bytes(first), Bytes(), Bytes(second), Bytes());
+}
+
+bool hasShoresAcross(const Grid& grid) {
+  return std::ranges::any_of(grid.boundaries, [](const Boundary& boundary) { return !boundary.back_nodes.empty(); });
 }
 
 const GridFormat& writable(const std::string& path, const GridFormat& format) {
@@ -75,17 +80,14 @@ void StagedOutput::write(const Grid& grid, const ItemLoop& loop) {
   const auto make = [&](const Grid& made) {
     files_.make([&](const std::string& path) { functionsOf(*format_).write(made, path, loop); });
   };
-  // A copy needs less memory than meshing did, and only meshes with a jump of longitudes need one.
-  std::optional<std::vector<Point>> turned;
+  // A copy needs less memory than meshing did, and only meshes with a jump of longitudes or with weirs need one.
+  std::optional<Grid> changed;
+  const auto copy = [&]() -> Grid& { return changed ? *changed : changed.emplace(grid); };
   if (format_->places == NodePlaces::OneTurn && grid.crs.geographic)
-    turned = inOneTurn(grid.nodes, grid.triangles, loop);
-  if (turned) {
-    Grid copy = grid;
-    copy.nodes = *std::move(turned);
-    make(copy);
-  } else {
-    make(grid);
-  }
+    if (auto turned = inOneTurn(grid.nodes, grid.triangles, loop)) copy().nodes = *std::move(turned);
+  if (!format_->beside_grid && !format_->holds.has(GridPart::Weirs) && hasShoresAcross(grid))
+    copy().boundaries = weirsAsShores(grid);
+  make(changed ? *changed : grid);
   if (keepsPrj(grid)) files_.keep(filesOf(*format_, files_.path()).prj);
 }
 

@@ -36,6 +36,15 @@ std::vector<std::uint32_t> separatorsOf(const std::vector<Boundary>& boundaries)
   return separators;
 }
 
+// A weir around an area repeats its first node at its end.
+void closeRing(Boundary& shore, const Grid& grid) {
+  if (shore.closed || shore.nodes.size() < 4 || shore.nodes.front() != shore.nodes.back()) return;
+  shore.nodes.pop_back();
+  shore.closed = true;
+  shore.repeats_first = false;
+  shore.role = roleOfLoop(grid.nodes, shore.nodes, grid.crs);
+}
+
 }  // namespace
 
 std::vector<std::vector<std::uint32_t>> boundaryLoops(const Grid& grid) {
@@ -92,6 +101,30 @@ const BoundaryKind* EdgeKinds::find(std::uint32_t a, std::uint32_t b) const {
   const NodePair key = keyOf(a, b);
   const auto at = std::ranges::lower_bound(edges_, key, {}, [](const auto& entry) { return entry.first; });
   return at != edges_.end() && at->first == key ? &kinds_[at->second] : nullptr;
+}
+
+std::vector<Boundary> weirsAsShores(const Grid& grid) {
+  std::vector<std::vector<NodePair>> across;  // by boundary
+  for (const Boundary& boundary : grid.boundaries)
+    across.push_back(edgesOf({boundary.role, boundary.closed, boundary.back_nodes}));
+  keepBoundaryEdges(grid.triangles, across);
+  const EdgeKinds kinds(grid);
+  std::vector<Boundary> shores;
+  for (std::size_t b = 0; b < grid.boundaries.size(); ++b) {
+    const Boundary& boundary = grid.boundaries[b];
+    shores.push_back(boundary);
+    if (boundary.weir.empty() && boundary.back_nodes.empty()) continue;
+    shores.back().back_nodes.clear();
+    shores.back().weir.clear();
+    closeRing(shores.back(), grid);
+    std::erase_if(across[b], [&](const NodePair& edge) { return kinds.find(edge[0], edge[1]) != nullptr; });
+    for (Boundary& shore : chainEdges(across[b])) {
+      shore.role = shore.closed ? roleOfLoop(grid.nodes, shore.nodes, grid.crs) : BoundaryRole::Land;
+      shore.ibtype = boundary.ibtype;
+      shores.push_back(std::move(shore));
+    }
+  }
+  return shores;
 }
 
 std::vector<Boundary> boundariesOfOpenNodes(const Grid& grid, const std::vector<bool>& is_open) {

@@ -50,6 +50,10 @@ class EdgeKinds {
   std::vector<std::uint32_t> separators_;  // by boundary
 };
 
+// The grid's boundaries for formats without weirs: both shores of each weir, the one across after the first, without
+// heights. Edges across that are in another boundary, or not on the mesh's boundary, are left out.
+std::vector<Boundary> weirsAsShores(const Grid& grid);
+
 // For files that only mark open nodes: boundary edges between two of them are open, all others are shore. `is_open` has
 // one flag for each node.
 std::vector<Boundary> boundariesOfOpenNodes(const Grid& grid, const std::vector<bool>& is_open);
