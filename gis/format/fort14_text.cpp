@@ -21,11 +21,12 @@ struct Segment {
   const Boundary* weir = nullptr;
 };
 
-// ADCIRC would misread a weir's number without heights: the role's own number is written instead.
+// ADCIRC would misread a weir's number without heights: the role's own number is written instead. It would close a part
+// of an island's shore across the water.
 int adcircType(const Boundary& boundary) {
   const Ibtype* const known = findIbtype(boundary.ibtype);
-  const bool complete = known != nullptr && !isBareWeir(boundary);
-  return complete ? known->number : ibtypeOf(boundary.role, boundary.closed);
+  if (known == nullptr || isBareWeir(boundary)) return ibtypeOf(boundary.role, boundary.closed);
+  return isPartOfIsland(boundary) ? mainlandType(known->number) : known->number;
 }
 
 int typeOf(const Boundary& boundary, Fort14Kind kind) {

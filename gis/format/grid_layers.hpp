@@ -52,9 +52,9 @@ inline constexpr std::array<std::string_view, 3> kCornerColumns = {"node1", "nod
 std::vector<GridLayer> layersOf(const Grid& grid);
 
 // The parts of a grid that layers hold.
-inline constexpr GridParts kLayerParts{GridPart::Sizes,   GridPart::Features, GridPart::FeatureNames,
-                                       GridPart::Regions, GridPart::Lines,    GridPart::LineNames,
-                                       GridPart::Rivers,  GridPart::Ibtypes,  GridPart::BareWeirs};
+inline constexpr GridParts kLayerParts{
+    GridPart::Sizes,     GridPart::Features, GridPart::FeatureNames, GridPart::Regions,   GridPart::Lines,
+    GridPart::LineNames, GridPart::Rivers,   GridPart::Ibtypes,      GridPart::BareWeirs, GridPart::PartIslands};
 
 // The file of a layer in formats with one layer per file: "lake.shp" goes with "lake_nodes.shp", "lake_boundaries.shp"
 // and "lake_lines.shp".

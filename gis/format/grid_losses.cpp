@@ -115,16 +115,25 @@ std::string wordsFor(GridPart part, const Grid& grid, const GridFormat& format) 
       return "that " + counted(bare, "boundary is a weir", "boundaries are weirs") + ' ' + typesOf(grid, isBareWeir) +
              ", whose heights are not known";
     }
+    case GridPart::PartIslands: {
+      const std::size_t parts = countBoundaries(grid, isPartOfIsland);
+      if (parts == 0 || !format.holds.has(GridPart::Ibtypes)) return "";
+      const Point& first = grid.nodes[std::ranges::find_if(grid.boundaries, isPartOfIsland)->nodes.front()];
+      return "that " + counted(parts, "boundary is an island", "boundaries are islands") + ' ' +
+             typesOf(grid, isPartOfIsland) + ": a part of a shore gets the mainland's type, the first at " +
+             std::to_string(first.x) + ", " + std::to_string(first.y);
+    }
   }
   return "";
 }
 
-constexpr std::array kGivenParts{GridPart::Regions, GridPart::Pieces,  GridPart::Lines, GridPart::LineNames,
-                                 GridPart::Rivers,  GridPart::Ibtypes, GridPart::Weirs, GridPart::BareWeirs};
-constexpr std::array kAllParts{GridPart::Title,     GridPart::Sizes,        GridPart::Features, GridPart::FeatureNames,
-                               GridPart::Regions,   GridPart::Pieces,       GridPart::Lines,    GridPart::LineNames,
-                               GridPart::Rivers,    GridPart::Ibtypes,      GridPart::Weirs,    GridPart::BareWeirs,
-                               GridPart::Partition, GridPart::NodePartition};
+constexpr std::array kGivenParts{GridPart::Regions,   GridPart::Pieces,    GridPart::Lines,
+                                 GridPart::LineNames, GridPart::Rivers,    GridPart::Ibtypes,
+                                 GridPart::Weirs,     GridPart::BareWeirs, GridPart::PartIslands};
+constexpr std::array kAllParts{
+    GridPart::Title,  GridPart::Sizes,     GridPart::Features,    GridPart::FeatureNames, GridPart::Regions,
+    GridPart::Pieces, GridPart::Lines,     GridPart::LineNames,   GridPart::Rivers,       GridPart::Ibtypes,
+    GridPart::Weirs,  GridPart::BareWeirs, GridPart::PartIslands, GridPart::Partition,    GridPart::NodePartition};
 
 // Length in the grid's CRS over length on the ground, for a sample of edges. REQUIRES: a projected CRS in metres.
 double meanScale(const Grid& grid) {

@@ -18,8 +18,8 @@ namespace {
 
 constexpr int kLine = 1, kTriangle = 2;  // element types
 
-constexpr GridParts kParts22{GridPart::Features, GridPart::Regions, GridPart::Lines,    GridPart::LineNames,
-                             GridPart::Rivers,   GridPart::Ibtypes, GridPart::BareWeirs};
+constexpr GridParts kParts22{GridPart::Features, GridPart::Regions, GridPart::Lines,     GridPart::LineNames,
+                             GridPart::Rivers,   GridPart::Ibtypes, GridPart::BareWeirs, GridPart::PartIslands};
 
 // Curves are tagged from 1 in the order of the boundaries, then of the lines; surfaces continue in the order of the
 // features. Physical groups have the tags of their entities; lines of the same kind and name are one group.
@@ -396,8 +396,9 @@ void writeGmsh22(const Grid& grid, const std::string& path, const ItemLoop& loop
 }  // namespace
 
 FormatRecord gmshFormat() {
-  constexpr GridParts kParts41{GridPart::Features, GridPart::Regions, GridPart::Lines,     GridPart::LineNames,
-                               GridPart::Rivers,   GridPart::Ibtypes, GridPart::BareWeirs, GridPart::Partition};
+  constexpr GridParts kParts41{GridPart::Features,  GridPart::Regions,     GridPart::Lines,
+                               GridPart::LineNames, GridPart::Rivers,      GridPart::Ibtypes,
+                               GridPart::BareWeirs, GridPart::PartIslands, GridPart::Partition};
   return {{"gmsh",
            {".msh"},
            "Gmsh 4.1 for Thetis, Firedrake, SLIM and FEniCS",

@@ -371,17 +371,17 @@ void writeUgrid(const Grid& grid, const std::string& path, const ItemLoop& loop)
 }  // namespace
 
 FormatRecord ugridFormat() {
-  return {
-      {"ugrid",
-       {".nc"},
-       "UGRID NetCDF for QGIS, xugrid and D-FlowFM (_net.nc)",
-       true,
-       true,
-       {GridPart::Title, GridPart::Sizes, GridPart::Features, GridPart::Regions, GridPart::Pieces, GridPart::Partition,
-        GridPart::Lines, GridPart::LineNames, GridPart::Rivers, GridPart::Ibtypes, GridPart::BareWeirs},
-       false,
-       NodePlaces::OneTurn},
-      {writeUgrid, readUgrid, nullptr}};
+  return {{"ugrid",
+           {".nc"},
+           "UGRID NetCDF for QGIS, xugrid and D-FlowFM (_net.nc)",
+           true,
+           true,
+           {GridPart::Title, GridPart::Sizes, GridPart::Features, GridPart::Regions, GridPart::Pieces,
+            GridPart::Partition, GridPart::Lines, GridPart::LineNames, GridPart::Rivers, GridPart::Ibtypes,
+            GridPart::BareWeirs, GridPart::PartIslands},
+           false,
+           NodePlaces::OneTurn},
+          {writeUgrid, readUgrid, nullptr}};
 }
 
 }  // namespace coastmesh

@@ -217,8 +217,8 @@ void writeVtuGlobe(const Grid& grid, const std::string& path, const ItemLoop& lo
   writeFile(grid, {place, [&nodes](std::size_t i) { return asLonLat(nodes[i]); }}, path, loop);
 }
 
-constexpr GridParts kParts{GridPart::Features, GridPart::Regions, GridPart::Lines,    GridPart::LineNames,
-                           GridPart::Rivers,   GridPart::Ibtypes, GridPart::BareWeirs};
+constexpr GridParts kParts{GridPart::Features, GridPart::Regions, GridPart::Lines,     GridPart::LineNames,
+                           GridPart::Rivers,   GridPart::Ibtypes, GridPart::BareWeirs, GridPart::PartIslands};
 
 }  // namespace
 

@@ -44,6 +44,13 @@ bool isBareWeir(const Boundary& boundary) {
   return type != nullptr && type->isWeir() && boundary.weir.empty();
 }
 
+bool isPartOfIsland(const Boundary& boundary) {
+  const Ibtype* const type = findIbtype(boundary.ibtype);
+  return type != nullptr && type->closesItself() && !boundary.closed;
+}
+
+int mainlandType(int island) { return island - 1; }
+
 std::string givableIbtypes() {
   std::string list;
   for (const Ibtype& type : kIbtypes) {

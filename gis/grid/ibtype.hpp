@@ -28,6 +28,11 @@ bool isRolesOwn(int number);  // one of these three
 // True if the boundary has a weir's type, but no heights.
 bool isBareWeir(const Boundary& boundary);
 
+// True if the boundary has an island's type, which ADCIRC would close, but is only a part of a shore.
+bool isPartOfIsland(const Boundary& boundary);
+// The type of other shores with the same condition as an island's: 20 for 21.
+int mainlandType(int island);
+
 // The types that a user may give for a boundary: those without values at nodes. "0, 1, 2, 10, …"
 std::string givableIbtypes();
 

@@ -248,6 +248,37 @@ TEST(LossesIn, WeirsBetweenShores) {
   EXPECT_TRUE(std::ranges::none_of(again.boundaries, isWeir));
 }
 
+// ADCIRC closes segments of an island's type, so a part of an island's shore gets the mainland's type.
+TEST(LossesIn, IslandsOfWhichAPartIsABoundary) {
+  Grid grid = namedGrid();
+  const auto island = std::ranges::find(grid.boundaries, BoundaryRole::Island, &Boundary::role);
+  ASSERT_NE(island, grid.boundaries.end());
+  const GridFormat& adcirc = gridFormatFor("fort.14");
+  EXPECT_THAT(lossesIn(grid, adcirc, LossesOf::Input), Not(HasSubstr("mainland")));
+  Boundary river = *island;
+  river.role = BoundaryRole::River;
+  river.ibtype = 22;
+  river.closed = island->closed = false;
+  river.nodes = {island->nodes[0], island->nodes[1]};
+  std::ranges::rotate(island->nodes, island->nodes.begin() + 1);
+  island->role = BoundaryRole::Land;
+  const std::vector<std::uint32_t> shore = island->nodes;
+  grid.boundaries.push_back(river);
+  const TemporaryFolder folder;
+  for (const int type : {1, 11}) {
+    std::ranges::find(grid.boundaries, shore, &Boundary::nodes)->ibtype = type;
+    const Grid got = throughFile(grid, adcirc, folder);
+    const auto part = std::ranges::find(got.boundaries, shore, &Boundary::nodes);
+    ASSERT_NE(part, got.boundaries.end());
+    EXPECT_EQ(part->ibtype, type - 1);
+    EXPECT_FALSE(part->closed);
+    EXPECT_THAT(lossesIn(grid, adcirc, LossesOf::Input),
+                HasSubstr("that 1 boundary is an island (" + std::to_string(type) +
+                          "): a part of a shore gets the mainland's type"));
+    EXPECT_THAT(lossesIn(grid, gridFormatFor("a.nc"), LossesOf::Grid), Not(HasSubstr("mainland")));
+  }
+}
+
 // Node strings and physical curves of other programs are lines if they run inside the mesh.
 TEST(ReadLines, OfOtherPrograms) {
   const TemporaryFolder folder;
