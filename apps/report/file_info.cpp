@@ -119,7 +119,8 @@ MeshInfo describeMesh(const Grid& grid, SurfaceKind surface) {
   info.step = measureStep(grid);
   info.plane = grid.crs.isPlane();
   info.longest_edge_m = edges.longest();
-  for (double area : triangleAreas(grid.nodes, grid.triangles, grid.crs)) info.area_m2 += area;
+  // Those of clockwise triangles are negative.
+  for (double area : triangleAreas(grid.nodes, grid.triangles, grid.crs)) info.area_m2 += std::abs(area);
   return info;
 }
 

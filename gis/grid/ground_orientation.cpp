@@ -52,7 +52,7 @@ std::vector<std::uint32_t> turnedTriangles(const Grid& grid, std::span<const dou
     std::vector<std::uint32_t> turned;
     for (std::size_t t = first; t < last; ++t) {
       const auto& [a, b, c] = grid.triangles[t];
-      const bool sure = grid.crs.geographic && std::abs(area_m2[t]) > kSureArea;
+      const bool sure = grid.crs.geographic && !area_m2.empty() && std::abs(area_m2[t]) > kSureArea;
       const bool right =
           sure ? area_m2[t] > 0 : orientationOnGround(grid.nodes[a], grid.nodes[b], grid.nodes[c], grid.crs) > 0;
       if (!right) turned.push_back(static_cast<std::uint32_t>(t));

@@ -16,10 +16,10 @@ namespace coastmesh {
 int orientationOnGround(const Point& a, const Point& b, const Point& c, const Crs& crs);
 
 // Triangles of `grid` that are not counter-clockwise, ascending. In degrees on the ground: by the sign of `area_m2`,
-// from `triangleAreas`, if that is certain, otherwise by `orientationOnGround`. In a projected CRS in its plane, in
-// which programs that read the grid compute. A valid mesh has such triangles if they are far longer than high (sides
-// that are straight there and on the ground differ by a hundredth of their length at about 1000 km) or if rounding to
-// the CRS's coordinates flattened them.
+// from `triangleAreas`, if that is given and certain, otherwise by `orientationOnGround`. In a projected CRS in its
+// plane, in which programs that read the grid compute. A valid mesh has such triangles if they are far longer than high
+// (sides that are straight there and on the ground differ by a hundredth of their length at about 1000 km) or if
+// rounding to the CRS's coordinates flattened them.
 std::vector<std::uint32_t> turnedTriangles(const Grid& grid, std::span<const double> area_m2,
                                            const ItemLoop& loop = inOrder);
 
