@@ -193,7 +193,7 @@ int runCheck(const CheckUsage& usage, Run& run) {
     layer = &outputs.addFile(usage.output);
   }
   const std::vector<Target> targets = targetsNamed(usage.targets);
-  Grid grid = readMeshFile(usage.mesh, run);
+  Grid grid = readMeshFile(usage.mesh, run, targets.empty() ? FileNotes::Warnings : FileNotes::Defects);
   requireDepths(grid, usage);
   interrupt.check();
   GridCheckOptions options = usage.check;

@@ -16,8 +16,12 @@ struct MeshFile {
 // Declares the argument `name` and the option --assume-crs.
 void declareMeshFile(OptionTable& table, const std::string& name, const std::string& help, MeshFile& file);
 
-// Throws InputError, also for a mesh without triangles.
-Grid readMeshFile(const MeshFile& file, Run& run);
+// What becomes of a grid's `notes`.
+enum class FileNotes { Warnings, Defects };
+
+// Warns of what had to be chosen and, unless notes become defects later, of inconsistencies and omissions. Throws
+// InputError, also for a mesh without triangles.
+Grid readMeshFile(const MeshFile& file, Run& run, FileNotes notes = FileNotes::Warnings);
 
 // Warns that --assume-crs has no effect, if it was given.
 void warnOfCrs(const MeshFile& file, const std::string& why, Run& run);

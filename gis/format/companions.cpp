@@ -22,13 +22,6 @@ const std::vector<std::vector<std::string_view>> kSets = {{".shp", ".shx", ".dbf
 constexpr std::array<std::string_view, 8> kInPlace = {".prj", ".qpj", ".tfw", ".wld", ".hdr", ".gfs", ".xsd", ".clr"};
 constexpr std::array<std::string_view, 6> kAfter = {".aux.xml", ".ovr", ".msk", ".qpj", "-wal", "-journal"};
 
-std::string upperCase(std::string_view text) {
-  std::string upper(text);
-  std::ranges::transform(upper, upper.begin(),
-                         [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
-  return upper;
-}
-
 }  // namespace
 
 std::vector<std::string> companionsOf(const std::string& path) {
@@ -55,6 +48,9 @@ std::vector<std::string> companionsOf(const std::string& path) {
   if (format != nullptr) {
     const OutputFiles files = filesOf(*format, path);
     all.insert(all.end(), files.targets.begin(), files.targets.end());
+    if (own != lower)
+      for (const std::string& target : files.targets)
+        all.push_back(fs::path(target).replace_extension(upperCase(fs::path(target).extension().string())).string());
     if (!files.prj.empty()) all.push_back(files.prj);
   }
   std::erase(all, path);

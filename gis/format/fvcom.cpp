@@ -8,6 +8,7 @@
 #include "gis/file/text_writer.hpp"
 #include "gis/format/grid_formats.hpp"
 #include "gis/grid/boundary_kinds.hpp"
+#include "gis/lower_case.hpp"
 
 namespace coastmesh {
 namespace {
@@ -15,14 +16,13 @@ namespace {
 constexpr std::string_view kGridEnding = "_grd.dat";
 constexpr int kOpenNodeType = 1;  // prescribed elevation
 
-std::string fileOfSet(const std::string& path, const char* which) {
-  std::string base = path;
-  if (base.ends_with(kGridEnding)) {
-    base.resize(base.size() - kGridEnding.size());
-  } else {
-    base = std::filesystem::path(path).replace_extension().string();
-  }
-  return base.append("_").append(which).append(".dat");
+// LAKE_GRD.DAT has its LAKE_DEP.DAT.
+std::string fileOfSet(const std::string& path, const std::string& which) {
+  const std::string ending = "_" + which + ".dat";
+  if (path.ends_with(kGridEnding)) return path.substr(0, path.size() - kGridEnding.size()) + ending;
+  if (path.ends_with(upperCase(kGridEnding)))
+    return path.substr(0, path.size() - kGridEnding.size()) + upperCase(ending);
+  return std::filesystem::path(path).replace_extension().string() + ending;
 }
 
 // Nodes of open boundaries, in order along each boundary, each node once.
@@ -151,6 +151,12 @@ std::vector<bool> readOpenNodes(const std::string& path, const Grid& grid) {
   return is_open;
 }
 
+std::string openNodesRemark(const std::string& path) {
+  const std::string open = fileOfSet(path, "obc");
+  if (std::filesystem::exists(open)) return {};
+  return "there is no '" + open + "', so all boundaries are taken as shore";
+}
+
 // Reads the set; only the first file is required. Throws InputError.
 Grid readFvcom(const std::string& path, const Crs& unsaid) {
   Grid grid;
@@ -180,7 +186,7 @@ FormatRecord fvcomFormat() {
            true,
            NodePlaces::OneTurn,
            true},
-          {writeFvcom, readFvcom, files}};
+          {writeFvcom, readFvcom, files, nullptr, openNodesRemark}};
 }
 
 }  // namespace coastmesh

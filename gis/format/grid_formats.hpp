@@ -19,6 +19,7 @@ struct FormatFunctions {
   OutputFiles (*files)(const std::string& path) = nullptr;  // null: only `path`
   // For a format that shares its ending with another: returns whether `path` is of this format. Null: endings decide.
   bool (*holds)(const std::string& path) = nullptr;
+  std::string (*remark)(const std::string& path) = nullptr;  // see `remarkOnGrid`; null: there is none
 };
 
 struct FormatRecord {

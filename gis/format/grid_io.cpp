@@ -11,7 +11,6 @@
 #include "gis/format/grid_formats.hpp"
 #include "gis/format/grid_layers.hpp"
 #include "gis/format/read_ogr_grid.hpp"
-#include "gis/format/read_ugrid.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/grid_lines.hpp"
 #include "gis/lower_case.hpp"
@@ -167,7 +166,8 @@ Grid readGrid(const std::string& path, const Crs& unsaid) {
 
 std::string remarkOnGrid(const std::string& path) {
   const GridFormat* const format = gridFormatOf(path);
-  return format != nullptr && format->name == "ugrid" ? depthRemark(path) : std::string();
+  const auto remark = format != nullptr ? functionsOf(*format).remark : nullptr;
+  return remark != nullptr ? remark(path) : std::string();
 }
 
 }  // namespace coastmesh

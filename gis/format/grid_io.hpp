@@ -51,7 +51,8 @@ const GridFormat* gridFormatOf(const std::string& path);
 // `notes` report other lines of the file. If the file has no CRS it is `unsaid`. Throws InputError.
 Grid readGrid(const std::string& path, const Crs& unsaid = {});
 
-// A remark for the user on a file that `readGrid` has read, if it had to choose; else empty. Throws InputError.
+// A remark for the user on a file that `readGrid` has read, if it had to choose, or missed a file that models can do
+// without; else empty. Throws InputError.
 std::string remarkOnGrid(const std::string& path);
 
 }  // namespace coastmesh

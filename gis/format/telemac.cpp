@@ -75,7 +75,8 @@ std::vector<BoundaryRole> readConditions(const std::string& path, const Ranks& r
   const auto on_boundary =
       static_cast<std::size_t>(std::ranges::count_if(ranks, [](std::int32_t r) { return r != 0; }));
   if (!std::filesystem::exists(path)) {
-    grid.notes.push_back("there is no '" + std::filesystem::path(path).filename().string() + "' beside it");
+    grid.notes.push_back("there is no '" + std::filesystem::path(path).filename().string() +
+                         "' beside it, so all boundaries are taken as shore");
     return roles;
   }
   if (on_boundary == 0 && std::filesystem::is_empty(path)) return roles;  // a closed globe
@@ -102,6 +103,12 @@ std::vector<BoundaryRole> readConditions(const std::string& path, const Ranks& r
   return roles;
 }
 
+// LAKE.SLF has its LAKE.CLI.
+std::string conditionsBeside(const std::string& path) {
+  const std::string lower = withEnding(path, ".cli"), upper = withEnding(path, ".CLI");
+  return !std::filesystem::exists(lower) && std::filesystem::exists(upper) ? upper : lower;
+}
+
 // Sorts loops by rank; each starts at its node of lowest rank.
 void sortByRank(std::vector<std::vector<std::uint32_t>>& loops, const Ranks& ranks) {
   const auto rankOf = [&](std::uint32_t node) { return ranks[node]; };
@@ -114,7 +121,7 @@ Grid readTelemac(const std::string& path, const Crs& unsaid) {
   Grid grid;
   FortranReader file(path);
   const Ranks ranks = readGeometry(file, grid);
-  const std::vector<BoundaryRole> roles = readConditions(withEnding(path, ".cli"), ranks, grid);
+  const std::vector<BoundaryRole> roles = readConditions(conditionsBeside(path), ranks, grid);
   auto loops = boundaryLoops(grid);
   sortByRank(loops, ranks);
   grid.crs = readPrjBeside(path, unsaid);

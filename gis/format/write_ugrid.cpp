@@ -381,7 +381,7 @@ FormatRecord ugridFormat() {
             GridPart::BareWeirs, GridPart::PartIslands},
            false,
            NodePlaces::OneTurn},
-          {writeUgrid, readUgrid, nullptr}};
+          {writeUgrid, readUgrid, nullptr, nullptr, depthRemark}};
 }
 
 }  // namespace coastmesh

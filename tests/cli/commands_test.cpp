@@ -14,6 +14,8 @@ namespace coastmesh::test {
 namespace {
 
 using Json = nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 class Commands : public ProgramTest {
  protected:
@@ -152,6 +154,34 @@ TEST_F(Commands, ConvertKeepsTheMesh) {
     EXPECT_EQ(last["extent"], first["extent"]) << name;
     EXPECT_NEAR(last["min_angle_deg"].get<double>(), first["min_angle_deg"].get<double>(), 1e-9) << name;
   }
+}
+
+// Boundaries of a clockwise mesh are those of its mirror image.
+TEST_F(Commands, ConvertWarnsOfClockwiseTriangles) {
+  const std::string mesh = write("cw.2dm",
+                                 "MESH2D\nE3T 1 1 3 2 1\nE3T 2 1 4 3 1\n"
+                                 "ND 1 0 0 -1\nND 2 1 0 -1\nND 3 1 1 -1\nND 4 0 1 -1\n");
+  const ProgramRun run = runProgram({"convert", mesh, "-o", file("a.14")});
+  EXPECT_EQ(run.code, 0) << run.errors;
+  EXPECT_THAT(run.errors, HasSubstr("2 of 2 triangles are clockwise"));
+  const ProgramRun mended = runProgram({"convert", mesh, "-o", file("b.14"), "--target", "adcirc"});
+  EXPECT_EQ(mended.code, 0) << mended.errors;
+  EXPECT_THAT(mended.errors, Not(HasSubstr("clockwise")));
+  EXPECT_THAT(runProgram({"convert", file("b.14"), "-o", file("c.2dm")}).errors, Not(HasSubstr("clockwise")));
+  EXPECT_EQ(Json::parse(runProgram({"info", mesh, "--json"}).output).at("area_m2"), 1.0);
+}
+
+TEST_F(Commands, WhatAFileLacksIsWarnedOf) {
+  ASSERT_EQ(runProgram({"mesh", lake(), "-o", file("lake.slf")}).code, 0);
+  EXPECT_THAT(runProgram({"convert", file("lake.slf"), "-o", file("a.14")}).errors, Not(HasSubstr("lake.cli")));
+  std::filesystem::remove(file("lake.cli"));
+  const std::string missing = "there is no 'lake.cli' beside it, so all boundaries are taken as shore";
+  EXPECT_THAT(runProgram({"convert", file("lake.slf"), "-o", file("b.14")}).errors, HasSubstr(missing));
+  EXPECT_THAT(runProgram({"info", file("lake.slf")}).errors, HasSubstr(missing));
+  EXPECT_THAT(runProgram({"check", file("lake.slf")}).errors, HasSubstr(missing));
+  const ProgramRun check = runProgram({"check", file("lake.slf"), "--target", "telemac"});
+  EXPECT_EQ(check.errors, "");
+  EXPECT_THAT(check.output, HasSubstr(missing));
 }
 
 TEST_F(Commands, InfoTellsACoastlineFromAMesh) {

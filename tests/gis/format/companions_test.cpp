@@ -19,7 +19,8 @@ TEST(Companions, OfAShapefile) {
 
 TEST(Companions, InCapitalsIfTheSourceIs) {
   EXPECT_THAT(companionsOf("d/LAKE.SHP"), IsSupersetOf({"d/LAKE.DBF", "d/LAKE.SHX", "d/LAKE.PRJ"}));
-  EXPECT_THAT(companionsOf("d/SEA.SLF"), IsSupersetOf({"d/SEA.cli", "d/SEA.prj"}));
+  EXPECT_THAT(companionsOf("d/SEA.SLF"), IsSupersetOf({"d/SEA.cli", "d/SEA.CLI", "d/SEA.prj"}));
+  EXPECT_THAT(companionsOf("d/SEA_GRD.DAT"), IsSupersetOf({"d/SEA_DEP.DAT", "d/SEA_OBC.DAT"}));
   EXPECT_THAT(companionsOf("d/SEA.POLY"), IsSupersetOf({"d/SEA.node"}));
 }
 
