@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <unordered_map>
 
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
@@ -10,6 +11,8 @@
 #include "gis/file/text_reader.hpp"
 #include "gis/file/text_writer.hpp"
 #include "gis/format/grid_formats.hpp"
+#include "gis/grid/boundary_kinds.hpp"
+#include "gis/grid/loop_role.hpp"
 #include "gis/grid/marked_edges.hpp"
 
 namespace coastmesh {
@@ -131,18 +134,61 @@ void writeElements(const Grid& grid, const std::string& path, const ItemLoop& lo
   file.close();
 }
 
-Point pointInside(const Grid& grid, const Boundary& island, const std::string& path) {
+using Loop = std::vector<std::uint32_t>;
+
+// Cuts a loop where it passes a node again, so that no loop touches itself.
+std::vector<Loop> simpleLoops(const Loop& loop) {
+  std::vector<Loop> simple;
+  Loop way;
+  std::unordered_map<std::uint32_t, std::size_t> place_of;  // in `way`
+  for (const std::uint32_t node : loop) {
+    if (const auto before = place_of.find(node); before != place_of.end()) {
+      const auto first = way.begin() + static_cast<std::ptrdiff_t>(before->second);
+      simple.emplace_back(first, way.end());
+      for (auto left = first; left != way.end(); ++left)
+        if (*left != node) place_of.erase(*left);
+      way.erase(first, way.end());
+    }
+    place_of[node] = way.size();
+    way.push_back(node);
+  }
+  simple.push_back(std::move(way));
+  return simple;
+}
+
+// False for both sides of a crack.
+bool hasArea(const Grid& grid, const Loop& loop) {
+  const Point& origin = grid.nodes[loop.front()];
+  double twice = 0.0;
+  for (std::size_t i = 2; i < loop.size(); ++i) {
+    const Point &a = grid.nodes[loop[i - 1]], &b = grid.nodes[loop[i]];
+    twice += (a.x - origin.x) * (b.y - origin.y) - (b.x - origin.x) * (a.y - origin.y);
+  }
+  return twice != 0.0;
+}
+
+// Loops around what the mesh leaves out within it, whatever the roles of their boundaries.
+std::vector<Loop> loopsOfHoles(const Grid& grid) {
+  std::vector<Loop> holes;
+  for (const Loop& loop : boundaryLoops(grid))
+    for (Loop& part : simpleLoops(loop))
+      if (hasArea(grid, part) && roleOfLoop(grid.nodes, part, grid.crs) == BoundaryRole::Island)
+        holes.push_back(std::move(part));
+  return holes;
+}
+
+Point pointInside(const Grid& grid, const Loop& hole, const std::string& path) {
   const OgrErrors errors;
   OGRLinearRing ring;
-  for (std::uint32_t node : island.nodes) ring.addPoint(grid.nodes[node].x, grid.nodes[node].y);
+  for (std::uint32_t node : hole) ring.addPoint(grid.nodes[node].x, grid.nodes[node].y);
   ring.closeRings();
   OGRPolygon polygon;
   polygon.addRing(&ring);
   OGRPoint inside(0.0, 0.0);  // GDAL does not fill an empty point
   if (polygon.PointOnSurface(&inside) != OGRERR_NONE)
     throw OutputError("cannot write '" + path + "': no point found inside the island at " +
-                      std::to_string(grid.nodes[island.nodes[0]].x) + ", " +
-                      std::to_string(grid.nodes[island.nodes[0]].y) + " (" + errors.text() + ")");
+                      std::to_string(grid.nodes[hole[0]].x) + ", " + std::to_string(grid.nodes[hole[0]].y) + " (" +
+                      errors.text() + ")");
   return {inside.getX(), inside.getY()};
 }
 
@@ -154,15 +200,13 @@ void writeSegments(const Grid& grid, const std::vector<MarkedEdge>& edges, const
     const auto& [nodes, marker] = edges[i];
     text << i + 1 << ' ' << nodes[0] + 1 << ' ' << nodes[1] + 1 << ' ' << marker << '\n';
   });
-  std::vector<const Boundary*> islands;
-  for (const Boundary& boundary : grid.boundaries)
-    if (boundary.closed && boundary.role == BoundaryRole::Island) islands.push_back(&boundary);
-  std::vector<Point> holes(islands.size());
+  const std::vector<Loop> loops = loopsOfHoles(grid);
+  std::vector<Point> holes(loops.size());
   constexpr std::size_t kIslandsAStretch = 64;
   forStretches(
-      loop, islands.size(),
+      loop, loops.size(),
       [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) holes[i] = pointInside(grid, *islands[i], path);
+        for (std::size_t i = first; i < last; ++i) holes[i] = pointInside(grid, loops[i], path);
       },
       kIslandsAStretch);
   file << holes.size() << '\n';
