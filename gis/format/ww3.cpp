@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <fstream>
 
+#include "gis/error.hpp"
 #include "gis/file/prj_file.hpp"
 #include "gis/file/text_reader.hpp"
 #include "gis/file/text_writer.hpp"
@@ -103,6 +105,35 @@ Grid readWw3(const std::string& path, const Crs& unsaid) {
   return grid;
 }
 
+// Gmsh itself writes newer versions.
+bool isOfVersion2(const std::string& path) {
+  std::ifstream file(path);
+  std::string first, version;
+  return std::getline(file, first) && first.starts_with("$MeshFormat") && file >> version &&
+         (version == "2" || version == "2.0");
+}
+
+// Other tools write these files without the ending. True if the first elements are points and a triangle, or a triangle
+// as in `writeWw3`, with three tags of which the first is 0.
+bool isWw3(const std::string& path) {
+  if (!isOfVersion2(path)) return false;
+  try {
+    TextReader file(path);
+    while (file.nextLine() && file.line() != "$Elements")
+      if (file.line() == "$PhysicalNames") return false;
+    file.nextLine();  // their number
+    for (bool points = false; file.nextLine(); points = true) {
+      file.word();
+      const std::string_view type = file.word(), tags = file.word(), tag = file.word();
+      if (type == std::to_string(kPoint)) continue;
+      return type == std::to_string(kTriangle) && (points || (tags == "3" && tag == "0"));
+    }
+  } catch (const InputError&) {
+    // The reader of the format with this ending reports the error.
+  }
+  return false;
+}
+
 }  // namespace
 
 FormatRecord ww3Format() {
@@ -115,7 +146,7 @@ FormatRecord ww3Format() {
            true,
            NodePlaces::OneTurn,
            true},
-          {writeWw3, readWw3, withPrjBeside}};
+          {writeWw3, readWw3, withPrjBeside, isWw3}};
 }
 
 }  // namespace coastmesh
