@@ -13,6 +13,7 @@
 #include "gis/file/text_reader.hpp"
 #include "gis/format/grid_names.hpp"
 #include "gis/grid/boundary_chains.hpp"
+#include "gis/grid/boundary_kinds.hpp"
 #include "gis/grid/grid_lines.hpp"
 #include "gis/grid/loop_role.hpp"
 #include "gis/lower_case.hpp"
@@ -320,7 +321,9 @@ std::optional<BoundaryRole> roleOfName(const std::string& given) {
   const std::string name = lowerCase(given);
   for (const BoundaryRole role : kBoundaryRoles)
     if (name.starts_with(toString(role))) return role;
-  return std::nullopt;
+  // "Ocean 2"; shores are told from islands by their shape.
+  const auto role = roleOfWord(name.substr(0, name.find_last_not_of(" _-0123456789") + 1));
+  return role == BoundaryRole::Land ? std::nullopt : role;
 }
 
 // ADCIRC's type at the end of a name that `writeGmsh` gave; -1 if there is none.

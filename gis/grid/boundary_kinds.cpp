@@ -6,6 +6,7 @@
 #include <set>
 
 #include "gis/grid/loop_role.hpp"
+#include "gis/lower_case.hpp"
 
 namespace coastmesh {
 namespace {
@@ -46,6 +47,15 @@ void closeRing(Boundary& shore, const Grid& grid) {
 }
 
 }  // namespace
+
+std::optional<BoundaryRole> roleOfWord(const std::string& given) {
+  const std::string word = lowerCase(given);
+  const auto isOneOf = [&](std::initializer_list<const char*> names) { return std::ranges::count(names, word) > 0; };
+  if (isOneOf({"open", "ocean", "sea", "tidal", "tide", "level"})) return BoundaryRole::Open;
+  if (isOneOf({"river", "inflow", "discharge", "flow", "flux"})) return BoundaryRole::River;
+  if (isOneOf({"land", "shore", "coast", "wall", "closed", "solid", "mainland", "island"})) return BoundaryRole::Land;
+  return std::nullopt;
+}
 
 std::vector<std::vector<std::uint32_t>> boundaryLoops(const Grid& grid) {
   std::vector<EdgeConflict> conflicts;

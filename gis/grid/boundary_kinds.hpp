@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "gis/grid/boundary_chains.hpp"
@@ -22,6 +24,9 @@ struct BoundaryKind {
 inline bool isOpening(const BoundaryKind& kind) {
   return kind.role == BoundaryRole::Open || kind.role == BoundaryRole::River;
 }
+
+// The role that a word of a user stands for, case-insensitive: "ocean" is open, "inflow" a river, "coast" land.
+std::optional<BoundaryRole> roleOfWord(const std::string& word);
 
 // The grid's boundary as closed loops of nodes with the mesh to the left; see `boundaryLoops`.
 std::vector<std::vector<std::uint32_t>> boundaryLoops(const Grid& grid);

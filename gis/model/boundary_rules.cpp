@@ -157,14 +157,11 @@ void linkEdges(const EdgesToType& edges, const std::vector<std::size_t>& index, 
 }  // namespace
 
 BoundaryKind kindOfText(const std::string& text, const std::string& what) {
-  const std::string word = lowerCase(text);
-  const auto isOneOf = [&](std::initializer_list<const char*> names) { return std::ranges::count(names, word) > 0; };
-  if (isOneOf({"open", "ocean", "sea", "tidal", "tide", "level", "-1"})) return {BoundaryRole::Open};
-  if (isOneOf({"river", "inflow", "discharge", "flow", "flux"})) return {BoundaryRole::River};
-  if (isOneOf({"land", "shore", "coast", "wall", "closed", "solid", "mainland", "island"})) return {BoundaryRole::Land};
+  if (const auto role = roleOfWord(text)) return {*role};
+  if (text == "-1") return {BoundaryRole::Open};
   int number = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  const bool whole = error == std::errc() && end == word.data() + word.size();
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool whole = error == std::errc() && end == text.data() + text.size();
   const Ibtype* const type = whole ? findIbtype(number) : nullptr;
   if (type != nullptr && !type->isWeir()) {
     // Islands and shores are distinguished by their loops alone.

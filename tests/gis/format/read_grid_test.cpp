@@ -12,6 +12,7 @@
 
 #include "gis/error.hpp"
 #include "gis/format/grid_io.hpp"
+#include "gis/lower_case.hpp"
 #include "tests/gis/grid_samples.hpp"
 
 namespace coastmesh {
@@ -129,6 +130,72 @@ TEST_F(ReadGrid, GmshWithDepthsAsThirdCoordinate) {
   std::string text = kSquare22;
   text.replace(text.find("1 0 0 0\n2 1"), 7, "1 0 0 -5");
   EXPECT_EQ(readGrid(put("bay.msh", text)).z, (std::vector<double>{-5, 0, 0, 0}));
+}
+
+TEST_F(ReadGrid, GmshNamesOfOpenings) {
+  std::string text = kSquare22;
+  const std::size_t name = text.find("\"", text.find("$PhysicalNames"));
+  const std::size_t length = text.find("\"", name + 1) + 1 - name;
+  for (const char* const word : {"Ocean", "sea 2", "tide_1"}) {
+    const Grid grid = readGrid(put("bay.msh", std::string(text).replace(name, length, '"' + std::string(word) + '"')));
+    EXPECT_EQ(grid.boundaries.at(0).role, BoundaryRole::Open) << word;
+  }
+  for (const char* const word : {"Sea wall", "season", "coast"}) {
+    const Grid grid = readGrid(put("bay.msh", std::string(text).replace(name, length, '"' + std::string(word) + '"')));
+    EXPECT_EQ(grid.boundaries.at(0).role, BoundaryRole::Land) << word;
+  }
+}
+
+// Other tools do not give these files the ending that we give them.
+TEST_F(ReadGrid, WaveWatchByItsContent) {
+  Grid grid = testing::sampleGrid({}, {1000.0, 2000.0}, 50.0);
+  for (const bool opening : {true, false}) {
+    if (!opening) std::erase_if(grid.boundaries, [](const Boundary& b) { return b.role == BoundaryRole::Open; });
+    StagedOutput output(folder_ / "a_ww3.msh", gridFormatFor("a_ww3.msh"), true);
+    output.write(grid);
+    output.commit();
+    const Grid known = readGrid(folder_ / "a_ww3.msh");
+    std::filesystem::copy_file(folder_ / "a_ww3.msh", folder_ / "a.msh",
+                               std::filesystem::copy_options::overwrite_existing);
+    const Grid got = readGrid(folder_ / "a.msh");
+    EXPECT_EQ(got.z, grid.z);
+    ASSERT_EQ(got.boundaries.size(), known.boundaries.size());
+    for (std::size_t i = 0; i < known.boundaries.size(); ++i)
+      EXPECT_EQ(got.boundaries[i].role, known.boundaries[i].role);
+  }
+  // Lines are Gmsh's, whose third coordinate is up.
+  std::string text = kSquare22;
+  text.replace(text.find("2.2 0 8"), 7, "2 0 8");
+  text.erase(text.find("$Comments"), text.find("$Nodes\n4") - text.find("$Comments"));
+  text.replace(text.find("1 0 0 0\n2 1"), 7, "1 0 0 -5");
+  EXPECT_EQ(readGrid(put("bay.msh", text)).z, (std::vector<double>{-5, 0, 0, 0}));
+}
+
+// Files from Windows.
+TEST_F(ReadGrid, FilesOfASetInCapitals) {
+  const Grid grid = testing::sampleGrid({}, {1000.0, 2000.0}, 50.0);
+  const auto isOpen = [](const Boundary& boundary) { return boundary.role == BoundaryRole::Open; };
+  const std::vector<std::vector<std::string>> sets{{".slf", ".cli"}, {"_grd.dat", "_dep.dat", "_obc.dat", "_cor.dat"}};
+  for (const std::vector<std::string>& endings : sets) {
+    StagedOutput output(folder_ / ("lake" + endings[0]), gridFormatFor("lake" + endings[0]), false);
+    output.write(grid);
+    output.commit();
+    const auto capitals = [&](const std::string& ending) { return folder_ / ("LAKE" + upperCase(ending)); };
+    for (const std::string& ending : endings) std::filesystem::rename(folder_ / ("lake" + ending), capitals(ending));
+    const Grid got = readGrid(capitals(endings[0]));
+    EXPECT_EQ(std::ranges::count_if(got.boundaries, isOpen), 1) << endings[0];
+    EXPECT_EQ(got.z, grid.z);
+    EXPECT_THAT(got.notes, ::testing::IsEmpty());
+  }
+}
+
+TEST_F(ReadGrid, FvcomWithoutItsOpenNodesIsRemarked) {
+  StagedOutput output(folder_ / "lake_grd.dat", gridFormatFor("lake_grd.dat"), false);
+  output.write(testing::sampleGrid({}, {1000.0, 2000.0}, 50.0));
+  output.commit();
+  EXPECT_EQ(remarkOnGrid(folder_ / "lake_grd.dat"), "");
+  std::filesystem::remove(folder_ / "lake_obc.dat");
+  EXPECT_THAT(remarkOnGrid(folder_ / "lake_grd.dat"), HasSubstr("lake_obc.dat', so all boundaries are taken as shore"));
 }
 
 // Some readers expect $NodeData in the order of $Nodes.
