@@ -85,7 +85,9 @@ CfGridMapping cfGridMapping(const Crs& crs) {
       mapping.name = method.cf;
       for (const Parameter& parameter : method.parameters) add(parameter);
       if (method.ogr == std::string_view(SRS_PT_POLAR_STEREOGRAPHIC)) addPole(srs, mapping);
-      for (const Parameter& parameter : kFalseOrigin) add(parameter);
+      // CF has these in the unit of the coordinates.
+      for (const Parameter& parameter : kFalseOrigin)
+        mapping.parameters.emplace_back(parameter.cf, srs.GetProjParm(parameter.ogr, 0.0));
     }
   }
   mapping.parameters.emplace_back("semi_major_axis", srs.GetSemiMajor());

@@ -7,6 +7,7 @@ namespace coastmesh {
 namespace {
 
 using ::testing::Contains;
+using ::testing::DoubleNear;
 using ::testing::Key;
 using ::testing::Not;
 using ::testing::Pair;
@@ -27,6 +28,12 @@ TEST(CfGridMapping, PolarStereographicByItsScale) {
   EXPECT_THAT(mapping.parameters, Contains(Pair("scale_factor_at_projection_origin", 0.994)));
   EXPECT_THAT(mapping.parameters, Contains(Pair("false_easting", 2000000.0)));
   EXPECT_THAT(mapping.parameters, Not(Contains(Key("standard_parallel"))));
+}
+
+// CF 1.8, Appendix F: in the units of the coordinates. EPSG gives 656166.667 US survey feet.
+TEST(CfGridMapping, FalseOriginInTheUnitOfCoordinates) {
+  const CfGridMapping mapping = cfGridMapping(parseCrs("EPSG:2236"));
+  EXPECT_THAT(mapping.parameters, Contains(Pair("false_easting", DoubleNear(656166.667, 1e-6))));
 }
 
 }  // namespace
