@@ -175,6 +175,9 @@ TEST_F(PlotMesh, ATooLargeMeshIsDrawnOnAGlobe) {
   EXPECT_TRUE(textOf("plane.png") == textOf("globe.png"));
   const auto is_northern = [](const testing::SpaceVector& place) { return place[2] > 0.0; };
   EXPECT_EQ(plotMeshOrGlobe(testing::octahedralGlobe(3, is_northern), options, file("half.png")), "");
+  PlotOptions box;
+  box.bbox = PlotBox{-170, -60, 170, 70};
+  EXPECT_THROW(plotMeshOrGlobe(globe, box, file("box.png")), OptionError);
 }
 
 // Blue is the end of the scale, reached only by equilateral triangles; halves of squares have 0.87.

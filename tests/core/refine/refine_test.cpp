@@ -14,6 +14,7 @@
 #include "core/delaunay.hpp"
 #include "core/metric.hpp"
 #include "core/quality.hpp"
+#include "core/refine/vertex_notes.hpp"
 #include "tests/support/excused_twin.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/mesh_figures.hpp"
@@ -219,6 +220,28 @@ TEST(Refine, OptimalReachesTheLongestEdge) {
     expectRefined(result.mesh, pslg, options, result.stats);
     EXPECT_TRUE(result.stats.unresolved.empty()) << width;
   }
+}
+
+// A point on a triangle's own circumcircle leaves the triangle there.
+TEST(Refine, TrianglesThatAreOnlyTooObtuseAreTriedAgain) {
+  for (const unsigned seed : {1u, 2u, 3u}) {
+    const Pslg coast = fractalCoast(seed, 7, 5);
+    const Refined result = refined(coast, {.min_angle_deg = 0.0, .max_angle_deg = 120.0});
+    EXPECT_EQ(result.stats.unresolved.size(), 0u) << seed;
+  }
+}
+
+TEST(Refine, FewPointsWithALargeMeshAreRefinedOnce) {
+  const Pslg square = squarePslg();
+  const auto isThatOfOneRun = [&](double size_max) {
+    const RefineOptions options{.size_max = size_max};
+    const Refined result = refined(square, options);
+    TriMesh once = constrainedDelaunay(square);
+    refine(once, square, options, noteInput(once, boundOf(options)));
+    return result.mesh.points == once.points;
+  };
+  EXPECT_FALSE(isThatOfOneRun(0.1));
+  EXPECT_TRUE(isThatOfOneRun(0.02));
 }
 
 TEST(Refine, BudgetJustEnoughIsNotReached) {
