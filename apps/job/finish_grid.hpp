@@ -32,9 +32,8 @@ struct FinishReport {
   bool mended = false;  // repairs were requested
   RepairReport repairs;
   DroppedWaters dropped;
-  std::size_t apart = 0;  // such waters that are left, if targets are given
-  std::vector<Point>
-      lost_asked;  // places of requested nodes (`RepairOptions::asked`) that are not in the mesh any more
+  std::size_t apart = 0;          // such waters that are left, if targets are given
+  std::vector<Point> lost_asked;  // places of `RepairOptions::asked` that were nodes before, and are not now
 
   std::vector<std::string> notes() const;
   std::vector<std::string> warnings() const;

@@ -9,12 +9,6 @@
 
 namespace coastmesh {
 
-namespace {
-
-bool isBefore(const Point& a, const Point& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; }
-
-}  // namespace
-
 void Shortfall::add(Shortfall&& other) {
   count += other.count;
   for (const BoundViolationPlace& place : other.places)
@@ -55,9 +49,9 @@ InputVertices::InputVertices(const Grid& grid, const std::vector<MergedGroup>& g
 }
 
 std::uint64_t InputVertices::othersIn(const Grid& grid) && {
-  std::ranges::sort(places_, isBefore);
+  std::ranges::sort(places_, lexLess);
   return static_cast<std::uint64_t>(std::ranges::count_if(
-      grid.nodes, [this](const Point& node) { return !std::ranges::binary_search(places_, node, isBefore); }));
+      grid.nodes, [this](const Point& node) { return !std::ranges::binary_search(places_, node, lexLess); }));
 }
 
 double inputAreaLeft(double area_m2, const Grid& grid, const std::vector<MergedGroup>& groups,

@@ -442,7 +442,7 @@ void findTurned(MeshJobResult& result, const ItemLoop& loop) {
 }
 
 // A shard may legitimately be far from these inputs. So may one feature of many: the caller compares it with others.
-void tellIdleInputs(const MeshJob& job, const SizeInputs& sizes, const Coastline& coastline, MeshJobResult& result) {
+void warnOfIdleInputs(const MeshJob& job, const SizeInputs& sizes, const Coastline& coastline, MeshJobResult& result) {
   result.idle_inputs = warningsOfIdleInputs(job, sizes, coastline, result);
   if (job.input.ready) return;
   std::ranges::move(warningsOfPolygons(job.input, coastline), std::back_inserter(result.read.warnings));
@@ -558,7 +558,7 @@ MeshJobResult runOnThreads(const MeshJob& given, const JobControl& control) {
     result.seconds.finish = finishing.seconds();
     result.log.append(recorder.finish("finish"));
   }
-  if (job.exchange.shards <= 1) tellIdleInputs(job, sizes, input.coastline(), result);
+  if (job.exchange.shards <= 1) warnOfIdleInputs(job, sizes, input.coastline(), result);
   findTurned(result, loop);
   result.step = measureOutcome(result.grid, job.sizes, loop, job.mesh.refine.goal);
   result.rasters_read = rasters.use();

@@ -55,7 +55,8 @@ class OptionTable {
   class Option {
    public:
     // It has an effect only if one of `others` is given, with a value other than its default; "--coast follow" stands
-    // for that option with that value. Or if `in_place` returns true once all is set, where it is not empty.
+    // for that option with that value. If `in_place` is given, it also has an effect if that returns true once all is
+    // set.
     const Option& needs(std::vector<std::string> others, const std::function<bool()>& in_place = {}) const;
     // It has no effect if one of `others` is given.
     const Option& ignoredWith(std::vector<std::string> others) const;

@@ -92,31 +92,32 @@ class TimeStep : public ProgramTest {
   struct Node {
     double x, y, z;
   };
-  std::vector<Node> readNodes() const {
+  // Calls `visit(card, words)` for each line of the .2dm, with the words after the number.
+  template <typename Visit>
+  void forCards(const Visit& visit) const {
     std::istringstream text(readText(file("bay.2dm")));
-    std::vector<Node> nodes;
     for (std::string line; std::getline(text, line);) {
       std::istringstream words(line);
       std::string card;
       std::size_t number = 0;
       words >> card >> number;
-      if (card == "ND") words >> nodes.emplace_back().x >> nodes.back().y >> nodes.back().z;
+      visit(card, words);
     }
+  }
+  std::vector<Node> readNodes() const {
+    std::vector<Node> nodes;
+    forCards([&](const std::string& card, std::istringstream& words) {
+      if (card == "ND") words >> nodes.emplace_back().x >> nodes.back().y >> nodes.back().z;
+    });
     return nodes;
   }
   // The shortest time step in a .2dm, without code of the library; infinite if no node is under water.
   double leastStep() const {
-    std::istringstream text(readText(file("bay.2dm")));
-    std::vector<Node> nodes;
+    const std::vector<Node> nodes = readNodes();
     std::vector<std::array<std::size_t, 3>> triangles;
-    for (std::string line; std::getline(text, line);) {
-      std::istringstream words(line);
-      std::string card;
-      std::size_t number = 0;
-      words >> card >> number;
-      if (card == "ND") words >> nodes.emplace_back().x >> nodes.back().y >> nodes.back().z;
+    forCards([&](const std::string& card, std::istringstream& words) {
       if (card == "E3T") words >> triangles.emplace_back()[0] >> triangles.back()[1] >> triangles.back()[2];
-    }
+    });
     double least = INFINITY;
     for (const auto& v : triangles) {
       double edge = INFINITY, depth = 0.0;

@@ -16,6 +16,18 @@ Location locate(const Ring& ring, const Point& p) {
   return index.locate(p);
 }
 
+// Calls `check(ring)` for the ring from every starting point, in both directions.
+template <typename Check>
+void forAllStarts(Ring ring, const Check& check) {
+  for (std::size_t first = 0; first < ring.size(); ++first) {
+    std::ranges::rotate(ring, ring.begin() + 1);
+    for (int way = 0; way < 2; ++way) {
+      std::ranges::reverse(ring);
+      check(ring);
+    }
+  }
+}
+
 TEST(TurnedRings, AsTheyAreWhereNothingJumps) {
   const Ring ring{{-180, -90}, {180, -90}, {180, -70}, {0, -60}, {-180, -70}};
   EXPECT_FALSE(longitudesJump(ring));
@@ -57,17 +69,13 @@ TEST(TurnedRings, EdgesFromEndToEndAloneCrossTheAntimeridianToo) {
        {180, -16.45},
        {-180, -16.45},
        {-179.9, -16.4}}};
-  for (Ring ring : islands) {
-    for (std::size_t first = 0; first < ring.size(); ++first) {
-      std::ranges::rotate(ring, ring.begin() + 1);
-      for (int way = 0; way < 2; ++way) {
-        std::ranges::reverse(ring);
-        EXPECT_TRUE(longitudesJump(ring));
-        EXPECT_EQ(locate(ring, {179.95, -16.48}), Location::Inside);
-        EXPECT_EQ(locate(ring, {0, -16.48}), Location::Outside);
-        EXPECT_EQ(locate(ring, {-179.8, -16.48}), Location::Outside);
-      }
-    }
+  for (const Ring& island : islands) {
+    forAllStarts(island, [](const Ring& ring) {
+      EXPECT_TRUE(longitudesJump(ring));
+      EXPECT_EQ(locate(ring, {179.95, -16.48}), Location::Inside);
+      EXPECT_EQ(locate(ring, {0, -16.48}), Location::Outside);
+      EXPECT_EQ(locate(ring, {-179.8, -16.48}), Location::Outside);
+    });
   }
 }
 
@@ -97,18 +105,14 @@ TEST(TurnedRings, AnEdgeFromEndToEndBesideAJumpHasNoLength) {
       {{180, -16.49}, {-180, -16.54}, {179.985, -16.542}, {179.985, -16.523}},
       {{-179.9, -16.49}, {-180, -16.50}, {180, -16.54}, {179.985, -16.542}, {179.985, -16.45}},
       {{-180, -16.4}, {180, -16.45}, {-180, -16.5}, {180, -16.54}, {179.985, -16.542}, {179.985, -16.39}}};
-  for (Ring ring : islands) {
-    for (std::size_t first = 0; first < ring.size(); ++first) {
-      std::ranges::rotate(ring, ring.begin() + 1);
-      for (int way = 0; way < 2; ++way) {
-        std::ranges::reverse(ring);
-        EXPECT_TRUE(longitudesJump(ring));
-        EXPECT_EQ(turnsOf(ring, true).round, 0);
-        for (const double x : {-179.0, -90.0, 0.0, 100.0, 179.0}) {
-          EXPECT_EQ(locate(ring, {x, -16.52}), Location::Outside) << x;
-        }
+  for (const Ring& island : islands) {
+    forAllStarts(island, [](const Ring& ring) {
+      EXPECT_TRUE(longitudesJump(ring));
+      EXPECT_EQ(turnsOf(ring, true).round, 0);
+      for (const double x : {-179.0, -90.0, 0.0, 100.0, 179.0}) {
+        EXPECT_EQ(locate(ring, {x, -16.52}), Location::Outside) << x;
       }
-    }
+    });
   }
   EXPECT_EQ(locate(islands[0], {179.99, -16.53}), Location::Inside);
   EXPECT_EQ(locate(islands[1], {-179.99, -16.53}), Location::Inside);
