@@ -6,7 +6,7 @@
 namespace coastmesh {
 
 CutSubmesh cutOut(const MeshState& whole, const Partition& partition, PieceId piece, VertexNumbers& numbers) {
-  numbers.resize(whole.mesh.points.size(), kNone);
+  numbers.setVertices(whole.mesh.points.size());
   const std::span<const TriId> triangles = partition.of(piece);
   const auto slotOf = [&](TriId t) { return partition.piece_of[t] == piece ? partition.slot_of[t] : kNone; };
   const auto numberOf = [&](VertexId v) -> VertexId& { return numbers[v]; };

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "core/refine/submesh.hpp"
@@ -24,8 +26,25 @@ struct CutSubmesh {
   std::vector<CutEdge> edges;   // sorted by a, then b
 };
 
-// Per-thread scratch: the local number of each vertex of the whole mesh, kNone between calls.
-using VertexNumbers = std::vector<VertexId>;
+// Per-thread scratch: the local number of each vertex of the whole mesh, kNone between calls. Memory is taken for the
+// stretches of vertices that this thread's pieces have.
+class VertexNumbers {
+ public:
+  void setVertices(std::size_t count) { stretches_.resize(count / kStretch + 1); }
+  VertexId& operator[](VertexId v) {
+    std::unique_ptr<Stretch>& stretch = stretches_[v / kStretch];
+    if (stretch == nullptr) {
+      stretch = std::make_unique<Stretch>();
+      stretch->fill(kNone);
+    }
+    return (*stretch)[v % kStretch];
+  }
+
+ private:
+  static constexpr std::size_t kStretch = 1024;
+  using Stretch = std::array<VertexId, kStretch>;
+  std::vector<std::unique_ptr<Stretch>> stretches_;
+};
 
 CutSubmesh cutOut(const MeshState& whole, const Partition& partition, PieceId piece, VertexNumbers& numbers);
 

@@ -16,6 +16,7 @@
 #include "core/refine/bound_violations.hpp"
 #include "core/refine/check_input.hpp"
 #include "core/refine/vertex_notes.hpp"
+#include "core/run_control.hpp"
 #include "core/size/plane_sizes.hpp"
 #include "parallel/byte_hash.hpp"
 #include "parallel/bytes.hpp"
@@ -25,7 +26,6 @@
 #include "parallel/recorder.hpp"
 #include "parallel/round_keeper.hpp"
 #include "parallel/rounds.hpp"
-#include "parallel/stage_progress.hpp"
 
 namespace coastmesh {
 

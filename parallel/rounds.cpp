@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/refine/split_segments.hpp"
+#include "core/run_control.hpp"
 #include "parallel/cut.hpp"
 #include "parallel/deal.hpp"
 #include "parallel/free_memory.hpp"
@@ -17,7 +18,6 @@
 #include "parallel/piece_task.hpp"
 #include "parallel/recorder.hpp"
 #include "parallel/round_keeper.hpp"
-#include "parallel/stage_progress.hpp"
 #include "parallel/stitch.hpp"
 
 namespace coastmesh {

@@ -16,6 +16,7 @@
 #include "apps/job/stopwatch.hpp"
 #include "apps/report/report_sections.hpp"
 #include "apps/usage/input_usage.hpp"
+#include "core/label_regions.hpp"
 #include "gis/error.hpp"
 #include "gis/for_count.hpp"
 #include "gis/format/poly_io.hpp"
@@ -96,6 +97,15 @@ CleanedInput cleanAll(const JobInput& input, Interrupt& interrupt) {
     throw InputError(cleaned.refused.empty() ? cleaned.last_unwanted : cleaned.refused.front());
   }
   return cleaned;
+}
+
+// Labels the sides of a plane graph, all of whose regions are of its one feature.
+void labelSides(Pslg& pslg) {
+  labelSegments(pslg);
+  for (Segment& s : pslg.segments) {
+    s.left = std::min(s.left, RegionId{0});
+    s.right = std::min(s.right, RegionId{0});
+  }
 }
 
 // Boundary types that the input gives to segments, by domain; empty if it has no types.
@@ -198,12 +208,14 @@ int runClean(const CleanUsage& usage, Run& run) {
   Seconds seconds;
   const JobInput input(usage.input);
   seconds.read = watch.seconds();
-  const CleanedInput cleaned = cleanAll(input, run.interrupt);
+  CleanedInput cleaned = cleanAll(input, run.interrupt);
   seconds.clean = watch.seconds() - seconds.read;
   if (poly) {
     const Pslg pslg = joinedPslg(cleaned, usage, input.coastline().crs);
     output.make([&pslg](const std::string& path) { writePoly(pslg, path); });
   } else {
+    if (input.isPoly())
+      for (Domain& domain : cleaned.domains) labelSides(domain.pslg);
     output.make([&](const std::string& path) {
       writeVectorLayers(path, input.coastline().crs,
                         cleanedLayers(cleaned.domains, cleaned.report, input.coastline(), input.report(),

@@ -341,7 +341,8 @@ int runMesh(const MeshRunUsage& usage, Run& run) {
     std::fprintf(stderr, "coastmesh: error: %s\n", reasonOf(result.refusals).c_str());
     return kExitShort;
   }
-  if (!any && result.refusals.empty()) throw InputError(result.last_unwanted);
+  if (!any && result.refusals.empty())
+    throw InputError(result.last_unwanted.empty() ? "the input has nothing to mesh" : result.last_unwanted);
   if (!any) throw InputError(reasonOf(result.refusals));
 
   display.show("done", 1.0);

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/job/places.hpp"
+#include "core/run_control.hpp"
 #include "gis/follow/water_notes.hpp"
 #include "gis/for_count.hpp"
-#include "parallel/stage_progress.hpp"
 
 namespace coastmesh {
 

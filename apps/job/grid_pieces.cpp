@@ -134,9 +134,17 @@ GridPiece makePiece(const Grid& grid, std::vector<std::uint32_t> triangles, cons
     markBorders(piece.mesh);
   }
   markLines(lines, piece);
+  const Surface surface = projection.surface();
+  bool has_antipode = false;
   for (std::size_t i = 0; i < piece.nodes.size(); ++i) {
-    const Point& place = piece.mesh.points[i];
+    Point& place = piece.mesh.points[i];
     if (isInRange(place)) continue;
+    // A whole globe has a node opposite to the plane's centre.
+    if (surface.isCurved() && !has_antipode) {
+      place = antipodeOf(surface);
+      has_antipode = true;
+      continue;
+    }
     throw InputError("the node at " + placeInWords(grid.nodes[piece.nodes[i]]) +
                      " lies beyond every plane that shows the mesh: its triangles overlap, or hold the whole Earth");
   }

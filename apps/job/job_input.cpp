@@ -11,7 +11,9 @@
 #include "apps/job/working_plane.hpp"
 #include "core/delaunay.hpp"
 #include "gis/clean/geodesic_area.hpp"
+#include "gis/coast/feature_bounds.hpp"
 #include "gis/coast/group_features.hpp"
+#include "gis/coast/guests.hpp"
 #include "gis/crs/geodesy.hpp"
 #include "gis/crs/handedness.hpp"
 #include "gis/error.hpp"
@@ -83,6 +85,11 @@ void forgetImpossibleCrs(Coastline& coastline, ReadReport& report) {
   coastline.crs = {};
 }
 
+SnapDistance snapDistanceOf(const InputOptions& options, const Crs& crs) {
+  const bool in_plane = options.crs == "plane" || crs.isPlane();
+  return {in_plane && !options.snap_in_plane ? 0.0 : options.snap_m, in_plane};
+}
+
 }  // namespace
 
 bool isPlaneGraph(const InputOptions& options) {
@@ -90,9 +97,10 @@ bool isPlaneGraph(const InputOptions& options) {
 }
 
 Coastline readInput(const InputOptions& options, ReadReport& report, BoundaryRules& boundaries) {
-  Coastline coastline =
-      readCoastline(sourcesOf(options), options.filter, report,
-                    [&](const std::vector<RawLayer>& layers) { boundaries.addInput(layers, options.boundary_column); });
+  Coastline coastline = readCoastline(
+      sourcesOf(options), options.filter, report,
+      [&](const std::vector<RawLayer>& layers) { boundaries.addInput(layers, options.boundary_column); },
+      [&](const Crs& crs) { return snapDistanceOf(options, crs); });
   if (!options.boundary_column.empty() && !options.may_lack_column)
     boundaries.requireInputColumn(options.boundary_column);
   if (options.crs == "plane") forgetImpossibleCrs(coastline, report);
@@ -188,8 +196,13 @@ JobInput::JobInput(const InputOptions& options, const ItemLoop& loop) : options_
     const std::string distorts = judgeWorkingPlane(coastline_, *working, *chosen_);
     if (!distorts.empty()) report_.warnings.push_back(distorts);
   }
-  groups_ = groupFeatures(coastline_, snapDistance(), loop);
+  groups_ = groupFeatures(coastline_, reach(), loop);
   bendEdges();
+}
+
+void JobInput::regroup(double shores_move_m, const ItemLoop& loop) {
+  options_.shores_move_m = shores_move_m;
+  if (!poly_) groups_ = groupFeatures(coastline_, reach(), loop);
 }
 
 void JobInput::bendEdges() {
@@ -278,6 +291,24 @@ std::size_t JobInput::pointsOf(std::size_t group) const {
   return count;
 }
 
+bool JobInput::meetsFrame(std::size_t group) const {
+  Box frame, others;
+  for (const std::size_t member : groups_[group]) {
+    const Feature& feature = coastline_.features[member];
+    if (feature.use == FeatureUse::Frame) {
+      frame.add(boundsOf(feature));
+    } else if (!isGuest(feature.use)) {
+      others.add(boundsOf(feature));
+    }
+  }
+  if (frame.empty() || others.empty()) return true;
+  for (const double turn : {0.0, -360.0, 360.0}) {
+    if (turn != 0.0 && !coastline_.crs.geographic) continue;
+    if (frame.meets({others.xmin + turn, others.ymin, others.xmax + turn, others.ymax})) return true;
+  }
+  return false;
+}
+
 std::uint64_t JobInput::digest() const {
   std::uint64_t digest = 0;
   const auto mix = [&digest](std::uint64_t value) { digest = std::rotl((digest ^ value) * 0x9E3779B97F4A7C15ull, 31); };
@@ -332,9 +363,13 @@ SurfaceKind JobInput::surfaceOf(const Projection& projection) const {
   return options_.surface.kind == SurfaceKind::Sphere ? SurfaceKind::Sphere : SurfaceKind::Ellipsoid;
 }
 
-SnapDistance JobInput::snapDistance() const {
-  const bool in_plane = options_.crs == "plane" || coastline_.crs.isPlane();
-  return {in_plane && !options_.snap_in_plane ? 0.0 : options_.snap_m, in_plane};
+SnapDistance JobInput::snapDistance() const { return snapDistanceOf(options_, coastline_.crs); }
+
+// The distance within which shores of different features may meet once they are cleaned and generalised.
+SnapDistance JobInput::reach() const {
+  SnapDistance reach = snapDistance();
+  reach.length = std::max(reach.length, 2.0 * (options_.simplify_m + options_.shores_move_m));
+  return reach;
 }
 
 Domain JobInput::domain(std::size_t group, CleanReport& report, const ItemLoop& loop) const {

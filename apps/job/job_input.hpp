@@ -44,6 +44,7 @@ struct InputOptions {
   double snap_m = 0.001;                     // metres, 0 or more
   bool snap_in_plane = false;                // `snap_m` applies to a plane input too, which is not snapped otherwise
   double simplify_m = 0.0;                   // metres, 0 or more
+  double shores_move_m = 0.0;                // the distance by which shores may move after cleaning, 0 or more
   bool dissolve = false;                     // features that share an edge become one
   Pinches pinches = Pinches::Keep;           // what to do where shores touch
   double min_island_area_m2 = 0.0;           // square metres, 0 or more
@@ -77,6 +78,10 @@ class JobInput {
   std::size_t groups() const { return groups_.size(); }
   const std::vector<std::size_t>& members(std::size_t group) const { return groups_[group]; }
   std::size_t pointsOf(std::size_t group) const;
+  // False if all of the group lies beyond the frame, by their extents; it will not be meshed.
+  bool meetsFrame(std::size_t group) const;
+  // Groups the features again, for shores that may move by this distance after cleaning.
+  void regroup(double shores_move_m, const ItemLoop& loop = inOrder);
   // Equal for the same features in the same groups, on any machine of a kind.
   std::uint64_t digest() const;
   // The working plane of a group.
@@ -99,6 +104,7 @@ class JobInput {
   void requireSurface();
   void bendEdges();
   SnapDistance snapDistance() const;
+  SnapDistance reach() const;
   void takePlaneGraph(Pslg pslg, const std::string& source);
 
   InputOptions options_;

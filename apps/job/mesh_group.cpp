@@ -15,6 +15,7 @@
 #include "core/delaunay.hpp"
 #include "core/label_regions.hpp"
 #include "core/refine/check.hpp"
+#include "core/run_control.hpp"
 #include "core/size/estimate_vertices.hpp"
 #include "core/sphere/close_sphere.hpp"
 #include "gis/clean/geodesic_area.hpp"
@@ -32,7 +33,6 @@
 #include "gis/size/node_sizes.hpp"
 #include "parallel/recorder.hpp"
 #include "parallel/region_checkpoint.hpp"
-#include "parallel/stage_progress.hpp"
 
 namespace coastmesh {
 

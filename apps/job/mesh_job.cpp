@@ -44,7 +44,7 @@ constexpr std::size_t kSmallGroup = 1024;
 
 // A group's share of the budget, by points: fixed, so that no group waits for what another leaves.
 std::uint64_t vertexBudget(std::uint64_t whole, std::size_t points, std::size_t all_points) {
-  if (points == all_points || whole == std::numeric_limits<std::uint64_t>::max()) return whole;
+  if (points >= all_points || whole == std::numeric_limits<std::uint64_t>::max()) return whole;
   return static_cast<std::uint64_t>(static_cast<double>(whole) * static_cast<double>(points) /
                                     static_cast<double>(all_points));
 }
@@ -306,8 +306,11 @@ class GroupMemory {
 std::vector<MergedGroup> meshGroups(const MeshJob& job, const JobInput& input, const SizeInputs& sizes,
                                     const JobControl& control, MeshJobResult& result) {
   std::vector<std::size_t> points(input.groups());
-  for (std::size_t g = 0; g < points.size(); ++g) points[g] = input.pointsOf(g);
-  const std::size_t all_points = std::accumulate(points.begin(), points.end(), std::size_t{0});
+  std::size_t all_points = 0;  // of groups that share the budget
+  for (std::size_t g = 0; g < points.size(); ++g) {
+    points[g] = input.pointsOf(g);
+    if (input.meetsFrame(g)) all_points += points[g];
+  }
   const GroupExchange& exchange = job.exchange;
   if (exchange.begin) exchange.begin(input.digest(), input.groups());
   std::vector<std::size_t> order = workOrder(points);
@@ -464,13 +467,22 @@ SizeOptions chosenSizes(const MeshJob& job, const JobInput& input, const SizeInp
   return chooseSizes(job.sizes, sizes, largest->domain, loop, dropsWatersApart(job) ? 1.0 : largest->share);
 }
 
+// The distance by which shores move when they follow the sizes: half an element, as water and land narrower than one
+// are closed and removed.
+double shoresMove(const SizeOptions& sizes) {
+  constexpr double kShareOfElement = 0.5;
+  return sizes.coast == CoastDetail::Follow ? kShareOfElement * sizes.mostAtShores() : 0.0;
+}
+
 // Does nothing unless sizes are to be chosen.
-void settleSizes(const JobInput& input, const SizeInputs& sizes, const JobControl& control, MeshJob& job,
+void settleSizes(JobInput& input, const SizeInputs& sizes, const JobControl& control, MeshJob& job,
                  MeshJobResult& result) {
   if (!job.sizes.choose) return;
   const Stopwatch choosing;
   Recorder recorder;
-  job.sizes = chosenSizes(job, input, sizes, recorder.loop("size", RunControl{control.cancelled, {}}));
+  const ItemLoop loop = recorder.loop("size", RunControl{control.cancelled, {}});
+  job.sizes = chosenSizes(job, input, sizes, loop);
+  input.regroup(shoresMove(job.sizes), loop);
   result.seconds.size += choosing.seconds();
   result.log.append(recorder.finish("size"));
   if (job.sizes.choose) return;  // nothing can be meshed
@@ -485,7 +497,8 @@ MeshJobResult runOnThreads(const MeshJob& given, const JobControl& control) {
   MeshJobResult result;
   if (control.progress) control.progress("read", 0.0);
   Recorder reading;
-  const JobInput input(job.input, reading.loop("read", RunControl{control.cancelled, {}}));
+  job.input.shores_move_m = shoresMove(job.sizes);
+  JobInput input(job.input, reading.loop("read", RunControl{control.cancelled, {}}));
   if (!job.input.ready) requireUnmirrored(input.coastline(), job.input);
   result.read = input.report();
   result.read.notes.insert(result.read.notes.begin(), job.notes.begin(), job.notes.end());

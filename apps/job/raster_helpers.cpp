@@ -16,7 +16,7 @@ template <>
 struct HasNoGaps<PixelRect> : std::true_type {};
 template <>
 struct HasNoGaps<TilePlace> : std::true_type {};
-static_assert(sizeof(SizeNode) == 16 && sizeof(PixelRect) == 16 && sizeof(TilePlace) == 32);
+static_assert(sizeof(SizeNode) == 20 && sizeof(PixelRect) == 16 && sizeof(TilePlace) == 32);
 
 template <typename T, typename Of>
 concept IsA = std::is_same_v<std::remove_cvref_t<T>, Of>;

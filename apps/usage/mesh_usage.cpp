@@ -5,6 +5,7 @@
 #include <iterator>
 #include <limits>
 
+#include "apps/job/places.hpp"
 #include "apps/report/mesh_report.hpp"
 #include "apps/usage/finish_usage.hpp"
 #include "apps/usage/input_usage.hpp"
@@ -124,6 +125,11 @@ void settle(MeshUsage& usage) {
   chooseLargestAngle(usage);
   // The classical algorithms serve for comparison: by default they insert points as published, without coarsening.
   if (!usage.coarsen_given) usage.job.mesh.coarsen = usage.job.mesh.refine.algorithm == Algorithm::Relocate;
+  constexpr double kNotObtuseDeg = 90.0;
+  if (usage.job.mesh.refine.algorithm != Algorithm::Relocate && usage.job.mesh.refine.max_angle_deg <= kNotObtuseDeg)
+    usage.job.notes.push_back("--algorithm " + usage.algorithm + " was not made for a largest angle of " +
+                              amount("%g", usage.job.mesh.refine.max_angle_deg) +
+                              " degrees, and may take many times the vertices: relocate holds it");
   const BoundaryOptions& boundaries = usage.job.finish.boundaries;
   // A plane graph has no columns: beside one, the column is only that of the files.
   if (boundaries.files.empty() || !isPlaneGraph(usage.job.input)) usage.job.input.boundary_column = boundaries.column;

@@ -17,9 +17,9 @@ constexpr double kFarAway = 1e14;
 
 }  // namespace
 
-SphereCap sphereCap(const Surface& surface, std::vector<Point> ring) {
-  return {{kFarAway * 2.0 * surface.radius(), 0.0}, std::move(ring)};
-}
+Point antipodeOf(const Surface& surface) { return {kFarAway * 2.0 * surface.radius(), 0.0}; }
+
+SphereCap sphereCap(const Surface& surface, std::vector<Point> ring) { return {antipodeOf(surface), std::move(ring)}; }
 
 SphereCap sphereCap(const Surface& surface, double distance, unsigned corners) {
   const double diameter = 2.0 * surface.radius(), share = diameter / distance;

@@ -18,6 +18,9 @@ struct SphereCap {
   bool empty() const { return ring.empty(); }
 };
 
+// The place of that apex. REQUIRES: the surface is curved.
+Point antipodeOf(const Surface& surface);
+
 // A regular ring whose corners are at this distance from the apex, along chords of the surface. REQUIRES: the surface
 // is curved, the distance is above 0 and less than its diameter, and there are at least three corners.
 SphereCap sphereCap(const Surface& surface, double distance, unsigned corners);

@@ -212,9 +212,17 @@ class WaterFinder {
                        placeInWords(vertices_.input[end]) + ", inside of the frame, without meeting another";
     if (nearest >= 0) {
       const double metres = nearest / projection_.scaleAt(place);
+      // A larger snap distance would merge what is apart.
+      constexpr double kSmallGap = 100.0;  // metres
       char more[160];
-      std::snprintf(more, sizeof more, "; the next loose end is %.4g m away: join them, or give --snap %.2g", metres,
-                    std::ceil(metres * 1.1 * 1000) / 1000);
+      if (metres <= kSmallGap)
+        std::snprintf(more, sizeof more, "; the next loose end is %.4g m away: join them, or give --snap %.2g", metres,
+                      std::ceil(metres * 1.1 * 1000) / 1000);
+      else
+        std::snprintf(more, sizeof more,
+                      "; the next loose end is %.4g m away: join them, continue the line, or give a frame that it "
+                      "reaches",
+                      metres);
       text += more;
     } else {
       text += ": continue it, or give a frame that it reaches";

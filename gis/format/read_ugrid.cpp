@@ -5,8 +5,10 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <span>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 #include "gis/error.hpp"
 #include "gis/file/netcdf_file.hpp"
@@ -61,6 +63,18 @@ Crs readCrs(const NetcdfReader& file, const std::string& x) {
   return longitudes ? wgs84() : Crs{};
 }
 
+// The number of the first node. Files of FVCOM count from 1 without saying so: then no entry is 0, and one may be the
+// number of nodes.
+std::int64_t startIndex(const NetcdfReader& file, const std::string& variable, std::span<const std::int64_t> values,
+                        std::size_t nodes) {
+  if (const auto said = file.number(variable, "start_index")) return std::llround(*said);
+  const auto isLast = [&](std::int64_t value) { return std::cmp_equal(value, nodes); };
+  return std::ranges::none_of(values, [](std::int64_t value) { return value == 0; }) &&
+                 std::ranges::any_of(values, isLast)
+             ? 1
+             : 0;
+}
+
 // Rows of node indices; kNone for the fill value. `columns` receives the length of a row.
 std::vector<std::uint32_t> readConnectivity(const NetcdfReader& file, const std::string& variable, bool transposed,
                                             std::size_t nodes, std::size_t& columns) {
@@ -69,7 +83,7 @@ std::vector<std::uint32_t> readConnectivity(const NetcdfReader& file, const std:
   const std::vector<std::int64_t> values = file.integers(variable);
   const std::size_t rows = shape[transposed ? 1 : 0];
   columns = shape[transposed ? 0 : 1];
-  const std::int64_t start = std::llround(file.number(variable, "start_index").value_or(0.0));
+  const std::int64_t start = startIndex(file, variable, values, nodes);
   const auto fill = file.number(variable, "_FillValue");
   std::vector<std::uint32_t> out;
   out.reserve(values.size());
@@ -102,12 +116,20 @@ void readNodes(const NetcdfReader& file, const std::string& x_name, const std::s
   }
 }
 
+// True if a column of the variable, not a row, is a face: by the face_dimension, or if there is none, by three or four
+// rows, as in the output of FVCOM.
+bool isTransposed(const NetcdfReader& file, const std::string& variable, const std::string& face_dimension) {
+  const std::vector<std::string> dimensions = file.dimensionsOf(variable);
+  const std::vector<std::size_t> shape = file.shape(variable);
+  if (shape.size() != 2) return false;
+  if (!face_dimension.empty()) return dimensions[0] != face_dimension && dimensions[1] == face_dimension;
+  return (shape[0] == 3 || shape[0] == 4) && shape[1] > 4;
+}
+
 void readTriangles(const NetcdfReader& file, const std::string& mesh, Grid& grid) {
   const std::string variable = file.text(mesh, "face_node_connectivity");
   if (!file.hasVariable(variable)) file.fail("\"" + mesh + "\" names no face_node_connectivity");
-  const std::string face_dimension = file.text(mesh, "face_dimension");
-  const std::vector<std::string> dimensions = file.dimensionsOf(variable);
-  const bool transposed = dimensions.size() == 2 && dimensions[0] != face_dimension && dimensions[1] == face_dimension;
+  const bool transposed = isTransposed(file, variable, file.text(mesh, "face_dimension"));
   std::size_t columns = 0;
   const std::vector<std::uint32_t> rows = readConnectivity(file, variable, transposed, grid.nodes.size(), columns);
   if (columns < 3) file.fail("\"" + variable + "\" has fewer than three nodes a face");

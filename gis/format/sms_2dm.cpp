@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
-#include <variant>
 
 #include "gis/error.hpp"
 #include "gis/file/prj_file.hpp"
@@ -12,6 +11,7 @@
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/grid/grid_lines.hpp"
 #include "gis/grid/loop_role.hpp"
+#include "gis/grid/marked_edges.hpp"
 
 namespace coastmesh {
 namespace {
@@ -94,22 +94,6 @@ void readMaterials(const Cards& cards, Grid& grid) {
     grid.feature_of.push_back(static_cast<std::uint32_t>(std::ranges::lower_bound(known, material) - known.begin()));
 }
 
-// The kinds of node strings by their numbers, if all strings are numbered as by `write2dm`; else all are unknown.
-using StringKind = std::variant<std::monostate, BoundaryRole, LineKind>;
-std::vector<StringKind> kindsOf(const std::vector<NodeString>& strings) {
-  std::vector<StringKind> kinds;
-  for (const NodeString& string : strings) {
-    if (const auto role = roleOfMarker(string.id, kinds.size())) {
-      kinds.emplace_back(*role);
-    } else if (const auto kind = lineKindOfMarker(string.id, kinds.size())) {
-      kinds.emplace_back(*kind);
-    } else {
-      return std::vector<StringKind>(strings.size());
-    }
-  }
-  return kinds;
-}
-
 std::vector<std::uint32_t> nodesOf(const NodeString& string, const IdMap& node_index, const TextReader& file) {
   std::vector<std::uint32_t> nodes;
   for (const std::int64_t id : string.nodes) {
@@ -124,7 +108,9 @@ std::vector<std::uint32_t> nodesOf(const NodeString& string, const IdMap& node_i
 // Reads boundaries and lines inside the mesh. In files of other programs, strings or parts of them that do not run
 // along the boundary are lines.
 void readStrings(const Cards& cards, const IdMap& node_index, const TextReader& file, Grid& grid) {
-  const std::vector<StringKind> kinds = kindsOf(cards.strings);
+  std::vector<std::int64_t> ids;
+  for (const NodeString& string : cards.strings) ids.push_back(string.id);
+  const std::vector<MarkerKind> kinds = kindsOfMarkers(ids);
   std::vector<std::vector<NodePair>> groups;
   for (std::size_t s = 0; s < cards.strings.size(); ++s) {
     std::vector<std::uint32_t> nodes = nodesOf(cards.strings[s], node_index, file);
@@ -150,8 +136,8 @@ void readStrings(const Cards& cards, const IdMap& node_index, const TextReader& 
 }
 
 // Reads SMS .2dm of triangles, with the CRS of a .prj beside it. Materials become features if there are several or one
-// is named. Node strings that follow the mesh's boundary become boundaries: if numbered by us they keep their role;
-// else they are open, or land or an island if closed. Throws InputError with file and line.
+// is named. Node strings that follow the mesh's boundary become boundaries: those with our numbers keep their
+// role; others are open, or land or an island if closed. Throws InputError with file and line.
 Grid read2dm(const std::string& path, const Crs& unsaid) {
   TextReader file(path);
   file.needLine();

@@ -72,7 +72,7 @@ void readElements(const std::string& path, const IdMap& node_index, Grid& grid) 
   readFeatures(attribute, grid);
 }
 
-// Reads segments in the order and with the markers of `writeTriangle`; others have no roles and are ignored.
+// Reads segments with the markers of `writeTriangle`; others have no roles and are ignored.
 void readSegments(const std::string& path, const IdMap& node_index, Grid& grid) {
   TextReader file(path, kComment);
   file.needLine();

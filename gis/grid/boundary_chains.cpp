@@ -131,28 +131,4 @@ std::vector<Boundary> chainEdges(std::span<const NodePair> edges) {
   return chains;
 }
 
-namespace {
-constexpr std::int64_t kMarkerStep = 10, kFirstLineMarker = 5;
-}
-
-std::int64_t boundaryMarker(std::size_t index, BoundaryRole role) {
-  return kMarkerStep * static_cast<std::int64_t>(index + 1) + 1 + static_cast<std::int64_t>(role);
-}
-
-std::optional<BoundaryRole> roleOfMarker(std::int64_t marker, std::size_t index) {
-  for (const BoundaryRole role : kBoundaryRoles)
-    if (marker == boundaryMarker(index, role)) return role;
-  return std::nullopt;
-}
-
-std::int64_t lineMarker(std::size_t index, LineKind kind) {
-  return kMarkerStep * static_cast<std::int64_t>(index + 1) + kFirstLineMarker + static_cast<std::int64_t>(kind);
-}
-
-std::optional<LineKind> lineKindOfMarker(std::int64_t marker, std::size_t index) {
-  for (const LineKind kind : {LineKind::Constraint, LineKind::Weir, LineKind::RegionBorder})
-    if (marker == lineMarker(index, kind)) return kind;
-  return std::nullopt;
-}
-
 }  // namespace coastmesh

@@ -33,14 +33,4 @@ std::vector<std::vector<NodePair>> keepBoundaryEdges(std::span<const std::array<
 // Open chains come first.
 std::vector<Boundary> chainEdges(std::span<const NodePair> edges);
 
-// The number of a boundary in formats that have a single one: ten times its number, counted from 1, plus 1 for land, 2
-// for an island, 3 for open water, 4 for a river.
-std::int64_t boundaryMarker(std::size_t index, BoundaryRole role);
-std::optional<BoundaryRole> roleOfMarker(std::int64_t marker, std::size_t index);  // nullopt: not its marker
-
-// The same for a line: plus 5 for a constraint, 6 for a weir, 7 for a region's border. The numbers of lines continue
-// those of the boundaries.
-std::int64_t lineMarker(std::size_t index, LineKind kind);
-std::optional<LineKind> lineKindOfMarker(std::int64_t marker, std::size_t index);
-
 }  // namespace coastmesh

@@ -6,10 +6,12 @@
 #include <cmath>
 #include <memory>
 
-#include "gis/coast/join_lines.hpp"
+#include "gis/coast/feature_names.hpp"
+#include "gis/coast/join_gaps.hpp"
 #include "gis/coast/nest_rings.hpp"
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
+#include "gis/for_count.hpp"
 #include "gis/read/read_layers.hpp"
 
 namespace coastmesh {
@@ -125,7 +127,16 @@ void addPlainLines(RawLayer& layer, Coastline& coastline) {
 
 bool joinsLines(FeatureUse use) { return use == FeatureUse::Area || use == FeatureUse::Frame; }
 
-void addJoinedLines(std::vector<RawLayer>& layers, FeatureUse use, Coastline& coastline, ReadReport& report) {
+void noteGaps(const std::vector<ClosedGap>& gaps, ReadReport& report) {
+  if (gaps.empty()) return;
+  report.notes.push_back(std::to_string(gaps.size()) +
+                         forCount(gaps.size(), " gap between ends of lines was closed",
+                                  " gaps between ends of lines were closed, the first") +
+                         " at " + placeInWords(gaps.front().to) + " (--snap)");
+}
+
+void addJoinedLines(std::vector<RawLayer>& layers, FeatureUse use, const SnapDistance& snap, Coastline& coastline,
+                    ReadReport& report) {
   std::vector<std::vector<Point>> lines;
   std::vector<LineOrigin> origins;
   for (RawLayer& layer : layers) {
@@ -136,7 +147,9 @@ void addJoinedLines(std::vector<RawLayer>& layers, FeatureUse use, Coastline& co
     }
   }
   if (lines.empty()) return;
-  JoinedLines joined = joinLines(lines);
+  std::vector<ClosedGap> gaps;
+  JoinedLines joined = joinAcrossGaps(lines, snap, coastline.crs, gaps);
+  noteGaps(gaps, report);
   std::vector<Ring> rings;
   rings.reserve(joined.rings.size());
   for (JoinedLines::Part& part : joined.rings) rings.push_back(std::move(part.points));
@@ -166,7 +179,7 @@ Coastline readCoastline(const std::vector<std::string>& paths, ReadReport& repor
 }
 
 Coastline readCoastline(const std::vector<Source>& sources, const ReadFilter& filter, ReadReport& report,
-                        const SeeLayers& see_areas) {
+                        const SeeLayers& see_areas, const SnapIn& snap_in) {
   if (sources.empty()) throw InputError("no input was given: name at least one vector source");
   std::vector<RawLayer> layers;
   for (const Source& source : sources) {
@@ -186,7 +199,9 @@ Coastline readCoastline(const std::vector<Source>& sources, const ReadFilter& fi
       std::move(layer.features.begin(), layer.features.end(), std::back_inserter(coastline.features));
     }
   }
-  for (const FeatureUse use : {FeatureUse::Area, FeatureUse::Frame}) addJoinedLines(layers, use, coastline, report);
+  const SnapDistance snap = snap_in ? snap_in(coastline.crs) : SnapDistance{};
+  for (const FeatureUse use : {FeatureUse::Area, FeatureUse::Frame})
+    addJoinedLines(layers, use, snap, coastline, report);
   for (RawLayer& layer : layers) {
     if (!joinsLines(layer.use)) addPlainLines(layer, coastline);
   }

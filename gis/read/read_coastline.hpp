@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gis/coast/coastline.hpp"
+#include "gis/coast/snap_distance.hpp"
 #include "gis/read/read_report.hpp"
 #include "gis/read/source.hpp"
 
@@ -15,9 +16,13 @@ struct RawLayer;
 // Gets the layers of a source as they are in the file, in their own CRS, including those of FeatureUse::Boundary.
 using SeeLayers = std::function<void(const std::vector<RawLayer>& layers)>;
 
+// The distance within which ends of lines are joined, for an input in this CRS.
+using SnapIn = std::function<SnapDistance(const Crs& crs)>;
+
 // Reads every vector layer of every source that OGR opens, in their order. Z and M are dropped, curves become straight
 // pieces. A file that is one bare geometry (such as a GeoJSON GeometryCollection) becomes one feature per polygon,
-// numbered from 0. Lines are joined end to end over all sources (see `joinLines`): closed ones become polygons by
+// numbered from 0. Lines are joined end to end over all sources, across gaps too if `snap_in` is
+// given (see `joinAcrossGaps`), with a note: closed ones become polygons by
 // even-odd nesting, each a feature with the name and attributes of the first line in it, open ones become features with
 // a line; they come after all polygons. Sources in another CRS than the first are transformed to its CRS; if all are in
 // one CRS, coordinates stay bit for bit. A source without a CRS is assumed to be in that of the first; a first one
@@ -28,7 +33,7 @@ using SeeLayers = std::function<void(const std::vector<RawLayer>& layers)>;
 // (Constraint); closed lines are polygons of a frame. `see_areas` is called with the layers of each source with
 // FeatureUse::Area, which may define boundary types too: a stream cannot be read a second time.
 Coastline readCoastline(const std::vector<Source>& sources, const ReadFilter& filter, ReadReport& report,
-                        const SeeLayers& see_areas = {});
+                        const SeeLayers& see_areas = {}, const SnapIn& snap_in = {});
 Coastline readCoastline(const std::vector<std::string>& sources, ReadReport& report);
 
 }  // namespace coastmesh

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/quality.hpp"
+#include "core/run_control.hpp"
 #include "gis/crs/geodesy.hpp"
 #include "gis/error.hpp"
 #include "gis/grid/ground_orientation.hpp"
@@ -27,16 +28,10 @@ constexpr int kRelaxRounds = 12;
 constexpr double kRelaxFrom = 0.9;        // share of the progress when all rounds are done
 constexpr std::size_t kMostShared = 100;  // triangles: each takes some milliseconds
 
-// The control of the part of all repairs that reports progress between these shares.
-RunControl partOf(const RunControl& control, double from, double to) {
-  if (!control.progress) return control;
-  return {control.cancelled, [&control, from, to](double share) { control.progress(from + (to - from) * share); }};
-}
-
 // A round takes about half the time of the one before.
 RunControl roundOf(const RunControl& control, int round) {
   const auto at = [](int of) { return kRelaxFrom * (1.0 - std::exp2(-of)); };
-  return partOf(control, at(round), at(round + 1));
+  return stageControl(control, {at(round), at(round + 1)});
 }
 
 std::vector<FoundDefect> findDefects(const Grid& grid, std::span<const Target> targets, const RepairOptions& options) {
@@ -288,7 +283,8 @@ RepairReport repairInOneTurn(Grid& grid, std::span<const Target> targets, const 
     defects = findDefects(grid, targets, options);
   }
   requireTriangles(grid, targets);
-  if (relax(state, partOf(control, kRelaxFrom, 1.0)) && !targets.empty()) defects = findDefects(grid, targets, options);
+  if (relax(state, stageControl(control, {kRelaxFrom, 1.0})) && !targets.empty())
+    defects = findDefects(grid, targets, options);
   reportLeft(std::move(defects), state.report);
   reportLeft(findOverlaps(grid, targets), state.report);
   if (keepsBoundaries(state) && std::ranges::count(state.changed, true) > 0) rebuildBoundaries(state);

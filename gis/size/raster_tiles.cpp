@@ -99,8 +99,8 @@ SizeTile reduced(const RasterTile& tile, std::span<const float> sizes) {
   int width = tile.width, height = tile.height;
   for (int side = kTile / 2; side >= 1; side /= 2) {
     const Level& fine = levels.back();
-    Level coarse{std::vector<float>(cellsOf(side), kNothing), std::vector<float>(cellsOf(side), 0.0F),
-                 std::vector<float>(cellsOf(side), 0.0F), std::vector<float>(cellsOf(side), 0.0F)};
+    const std::vector<float> none(cellsOf(side), 0.0F);
+    Level coarse{std::vector<float>(cellsOf(side), kNothing), none, none, none};
     width = (width + 1) / 2;
     height = (height + 1) / 2;
     for (int y = 0; y < height; ++y) {
@@ -143,7 +143,7 @@ SizeTile reduced(const RasterTile& tile, std::span<const float> sizes) {
     const float mean = level.count[k] > 0.0F ? level.sum[k] / level.count[k] : kNothing;
     const double side_m = pixel_m * static_cast<double>(1 << work.level);
     const bool alike = high <= kAlike * low || (work.level > 0 && side_m <= kFineShare * low);
-    nodes[work.node] = {low, high, mean, 0};
+    nodes[work.node] = {low, high, level.count[k] > 0.0F ? mean : 0.0F, mean, 0};
     if (work.level == 0 || low == kNothing || alike) {
       if (alike && low != kNothing && high != kNothing) nodes[work.node].low = nodes[work.node].high = mean;
       continue;
@@ -155,13 +155,18 @@ SizeTile reduced(const RasterTile& tile, std::span<const float> sizes) {
       stack.push_back({below + static_cast<std::uint32_t>(c), work.level - 1, 2 * work.x + c % 2, 2 * work.y + c / 2});
     }
   }
+  for (std::size_t n = nodes.size(); n-- > 0;) {
+    if (nodes[n].below == 0) continue;
+    nodes[n].most = 0.0F;
+    for (std::size_t c = 0; c < 4; ++c) nodes[n].most = std::max(nodes[n].most, nodes[nodes[n].below + c].most);
+  }
   nodes.shrink_to_fit();
   return nodes;
 }
 
 }  // namespace
 
-SizeTile emptyTile() { return {{kNothing, kNothing, kNothing, 0}}; }
+SizeTile emptyTile() { return {{kNothing, kNothing, 0.0F, kNothing, 0}}; }
 
 std::array<int, 2> marginOf(const TilePlace& tile, double margin_m, const RasterGeometry& raster) {
   if (!(margin_m > 0.0)) return {0, 0};

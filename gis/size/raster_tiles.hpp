@@ -19,6 +19,7 @@ inline constexpr int kTile = 256;  // pixels along a side of a tile, at most; a 
 // nearly equal sizes, or sides of at most half the smallest. Node 0 is the root.
 struct SizeNode {
   float low = 0.0F, high = 0.0F;  // in the cell; `high` is infinite if any part requests nothing, `low` if all does
+  float most = 0.0F;              // largest `value` in the cell that is finite
   float value = 0.0F;             // of a leaf
   std::uint32_t below = 0;        // the first of four consecutive children; 0 for a leaf
 };

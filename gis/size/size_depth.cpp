@@ -167,6 +167,14 @@ FilledField::FilledField(std::unique_ptr<SizeField> known, std::shared_ptr<const
     for (const DepthBand& band : rule_.depths.bands) least_ = std::min(least_, band.size_m);
 }
 
+double FilledField::mostIn(const SizeBox& box) const {
+  // Other sizes need not grow with the depth.
+  if (rule_.kind != SizeRule::Kind::Step) return SizeField::mostIn(box);
+  const DepthGaps::Range depths = gaps_->within(box);
+  const double known = known_->mostIn(box);
+  return std::isfinite(depths.least_m) ? std::max(known, sizeOf(depths.most_m)) : known;
+}
+
 // Must agree with `depthRule` and `courantRule`.
 double FilledField::sizeOf(double depth_m) const {
   const DepthRules& rules = rule_.depths;

@@ -31,6 +31,7 @@ class FilledField final : public SizeField {
   void sample(std::span<const Point> places, std::span<double> sizes) const override;
   void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const override;
   double least() const override { return least_; }
+  double mostIn(const SizeBox& box) const override;
 
  private:
   double sizeOf(double depth_m) const;

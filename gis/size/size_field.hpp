@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <span>
 
 #include "core/point.hpp"
@@ -21,6 +22,8 @@ class SizeField {
   virtual void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const = 0;
   // A lower bound of all sizes: if another field requests less, this one is not evaluated.
   virtual double least() const { return 0.0; }
+  // An upper bound of the finite sizes within a box; infinite if none is known.
+  virtual double mostIn(const SizeBox&) const { return std::numeric_limits<double>::infinity(); }
   // Limits the rate at which sizes grow with distance, so that they are graded before they are interpolated.
   virtual void limitRate(double) {}
   // True if all sizes of the field grow in this way.

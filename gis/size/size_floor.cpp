@@ -57,13 +57,12 @@ void SizeFloor::build(const DomainMask& mask, const ItemLoop& loop) {
     std::vector<SizeBox> boxes;
     for (const auto& entry : level) boxes.push_back(entry.second);
     std::vector<SizeRange> ranges(boxes.size());
-    std::vector<double> middles(boxes.size());
+    std::vector<double> known(boxes.size());  // an upper bound in the part where the field is known
     forStretches(loop, boxes.size(), [&](std::size_t first, std::size_t last) {
       const auto here = std::span(boxes).subspan(first, last - first);
       field_->bound(here, std::span(ranges).subspan(first, last - first));
-      std::vector<Point> places;
-      for (const SizeBox& box : here) places.push_back(box.centre);
-      field_->sample(places, std::span(middles).subspan(first, last - first));
+      for (std::size_t i = first; i < last; ++i)
+        known[i] = ranges[i].high < kInfinity || ranges[i].low == kInfinity ? ranges[i].high : field_->mostIn(boxes[i]);
     });
     std::vector<std::pair<std::uint32_t, SizeBox>> next;
     for (std::size_t i = 0; i < level.size(); ++i) {
@@ -71,11 +70,10 @@ void SizeFloor::build(const DomainMask& mask, const ItemLoop& loop) {
       const double low = ranges[i].low, high = ranges[i].high;
       // The end of the field is a cliff too, wherever it is: smaller sizes beyond it would be graded into the domain.
       if (high < kInfinity && !mask.meets(box)) continue;
-      if (high <= least_m_) continue;
       if (low == kInfinity) continue;                                     // nothing is known
       if (high < kInfinity && high - low <= kTolerance * high) continue;  // not steep
-      // In a partly known square, a lower bound of the maximum is used.
-      const double most = high < kInfinity ? high : std::max(low, std::isfinite(middles[i]) ? middles[i] : 0.0);
+      const double most = known[i];
+      if (most <= least_m_) continue;
       const double by_its_size = rate_ * 2.0 * box.half * shrinkIn(surface_, box).high / measureAt(box.centre);
       if (by_its_size > kTolerance * most && nodes_.size() + 4 <= kMostNodes) {
         nodes_[node].below = static_cast<std::uint32_t>(nodes_.size());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "core/metric.hpp"
@@ -128,8 +129,8 @@ SizeRange RasterField::boundBetween(const Box& pixels) const {
   return range;
 }
 
-void RasterField::boundIn(const SizeTile& tile, std::uint32_t node, int x, int y, int side,
-                          const std::array<std::int64_t, 4>& window, SizeRange& range) const {
+void RasterField::boundIn(const SizeTile& tile, std::uint32_t node, int x, int y, int side, const PixelWindow& window,
+                          SizeRange& range) const {
   const SizeNode& n = tile[node];
   if (x >= window[2] || y >= window[3] || x + side <= window[0] || y + side <= window[1]) return;
   const bool covered = x >= window[0] && y >= window[1] && x + side <= window[2] && y + side <= window[3];
@@ -143,61 +144,109 @@ void RasterField::boundIn(const SizeTile& tile, std::uint32_t node, int x, int y
     boundIn(tile, n.below + static_cast<std::uint32_t>(k), x + (k % 2) * half, y + (k / 2) * half, half, window, range);
 }
 
+double RasterField::mostKnownIn(const SizeTile& tile, std::uint32_t node, int x, int y, int side,
+                                const PixelWindow& window, double most) const {
+  const SizeNode& n = tile[node];
+  if (n.most <= most) return most;
+  if (x >= window[2] || y >= window[3] || x + side <= window[0] || y + side <= window[1]) return most;
+  const bool covered = x >= window[0] && y >= window[1] && x + side <= window[2] && y + side <= window[3];
+  if (covered || n.below == 0) return n.most;
+  const int half = side / 2;
+  for (int k = 0; k < 4; ++k)
+    most = mostKnownIn(tile, n.below + static_cast<std::uint32_t>(k), x + (k % 2) * half, y + (k / 2) * half, half,
+                       window, most);
+  return most;
+}
+
+// The pixels that meet a box; nullopt for a box across the seam of a raster that wraps, or beyond the reach of the
+// projection, which may contain any.
+std::optional<Box> RasterField::pixelsIn(const SizeBox& box) const {
+  const RasterGeometry& raster = frame_->raster;
+  Box pixels;
+  // Corners, midpoints of sides and the centre. Between them sides bulge a little, for which a share of the box is
+  // added.
+  for (int k = 0; k < 9; ++k) {
+    const Point p = frame_->pixelOf(box.centre + box.half * Point{k % 3 - 1.0, k / 3 - 1.0});
+    if (!std::isfinite(p.x) || !std::isfinite(p.y)) return std::nullopt;
+    pixels.add(p);
+  }
+  const double extent = std::max(pixels.xmax - pixels.xmin, pixels.ymax - pixels.ymin);
+  if (raster.wraps && extent > 0.5 * raster.columns) return std::nullopt;
+  return pixels.grownBy(0.05 * extent + 1e-6);
+}
+
+// Calls `found(tile, window)` for the tiles that meet these pixels and their neighbours, with the window in the tile's
+// own pixels.
+template <typename Found>
+void RasterField::forTiles(const PixelWindow& window, Found&& found) const {
+  const RasterGeometry& raster = frame_->raster;
+  for (std::int64_t turn = raster.wraps ? -1 : 0; turn <= (raster.wraps ? 1 : 0); ++turn) {
+    const std::int64_t shift = turn * raster.columns;
+    const auto tileOf = [](const TileAxis& axis, std::int64_t pixel, int low, int high) {
+      return std::clamp(pixel < 0 ? -1 : axis.tileOf(static_cast<int>(std::min<std::int64_t>(pixel, axis.pixels()))),
+                        low, high);
+    };
+    const std::array<int, 4>& kept = frame_->window;
+    const int x0 = tileOf(frame_->columns, window[0] + shift, kept[0], kept[2]),
+              x1 = tileOf(frame_->columns, window[2] + shift, kept[0] - 1, kept[2] - 1);
+    const int y0 = tileOf(frame_->rows, window[1], kept[1], kept[3]),
+              y1 = tileOf(frame_->rows, window[3], kept[1] - 1, kept[3] - 1);
+    for (int row = y0; row <= y1; ++row) {
+      for (int column = x0; column <= x1; ++column) {
+        const std::int64_t x = frame_->columns.start(column) - shift, y = frame_->rows.start(row);
+        found(tiles_[frame_->numberOf(column, row)],
+              PixelWindow{window[0] - x, window[1] - y, window[2] - x, window[3] - y});
+      }
+    }
+  }
+}
+
+namespace {
+
+std::array<std::int64_t, 4> windowAround(const Box& pixels) {
+  const Box grown = pixels.grownBy(1.0);
+  return {static_cast<std::int64_t>(std::floor(grown.xmin)), static_cast<std::int64_t>(std::floor(grown.ymin)),
+          static_cast<std::int64_t>(std::ceil(grown.xmax)), static_cast<std::int64_t>(std::ceil(grown.ymax))};
+}
+
+}  // namespace
+
 void RasterField::bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const {
   const RasterGeometry& raster = frame_->raster;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     ranges[i] = {kInfinity, kInfinity};
     if (tiles_.empty()) continue;
-    Box pixels;
-    bool known = true;
-    // Corners, midpoints of sides and the centre. Between them sides bulge a little, for which a share of the box is
-    // added.
-    for (int k = 0; k < 9; ++k) {
-      const Point p = frame_->pixelOf(boxes[i].centre + boxes[i].half * Point{k % 3 - 1.0, k / 3 - 1.0});
-      known &= std::isfinite(p.x) && std::isfinite(p.y);
-      if (known) pixels.add(p);
-    }
-    const double extent = known ? std::max(pixels.xmax - pixels.xmin, pixels.ymax - pixels.ymin) : 0.0;
-    // A box across the seam of a raster that wraps, or beyond the reach of the projection, may contain any size.
-    if (!known || (raster.wraps && extent > 0.5 * raster.columns)) {
+    const std::optional<Box> pixels = pixelsIn(boxes[i]);
+    if (!pixels) {
       ranges[i] = {0.0, kInfinity};
       continue;
     }
-    pixels = pixels.grownBy(0.05 * extent + 1e-6);
-    constexpr double kFewPixels = 2.0;
-    if (extent <= kFewPixels) {
-      ranges[i] = boundBetween(pixels);
+    constexpr double kFewPixels = 2.200002;  // with what was added
+    if (std::max(pixels->xmax - pixels->xmin, pixels->ymax - pixels->ymin) <= kFewPixels) {
+      ranges[i] = boundBetween(*pixels);
       continue;
     }
-    pixels = pixels.grownBy(1.0);
-    const std::array<std::int64_t, 4> window = {
-        static_cast<std::int64_t>(std::floor(pixels.xmin)), static_cast<std::int64_t>(std::floor(pixels.ymin)),
-        static_cast<std::int64_t>(std::ceil(pixels.xmax)), static_cast<std::int64_t>(std::ceil(pixels.ymax))};
+    const PixelWindow window = windowAround(*pixels);
     const bool within = window[0] >= (raster.wraps ? -kTile : 0) && window[1] >= 0 &&
                         window[2] <= raster.columns + (raster.wraps ? kTile : 0) && window[3] <= raster.rows;
     SizeRange range{kInfinity, within ? 0.0 : kInfinity};
-    for (std::int64_t turn = raster.wraps ? -1 : 0; turn <= (raster.wraps ? 1 : 0); ++turn) {
-      const std::int64_t shift = turn * raster.columns;
-      const auto tileOf = [](const TileAxis& axis, std::int64_t pixel, int low, int high) {
-        return std::clamp(pixel < 0 ? -1 : axis.tileOf(static_cast<int>(std::min<std::int64_t>(pixel, axis.pixels()))),
-                          low, high);
-      };
-      const std::array<int, 4>& kept = frame_->window;
-      const int x0 = tileOf(frame_->columns, window[0] + shift, kept[0], kept[2]),
-                x1 = tileOf(frame_->columns, window[2] + shift, kept[0] - 1, kept[2] - 1);
-      const int y0 = tileOf(frame_->rows, window[1], kept[1], kept[3]),
-                y1 = tileOf(frame_->rows, window[3], kept[1] - 1, kept[3] - 1);
-      for (int row = y0; row <= y1; ++row) {
-        for (int column = x0; column <= x1; ++column) {
-          const SizeTile& tile = tiles_[frame_->numberOf(column, row)];
-          const std::int64_t x = frame_->columns.start(column) - shift, y = frame_->rows.start(row);
-          boundIn(tile, 0, 0, 0, kTile, {window[0] - x, window[1] - y, window[2] - x, window[3] - y}, range);
-        }
-      }
-    }
+    forTiles(window, [&](const SizeTile& tile, const PixelWindow& own) { boundIn(tile, 0, 0, 0, kTile, own, range); });
     if (range.low == kInfinity) range.high = kInfinity;
     ranges[i] = range;
   }
+}
+
+double RasterField::mostIn(const SizeBox& box) const {
+  if (tiles_.empty()) return 0.0;
+  const std::optional<Box> pixels = pixelsIn(box);
+  double most = 0.0;
+  if (!pixels) {
+    for (const SizeTile& tile : tiles_) most = std::max(most, static_cast<double>(tile.front().most));
+    return most;
+  }
+  forTiles(windowAround(*pixels),
+           [&](const SizeTile& tile, const PixelWindow& own) { most = mostKnownIn(tile, 0, 0, 0, kTile, own, most); });
+  return most;
 }
 
 void FirstOfFields::sample(std::span<const Point> places, std::span<double> sizes) const {
@@ -214,6 +263,12 @@ void FirstOfFields::sample(std::span<const Point> places, std::span<double> size
       settled[i] = 1;
     }
   }
+}
+
+double FirstOfFields::mostIn(const SizeBox& box) const {
+  double most = 0.0;
+  for (const auto& field : fields_) most = std::max(most, field->mostIn(box));
+  return most;
 }
 
 double FirstOfFields::least() const {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -33,13 +34,21 @@ class RasterField final : public SizeField {
   void sample(std::span<const Point> places, std::span<double> sizes) const override;
   void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const override;
   double least() const override { return least_; }
+  double mostIn(const SizeBox& box) const override;
 
  private:
+  using PixelWindow = std::array<std::int64_t, 4>;  // first column and row, then those after the last
+
   void findLeast();
   float pixel(std::int64_t x, std::int64_t y) const;
   SizeRange boundBetween(const Box& pixels) const;
-  void boundIn(const SizeTile& tile, std::uint32_t node, int x, int y, int side,
-               const std::array<std::int64_t, 4>& window, SizeRange& range) const;
+  void boundIn(const SizeTile& tile, std::uint32_t node, int x, int y, int side, const PixelWindow& window,
+               SizeRange& range) const;
+  double mostKnownIn(const SizeTile& tile, std::uint32_t node, int x, int y, int side, const PixelWindow& window,
+                     double most) const;
+  std::optional<Box> pixelsIn(const SizeBox& box) const;
+  template <typename Found>
+  void forTiles(const PixelWindow& window, Found&& found) const;
 
   std::shared_ptr<const RasterFrame> frame_;
   std::vector<SizeTile> tiles_;  // of each place of the frame
@@ -58,6 +67,7 @@ class FirstOfFields final : public SizeField {
   void sample(std::span<const Point> places, std::span<double> sizes) const override;
   void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const override;
   double least() const override;
+  double mostIn(const SizeBox& box) const override;
 
  private:
   Fields fields_, coverage_;

@@ -56,6 +56,11 @@ struct SizeOptions {
     bool shore_rate = false, gradation = false, time_step = false, coast = false;
   } given{};  // options beside chosen sizes that the user gave
 
+  // The largest size that is known to apply along shores; 0 if none is known before there is a map.
+  double mostAtShores() const {
+    const double most = std::min({size_m, shore_m, most_m});
+    return most < kNone ? std::max(most, least_m) : 0.0;
+  }
   // True if anything other than bounds is requested.
   bool any() const {
     return choose || size_m < kNone || shore_m < kNone || channel_elements > 0.0 || !features.empty() ||

@@ -216,6 +216,15 @@ TEST_F(Globe, SizesGrowFromShores) {
   EXPECT_LT(made.triangles, 8000u);
 }
 
+// The node opposite to the middle of the plane lies at its infinity.
+TEST_F(Globe, CanBeCheckedAgainstItsInputOnASphere) {
+  const std::string land = write("land.geojson", geoJsonPolygons({{{{0, 50}, {20, 48}, {25, 60}, {5, 62}}}}));
+  ASSERT_EQ(mesh({land, "--size", "400000", "--surface", "sphere"}, "globe.nc").code, 0);
+  const ProgramRun check =
+      runProgram({"check", file("globe.nc"), "--surface", "sphere", "--input", land, "--domain", "globe"});
+  EXPECT_EQ(check.code, 0) << check.errors << check.output;
+}
+
 TEST_F(Globe, IsTheSameForAnyNumberOfThreads) {
   const std::string land = write("land.geojson", geoJsonPolygons({{{{0, 50}, {20, 48}, {25, 60}, {5, 62}}}}));
   std::set<std::string> digests;

@@ -95,6 +95,19 @@ TEST_F(ReadGrid, TwoDmOfOtherPrograms) {
   EXPECT_TRUE(grid.crs.isPlane());
 }
 
+// A node string added to our own in SMS.
+TEST_F(ReadGrid, TwoDmKeepsOurRolesBesideOtherStrings) {
+  const Grid grid = readGrid(put("lake.2dm",
+                                 "MESH2D\nE3T 1 1 2 3 1\nE3T 2 1 3 4 1\n"
+                                 "ND 1 0 0 0\nND 2 1 0 0\nND 3 1 1 0\nND 4 0 1 0\n"
+                                 "NS 3 -4 5\nNS 2 -3 23\nNS 4 1 -2 11\n"));
+  ASSERT_EQ(grid.boundaries.size(), 3u);
+  EXPECT_EQ(grid.boundaries[0].role, BoundaryRole::Open);
+  EXPECT_EQ(grid.boundaries[1].role, BoundaryRole::Open);
+  EXPECT_EQ(grid.boundaries[2].role, BoundaryRole::Land);
+  EXPECT_THAT(grid.boundaries[2].nodes, ElementsAre(3, 0, 1));
+}
+
 TEST_F(ReadGrid, TwoDmErrorsNameTheLine) {
   EXPECT_THAT(errorIn("a.2dm", "ND 1 0 0 0\n"), HasSubstr("line 1"));
   EXPECT_THAT(errorIn("a.2dm", "MESH2D\nND 1 0 zero 0\n"), AllOf(HasSubstr("line 2"), HasSubstr("\"zero\"")));
@@ -431,6 +444,44 @@ TEST_F(ReadGrid, UgridWithSeveralDepths) {
   EXPECT_EQ(readGrid(folder_ / "depths.nc").z, (std::vector<double>{1, 2, 3, 4}));
   EXPECT_THAT(remarkOnGrid(folder_ / "depths.nc"),
               AllOf(HasSubstr("depths.nc"), HasSubstr("from \"zb\", not from \"h\", \"depth\"")));
+}
+
+// Indices from 1 and one column a face, neither of which the file says.
+TEST_F(ReadGrid, OutputOfFvcom) {
+  const std::string path = folder_ / "fvcom_0001.nc";
+  int id = 0, nodes = 0, faces = 0, three = 0, mesh = 0, lon = 0, lat = 0, depth = 0, nv = 0;
+  const auto text = [&](int variable, const char* name, const std::string& value) {
+    nc_put_att_text(id, variable, name, value.size(), value.data());
+  };
+  nc_create(path.c_str(), NC_CLOBBER, &id);
+  nc_def_dim(id, "node", 7, &nodes);
+  nc_def_dim(id, "nele", 5, &faces);
+  nc_def_dim(id, "three", 3, &three);
+  nc_def_var(id, "fvcom_mesh", NC_INT, 0, nullptr, &mesh);
+  nc_def_var(id, "lon", NC_DOUBLE, 1, &nodes, &lon);
+  nc_def_var(id, "lat", NC_DOUBLE, 1, &nodes, &lat);
+  nc_def_var(id, "h", NC_DOUBLE, 1, &nodes, &depth);
+  const int shape[] = {three, faces};
+  nc_def_var(id, "nv", NC_INT, 2, shape, &nv);
+  const int two = 2;
+  text(mesh, "cf_role", "mesh_topology");
+  nc_put_att_int(id, mesh, "topology_dimension", NC_INT, 1, &two);
+  text(mesh, "node_coordinates", "lon lat");
+  text(mesh, "face_node_connectivity", "nv");
+  text(lon, "standard_name", "longitude");
+  text(lat, "standard_name", "latitude");
+  text(depth, "standard_name", "sea_floor_depth_below_geoid");
+  nc_enddef(id);
+  const double x[] = {5, 6, 5.5, 6.5, 6, 7, 6.5}, y[] = {50, 50, 51, 51, 52, 52, 53}, z[] = {1, 2, 3, 4, 5, 6, 7};
+  const int columns[] = {1, 2, 3, 4, 5, 2, 4, 4, 6, 6, 3, 3, 5, 5, 7};
+  nc_put_var_double(id, lon, x);
+  nc_put_var_double(id, lat, y);
+  nc_put_var_double(id, depth, z);
+  nc_put_var_int(id, nv, columns);
+  nc_close(id);
+  const Grid grid = readGrid(path);
+  EXPECT_EQ(grid.triangles, (Triangles{{0, 1, 2}, {1, 3, 2}, {2, 3, 4}, {3, 5, 4}, {4, 5, 6}}));
+  EXPECT_EQ(grid.z, (std::vector<double>{-1, -2, -3, -4, -5, -6, -7}));
 }
 
 TEST_F(ReadGrid, UgridWithQuadsIsRefused) {

@@ -83,13 +83,5 @@ TEST(FindMissingBoundaries, TellsShoresFromIslandsAcrossTheAntimeridian) {
     EXPECT_EQ(boundary.role, boundary.nodes.size() > 10 ? BoundaryRole::Land : BoundaryRole::Island);
 }
 
-TEST(BoundaryMarker, TellsTheRole) {
-  EXPECT_EQ(boundaryMarker(0, BoundaryRole::Land), 11);
-  EXPECT_EQ(boundaryMarker(2, BoundaryRole::Open), 33);
-  EXPECT_EQ(roleOfMarker(42, 3), BoundaryRole::Island);
-  EXPECT_EQ(roleOfMarker(42, 2), std::nullopt);
-  EXPECT_EQ(roleOfMarker(1, 0), std::nullopt);
-}
-
 }  // namespace
 }  // namespace coastmesh

@@ -133,6 +133,11 @@ TEST_F(SizeFiles, BoundsOfARasterHoldAndAreTight) {
     const auto [low, high] = std::ranges::minmax(sizes);
     EXPECT_LE(range.low, low * (1.0 + 1e-6)) << box.centre.x << ", " << box.centre.y << " half " << box.half;
     EXPECT_GE(range.high, high * (1.0 - 1e-6)) << box.centre.x << ", " << box.centre.y << " half " << box.half;
+    double known = 0.0;
+    for (const double size : sizes)
+      if (size < kInfinity) known = std::max(known, size);
+    EXPECT_GE(field.mostIn(box), known * (1.0 - 1e-6)) << box.centre.x << ", " << box.centre.y << " half " << box.half;
+    EXPECT_LE(field.mostIn(box), 1.0);
     if (box.half < 0.1) tight += range.low >= 0.5 * low && (range.high <= 2.0 * high || high == kInfinity);
   }
   EXPECT_GT(tight, kBoxes / 4);
