@@ -99,7 +99,8 @@ void declareInputOptions(OptionTable& table, InputOptions& options) {
              "join polygons that share an edge, so that cuts at map sheets or meridians leave no trace");
   table.section(Section::Coast);
   table.number({"--snap", "Snapping distance"}, options.snap_m, "M", kNotNegative,
-               "points closer than this are merged, and ends of lines joined; in a plane only if given", &options.snap_in_plane);
+               "points closer than this are merged, and ends of lines joined; in a plane only if given",
+               &options.snap_in_plane);
   table.number({"--simplify", "Simplification tolerance"}, options.simplify_m, "M", kNotNegative,
                "maximum distance of the simplified shore from the input");
   table.section(Section::Input);
