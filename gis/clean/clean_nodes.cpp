@@ -4,10 +4,13 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <set>
+#include <string>
 #include <tuple>
 
 #include "core/hilbert.hpp"
 #include "core/predicates.hpp"
+#include "gis/coast/feature_names.hpp"
 #include "gis/error.hpp"
 #include "gis/geometry/crossing.hpp"
 #include "gis/geometry/edge_runs.hpp"
@@ -271,6 +274,22 @@ class Noder {
     const std::uint32_t first = featureOf(uses_[e.first_use]), second = featureOf(uses_[f.first_use]);
     report_.add(first == second ? EditKind::SelfCrossing : EditKind::FeaturesCross, place, coastline_,
                 std::max(first, second));
+    if (first == second) warnOfOverlap(uses_[e.first_use].chain, uses_[f.first_use].chain, place);
+  }
+
+  // Rings nest by even-odd, which misplaced rings need: what two parts or two islands share is outside of both.
+  void warnOfOverlap(std::uint32_t a, std::uint32_t b, const Point& place) {
+    using Role = CleanChain::Role;
+    const Role role = chains_.chains[a].role;
+    if (a == b || role != chains_.chains[b].role || !chains_.chains[a].isRing()) return;
+    const std::uint32_t feature = chains_.chains[a].feature;
+    if (!overlapping_.insert(feature).second) return;
+    const Feature& named = coastline_.features[feature];
+    report_.warnings.push_back(named.source + ", feature " + std::to_string(named.fid) +
+                               (role == Role::Hole ? ": holes overlap near (" : ": parts overlap near (") +
+                               roughPlaceInWords(place) + "), and what they share is " +
+                               (role == Role::Hole ? "no hole" : "left out") +
+                               ": unite them first, as Fix geometries or Dissolve does in QGIS");
   }
 
   // Makes every split edge a chain through the vertices found on it. New edges are active in the next round.
@@ -371,6 +390,7 @@ class Noder {
   std::vector<Split> splits_;
   std::vector<Crossing> crossings_;
   std::vector<char> crossed_;
+  std::set<std::uint32_t> overlapping_;  // features that were warned of
   struct {
     std::uint32_t feature = 0;
     Point place;

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "gis/coast/feature_names.hpp"
+#include "gis/for_count.hpp"
 #include "gis/model/fill_depths.hpp"
 #include "gis/model/impossible_depths.hpp"
 #include "gis/model/sample_average.hpp"
@@ -161,6 +162,14 @@ std::string impossibleWarning(const Grid& grid, const DepthOptions& options) {
          "); nodes near to one lie between it and depths";
 }
 
+// A warning about waters in which no raster has any value.
+std::string apartWarning(const std::vector<std::uint32_t>& nodes, const Grid& grid) {
+  return "no raster has a value in the waters of " + std::to_string(nodes.size()) +
+         forCount(nodes.size(), " node", " nodes") + ", such as at (" + roughPlaceInWords(grid.nodes[nodes.front()]) +
+         "): each got the depth of the nearest node of another water; a second --bathymetry may have them, and "
+         "--keep-water leaves waters out";
+}
+
 // A warning that most nodes lie above the water, with possible reasons. `z` is that of all nodes.
 std::string dryWarning(std::vector<double> z, std::size_t dry, const DepthOptions& options) {
   std::string text = std::to_string(dry) + " of " + std::to_string(z.size()) + " nodes lie above the water";
@@ -222,6 +231,11 @@ DepthReport setDepths(Grid& grid, const DepthOptions& options, const RunControl&
     report.warnings.push_back(std::move(warning));
   if (options.fill == DepthFill::Neighbours) report.filled = fillFromNeighbours(grid, loop);
   if (options.fill == DepthFill::Nearest) report.filled = fillFromNearest(grid, loop);
+  if (options.fill != DepthFill::None && known > 0) {
+    const std::vector<std::uint32_t> apart = fillWatersApart(grid);
+    report.filled += apart.size();
+    if (!apart.empty()) report.warnings.push_back(apartWarning(apart, grid));
+  }
   const auto dry = static_cast<std::size_t>(std::ranges::count_if(grid.z, [](double z) { return z > 0.0; }));
   if (2 * dry > grid.nodes.size() && known > 0) report.warnings.push_back(dryWarning(grid.z, dry, options));
   for (double& z : grid.z) {

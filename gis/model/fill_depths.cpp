@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <queue>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include "core/box_halves.hpp"
+#include "core/metric.hpp"
 #include "gis/geometry/membrane.hpp"
 #include "gis/geometry/neighbours.hpp"
 
@@ -134,6 +137,40 @@ std::size_t fillFromNearest(Grid& grid, const ItemLoop& loop) {
     addNeighbours(node, source, far);
   }
   return filled;
+}
+
+std::vector<std::uint32_t> fillWatersApart(Grid& grid) {
+  std::vector<std::uint32_t> known, unknown;
+  for (std::uint32_t node = 0; node < grid.nodes.size(); ++node)
+    (std::isnan(grid.z[node]) ? unknown : known).push_back(node);
+  if (known.empty()) return {};
+  if (unknown.empty()) return unknown;
+  std::vector<Bounds> places;
+  for (const std::uint32_t node : known) places.push_back({grid.nodes[node], grid.nodes[node]});
+  const BoxHalves tree(places);
+  std::vector<double> values;
+  for (const std::uint32_t node : unknown) {
+    double nearest = std::numeric_limits<double>::infinity();
+    std::uint32_t source = known.front();
+    for (const double turn : {0.0, -360.0, 360.0}) {
+      if (turn != 0.0 && !grid.crs.geographic) continue;
+      const Point from{grid.nodes[node].x + turn, grid.nodes[node].y};
+      const double scale = grid.crs.geographic ? std::cos(from.y * std::numbers::pi / 180.0) : 1.0;
+      tree.visit(
+          [&](const Bounds& box) {
+            const double dx = scale * std::max({box.low.x - from.x, 0.0, from.x - box.high.x});
+            return std::hypot(dx, std::max({box.low.y - from.y, 0.0, from.y - box.high.y})) <= nearest;
+          },
+          [&](std::uint32_t i) {
+            const Point way = grid.nodes[known[i]] - from;
+            const std::pair found{std::hypot(scale * way.x, way.y), known[i]};
+            if (found < std::pair{nearest, source}) std::tie(nearest, source) = found;
+          });
+    }
+    values.push_back(grid.z[source]);
+  }
+  for (std::size_t i = 0; i < unknown.size(); ++i) grid.z[unknown[i]] = values[i];
+  return unknown;
 }
 
 }  // namespace coastmesh

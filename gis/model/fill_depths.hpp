@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "core/item_loop.hpp"
 #include "gis/grid/grid.hpp"
@@ -13,5 +15,9 @@ std::size_t fillFromNeighbours(Grid& grid, const ItemLoop& loop = inOrder);
 
 // Sets unknown z to that of the nearest known node along the mesh's edges. Returns the number of nodes filled.
 std::size_t fillFromNearest(Grid& grid, const ItemLoop& loop = inOrder);
+
+// Sets unknown z to that of the nearest known node in space: for waters without any, which the above leave unchanged.
+// Returns the nodes filled, ascending; none if nothing is known.
+std::vector<std::uint32_t> fillWatersApart(Grid& grid);
 
 }  // namespace coastmesh

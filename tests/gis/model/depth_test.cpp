@@ -286,6 +286,29 @@ TEST_F(Depth, NearestDepthsAcrossTheAntimeridian) {
   }
 }
 
+// A second water east of the raster, without a connection to the first.
+TEST_F(Depth, AWaterWithoutAnyValueGetsThatOfTheNearestNode) {
+  const auto west = raster("west.tif", "EPSG:4326", {100, 200, 10.0, 52.0, 0.01}, [](double x, double) { return -x; });
+  for (const DepthFill fill : {DepthFill::Neighbours, DepthFill::Nearest, DepthFill::None}) {
+    Grid grid = squares("EPSG:4326", {10.05, 50.05}, 0.15, 6, 12);
+    const Grid other = squares("EPSG:4326", {12.0, 50.05}, 0.15, 3, 3);
+    const auto first = static_cast<std::uint32_t>(grid.nodes.size());
+    grid.nodes.insert(grid.nodes.end(), other.nodes.begin(), other.nodes.end());
+    for (const auto& [a, b, c] : other.triangles) grid.triangles.push_back({a + first, b + first, c + first});
+    DepthOptions options{{west}};
+    options.fill = fill;
+    const DepthReport report = setDepths(grid, options);
+    if (fill == DepthFill::None) {
+      EXPECT_EQ(report.unknown, other.nodes.size());
+      continue;
+    }
+    EXPECT_EQ(report.filled, other.nodes.size());
+    EXPECT_EQ(report.unknown, 0u);
+    EXPECT_THAT(report.warnings, Contains(HasSubstr("waters of 16 nodes, such as at (12, 50.05)")));
+    for (std::size_t i = first; i < grid.nodes.size(); ++i) EXPECT_NEAR(grid.z[i], -10.95, 0.02);
+  }
+}
+
 // A raster that ends slightly before the mesh needs no warning.
 TEST_F(Depth, AFewNodesWithoutAValueAreNotWarnedOf) {
   const auto most = raster("most.tif", "EPSG:4326", {200, 200, 10.0, 52.0, 0.01},
