@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "gis/coast/turned_rings.hpp"
+
 namespace coastmesh {
 
 namespace {
@@ -36,13 +38,25 @@ Span spanOf(const std::vector<Ring*>& rings) {
   return span;
 }
 
+// Calls `visit(a, b)` for each edge of the ring, in order. If the edge jumps from one end of the map to the other, `b`
+// is moved by a turn, to where it lies beside `a`: edges along a meridian have one longitude.
+template <typename Visit>
+void forEachEdge(const Ring& ring, Visit&& visit) {
+  const Turns turns = turnsOf(ring, true);
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const bool last = i + 1 == ring.size();
+    const Point& next = ring[last ? 0 : i + 1];
+    const int jump = (last ? turns.round : turns.of[i + 1]) - turns.of[i];
+    visit(ring[i], Point{next.x + kTurn * jump, next.y});
+  }
+}
+
 CutMeridians cutsOf(const std::vector<Ring*>& rings, const Span& span) {
   std::vector<double> longitudes;
   for (const Ring* ring : rings) {
-    for (std::size_t i = 0; i < ring->size(); ++i) {
-      const double x = (*ring)[i].x;
-      if (x == (*ring)[(i + 1) % ring->size()].x && span.repeats(x)) longitudes.push_back(x);
-    }
+    forEachEdge(*ring, [&](const Point& a, const Point& b) {
+      if (a.x == b.x && span.repeats(a.x)) longitudes.push_back(a.x);
+    });
   }
   return CutMeridians(std::move(longitudes));
 }
@@ -93,12 +107,11 @@ std::optional<Seam> healSeam(const std::vector<Ring*>& rings, const Crs& crs, co
   for (Ring* ring : rings) {
     Ring healed;
     healed.reserve(ring->size());
-    for (std::size_t i = 0; i < ring->size(); ++i) {
-      const Point &a = (*ring)[i], &b = (*ring)[(i + 1) % ring->size()];
+    forEachEdge(*ring, [&](const Point& a, const Point& b) {
       healed.push_back(a);
-      if (a.x != b.x || !span.repeats(a.x)) continue;
+      if (a.x != b.x || !span.repeats(a.x)) return;
       if (const auto cut = seam.cuts.at(a.x)) addBetween(a, b, points[*cut].latitudes, healed);
-    }
+    });
     *ring = std::move(healed);
   }
   return seam;

@@ -428,6 +428,23 @@ TEST(Clean, HealsTheCutAlongTheAntimeridian) {
   EXPECT_NEAR(labelledArea(domain.pslg, 0) / geodesicArea(coastline, {0}), 1.0, 1e-3);
 }
 
+TEST(Clean, HealsEdgesAlongTheAntimeridianThatJump) {
+  // The western half runs along the cut past the end of the eastern half and back, to a point with the longitude of the
+  // other side: a spike, which only shows once that edge has the vertices of the cut.
+  Feature feature =
+      polygonFeature(1, {{-180, -17.4}, {180, -17.5}, {177, -17.6}, {177, -16.4}, {180, -16.5}, {180, -16.49}});
+  feature.polygons.push_back({{{-180, -17.5}, {-179, -17.6}, {-179, -16.4}, {-180, -16.5}}, {}});
+  const Coastline coastline = coastlineOf({feature}, wgs84());
+  CleanReport report;
+  const Domain domain = cleanFeatures(coastline, {0}, Projection::fitted(coastline, {0}), {}, report);
+  EXPECT_EQ(defectOfLabelled(domain.pslg), "");
+  EXPECT_EQ(domain.pslg.points.size(), 6u);
+  EXPECT_EQ(domain.pslg.segments.size(), 6u);
+  EXPECT_EQ(report.counts[static_cast<std::size_t>(EditKind::Spike)], 1u);
+  EXPECT_EQ(report.counts[static_cast<std::size_t>(EditKind::SelfCrossing)], 0u);
+  EXPECT_NEAR(labelledArea(domain.pslg, 0) / geodesicArea(coastline, {0}), 1.0, 1e-3);
+}
+
 TEST(Clean, AnOceanRoundThePoleNeedsNoCut) {
   // Water from 60°N to the pole in plate carrée: a rectangle of longitudes whose upper side is the pole.
   Ring ring;
