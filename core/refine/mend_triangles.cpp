@@ -67,6 +67,15 @@ bool isEncroached(double cos_lens, const Frame& at_x, const Point& a, const Poin
   return d * d >= cos_lens * cos_lens * squaredLength(xa) * squaredLength(xb);
 }
 
+// True if x lies behind an edge whose mesh is to its left: in the plane, or on the sphere, where the straight edge
+// bulges from the chord. Between the two, triangles turn over on the sphere, and no further point would mend them.
+bool isBehind(const Frame& at_x, const Point& x, const Point& a, const Point& b) {
+  if (orient2d(a, b, x) <= 0) return true;
+  if (!at_x.isCurved()) return false;
+  const Point xa = at_x.relative(a), xb = at_x.relative(b);
+  return dot(xa, xb) < 0.0 && cross(xa, xb) <= 0.0;
+}
+
 // The subsegment of a cavity's boundary that x lies behind, or encroaches upon, with the widest angle; kNone if there
 // is none.
 EdgeRef subsegmentBeside(const RefineRun& run, const Point& x, const Patch& cavity) {
@@ -77,7 +86,7 @@ EdgeRef subsegmentBeside(const RefineRun& run, const Point& x, const Patch& cavi
   for (const BoundaryEdge& r : cavity.boundary) {
     if (r.seg == kNone && r.beyond != kNone) continue;
     const Point &a = mesh.point(r.a), &b = mesh.point(r.b);
-    const bool behind = orient2d(a, b, x) <= 0;
+    const bool behind = isBehind(at_x, x, a, b);
     if (!behind && (r.seg == kFrozen || !isEncroached(run.cos_lens, at_x, a, b))) continue;
     const double angle = behind ? std::numbers::pi : angleAt(x, a, b);
     if (angle <= widest) continue;

@@ -67,7 +67,10 @@ SteinerPoint SteinerSearch::find(const EditMesh& mesh, TriId t, unsigned apex) {
   if (frame.isCurved() && !(cross(q, r) > 0.0)) {
     // Its circumcircle contains the far end of the sphere.
     const Point centre = centroid(p, mesh.point(bad.v[prev3(apex)]), mesh.point(bad.v[apex]));
-    return {centre, SteinerType::OwnCircumcenter, t, bound_.surface.squaredChord(centre, p)};
+    double nearest = bound_.surface.squaredChord(centre, p);
+    for (const unsigned other : {prev3(apex), apex})
+      nearest = std::min(nearest, bound_.surface.squaredChord(centre, mesh.point(bad.v[other])));
+    return {centre, SteinerType::OwnCircumcenter, t, nearest};
   }
   const Point own = circumcenterOffset({}, q, r);
   const double own_clearance = clearance(own, {});

@@ -7,8 +7,10 @@
 #include <numbers>
 
 #include "core/delaunay.hpp"
+#include "core/links.hpp"
 #include "core/optimise/optimise.hpp"
 #include "core/quality.hpp"
+#include "core/refine/mend_triangles.hpp"
 #include "core/refine/refine.hpp"
 #include "core/space_point.hpp"
 #include "tests/support/mesh_checks.hpp"
@@ -120,6 +122,31 @@ TEST(RefineOnSphere, NoObtuseTriangleInSpace) {
   TriMesh mesh = constrainedDelaunay(pslg);
   EXPECT_TRUE(refine(mesh, pslg, options).unresolved.empty());
   EXPECT_LE(measure(mesh, 800.0).greatest_angle, 89.0);
+}
+
+// Far from the origin an edge of the plane and its chord differ, by 0.025 of the length here. A vertex of the input is
+// between them, so that its triangle at the edge, which is frozen, is turned over in space.
+TEST(RefineOnSphere, NothingIsPutBetweenAFrozenEdgeAndItsChord) {
+  constexpr double kFar = 20.0 * kRadius, kHalf = 0.05 * kFar;
+  const Point a{-kHalf, kFar}, b{kHalf, kFar};
+  Pslg pslg;
+  pslg.points = {a, b, {kHalf, kFar + 2.0 * kHalf}, {-kHalf, kFar + 2.0 * kHalf}, {0.3 * kHalf, kFar + 0.01 * kHalf}};
+  pslg.segments = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+  RefineOptions options;
+  options.surface = Surface::sphere(kRadius);
+  TriMesh mesh = constrainedDelaunay(pslg);
+  for (TriId t = 0; t < mesh.triangles.size(); ++t)
+    for (unsigned i = 0; i < 3; ++i)
+      if (mesh.segment(edgeRef(t, i)) == 0) setSegment(mesh.triangles, edgeRef(t, i), kFrozen);
+  VertexNotes notes = noteInput(mesh, boundOf(options));
+  RefineRun run(std::move(mesh), pslg, options, std::move(notes), RefineVariant{});
+  refineAll(run, {});
+  mesh = releaseMesh(run);
+  ASSERT_GT(mesh.points.size(), pslg.points.size());
+  for (VertexId v = 4; v < mesh.points.size(); ++v) {
+    const bool is_behind = dot(inSpace(a), cross(inSpace(b), inSpace(mesh.point(v)))) < 0.0;
+    EXPECT_EQ(is_behind, v == 4) << mesh.point(v).x << ", " << mesh.point(v).y;
+  }
 }
 
 }  // namespace

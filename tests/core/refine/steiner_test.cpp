@@ -234,6 +234,23 @@ class LengthFourTimesY final : public SizeFunction {
   double most() const override { return 100.0; }
 };
 
+// Beside an edge of the plane far from the origin of a sphere, a triangle that is turned over in space has no
+// circumcentre to insert. Its centroid is close to the corner in the middle.
+TEST(Steiner, ClearanceOfTrianglesTurnedOverInSpace) {
+  const Surface sphere = Surface::sphere(1.0);
+  Pslg pslg;
+  pslg.points = {{-1, 20}, {1, 20}, {0.1, 20.001}};
+  const EditMesh mesh(constrainedDelaunay(pslg));
+  TriangleBound bound(30.0, 180.0, kNoSize);
+  bound.surface = sphere;
+  for (unsigned apex = 0; apex < 3; ++apex) {
+    const SteinerPoint point = SteinerSearch(Algorithm::Optimal, bound, 0.0).find(mesh, 0, apex);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Point& corner : pslg.points) nearest = std::min(nearest, sphere.squaredChord(point.place, corner));
+    EXPECT_DOUBLE_EQ(point.squared_clearance, nearest);
+  }
+}
+
 // The petal is the circumscribed disk of an equilateral triangle with the target length at the centroid of the
 // equilateral triangle on the edge.
 TEST(Steiner, LengthsWantedMakeThePetal) {
