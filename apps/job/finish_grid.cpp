@@ -39,9 +39,10 @@ std::vector<Point> nodesAmong(const Grid& grid, std::vector<Point> places) {
 std::string textOf(const DroppedWaters& dropped) {
   return areaInWords(dropped.area_m2, dropped.in_plane) + amount(" (%.2g %%)", 100.0 * dropped.share) +
          " of the water is left out, " + std::to_string(dropped.waters) +
-         forCount(dropped.waters, " water", " waters") +
-         " of other features without a connection to an open boundary: the largest at " + pointText(dropped.place) +
-         "; --keep-water all keeps them";
+         forCount(dropped.waters, " water", " waters") + " of other features without a connection to " +
+         (dropped.at_open > 0 ? "the main water, " + std::to_string(dropped.at_open) + " of them with an open boundary"
+                              : "an open boundary") +
+         ": the largest at " + pointText(dropped.place) + "; --keep-water all keeps them";
 }
 
 }  // namespace
@@ -87,7 +88,7 @@ FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunContr
   depth.keep_known = hasDepths(grid);
   if (!grid.triangles.empty()) report.depth = setDepths(grid, depth, of_depths, loop);
   if (!grid.triangles.empty()) report.boundaries = assignBoundaries(grid, options.boundaries);
-  if (options.drop_apart) report.dropped = dropApartWaters(grid);
+  if (options.drop_apart) report.dropped = dropApartWaters(grid, options.grazed);
   // The report is of the water that is left.
   if (report.dropped.waters > 0 && !depth.files.empty()) report.depth = setDepths(grid, depth, of_depths, loop);
   RepairMemory memory;

@@ -20,6 +20,7 @@ struct FinishOptions {
   std::vector<std::string> targets{};  // names of models that the grid is repaired for
   RepairOptions repair{};
   bool drop_apart = false;  // waters without a connection to an open boundary are removed, if there is one
+  GrazedWaters grazed = GrazedWaters::Drop;
 
   bool any() const { return !depth.files.empty() || boundaries.any() || !targets.empty() || repair.time_step_s > 0.0; }
   // True if nodes and triangles may change.

@@ -553,6 +553,7 @@ MeshJobResult runOnThreads(const MeshJob& given, const JobControl& control) {
                    job.mesh.refine.min_angle_deg, job.mesh.refine.max_angle_deg, result.asked};
   finish.repair.on_sphere = result.surfaces.contains(SurfaceKind::Sphere);
   finish.drop_apart = dropsWatersApart(job);
+  finish.grazed = job.sizes.keep_water_given ? GrazedWaters::Keep : GrazedWaters::Drop;
   if (finish.any()) {
     const Stopwatch finishing;
     RunControl inner{control.cancelled, {}};

@@ -20,6 +20,21 @@ struct Apart {
   std::vector<std::uint32_t> water;
 };
 
+// The areas of waters by their first triangles.
+using WaterAreas = std::map<std::uint32_t, double>;
+
+double sumOf(const WaterAreas& areas) {
+  double sum = 0.0;
+  for (const auto& [first, area] : areas) sum += area;
+  return sum;
+}
+
+double largestOf(const WaterAreas& areas) {
+  double largest = 0.0;
+  for (const auto& [first, area] : areas) largest = std::max(largest, area);
+  return largest;
+}
+
 Apart apartOf(const Grid& grid) {
   using Edge = std::pair<std::uint32_t, std::uint32_t>;
   std::vector<std::pair<Edge, std::uint32_t>> edges;
@@ -85,30 +100,36 @@ bool isOneWater(const Grid& grid) {
                              [&](const auto& v) { return nodes.find(v[0]) == nodes.find(grid.triangles[0][0]); });
 }
 
-DroppedWaters dropApartWaters(Grid& grid) {
-  constexpr double kLittle = 0.1;  // share of all water: less than this is hardly what the user means
+DroppedWaters dropApartWaters(Grid& grid, GrazedWaters grazed) {
+  constexpr double kLittle = 0.1;  // share of all water, or of the largest: less is hardly what the user means
   if (isOneWater(grid)) return {};
-  const Apart apart = apartOf(grid);
+  Apart apart = apartOf(grid);
+  WaterAreas left_out, at_open;
+  for (std::uint32_t t = 0; t < apart.water.size(); ++t)
+    (apart.is_apart[t] ? left_out : at_open)[apart.water[t]] += grid.area_m2[t];
+  const double all = sumOf(left_out) + sumOf(at_open);
+  if (sumOf(at_open) < kLittle * all) return {};
   DroppedWaters dropped;
-  double all = 0.0;
-  std::map<std::uint32_t, double> areas;
-  for (std::uint32_t t = 0; t < apart.water.size(); ++t) {
-    all += grid.area_m2[t];
-    if (apart.is_apart[t]) areas[apart.water[t]] += grid.area_m2[t];
+  const double least = grazed == GrazedWaters::Drop ? kLittle * largestOf(at_open) : 0.0;
+  for (const auto& [first, area] : at_open) {
+    if (area >= least) continue;
+    left_out[first] = area;
+    ++dropped.at_open;
   }
-  if (areas.empty()) return dropped;
+  if (left_out.empty()) return {};
   double largest = 0.0;
-  for (const auto& [first, area] : areas) {
-    dropped.area_m2 += area;
+  for (const auto& [first, area] : left_out) {
     if (area <= largest) continue;
     largest = area;
     dropped.place = middleOf(grid, first);
   }
+  for (std::uint32_t t = 0; t < apart.water.size(); ++t) {
+    apart.is_apart[t] = left_out.contains(apart.water[t]);
+    if (apart.is_apart[t] && !grid.feature_of.empty()) dropped.area_of[grid.feature_of[t]] += grid.area_m2[t];
+  }
+  dropped.waters = left_out.size();
+  dropped.area_m2 = sumOf(left_out);
   dropped.share = dropped.area_m2 / all;
-  if (dropped.share > 1.0 - kLittle) return {};
-  for (std::uint32_t t = 0; t < apart.water.size() && !grid.feature_of.empty(); ++t)
-    if (apart.is_apart[t]) dropped.area_of[grid.feature_of[t]] += grid.area_m2[t];
-  dropped.waters = areas.size();
   dropped.in_plane = grid.crs.isPlane();
   removeTriangles(grid, apart.is_apart);
   removeUnusedNodes(grid);

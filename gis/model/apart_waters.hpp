@@ -20,16 +20,19 @@ std::vector<ApartWater> apartWaters(const Grid& grid);
 // A fast sufficient test: true only if all triangles are connected. REQUIRES: complete boundaries.
 bool isOneWater(const Grid& grid);
 
+// Waters with an opening that are less than a tenth as large as the largest of those: the frame only grazes them.
+enum class GrazedWaters { Keep, Drop };
+
 struct DroppedWaters {
-  std::size_t waters = 0;
+  std::size_t waters = 0, at_open = 0;        // and those among them that have an opening
   double area_m2 = 0.0, share = 0.0;          // and its share of all water before
   std::map<std::uint32_t, double> area_of{};  // by feature, if the grid has features
   Point place;                                // in the largest water, in the grid's CRS
   bool in_plane = false;                      // areas are in units of the plane
 };
 
-// Removes these waters from the grid, but none if the rest is less than a tenth of all: the main water may then be
-// among them. REQUIRES: areas are known.
-DroppedWaters dropApartWaters(Grid& grid);
+// Removes apart waters from the grid, but none if those with an opening are less than a tenth of all: the main water
+// may then be among them. REQUIRES: areas are known.
+DroppedWaters dropApartWaters(Grid& grid, GrazedWaters grazed = GrazedWaters::Drop);
 
 }  // namespace coastmesh

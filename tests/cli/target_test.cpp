@@ -221,6 +221,33 @@ TEST_F(Target, WatersOfOtherFeaturesWithoutAnOpenBoundaryAreLeftOut) {
   }
 }
 
+// A box cuts a sea and a pond, whether they are features or parts of one.
+TEST_F(Target, APondCutByTheFrameIsLeftOutHoweverTheInputIsDivided) {
+  const std::string sea = "[[[0,0],[1,0],[1,1],[0,1],[0,0]]]",
+                    pond = "[[[0.2,1.2],[0.3,1.2],[0.3,1.5],[0.2,1.5],[0.2,1.2]]]";
+  const auto feature = [](const std::string& type, const std::string& coordinates) {
+    return R"({"type":"Feature","properties":{},"geometry":{"type":")" + type + R"(","coordinates":)" + coordinates +
+           "}}";
+  };
+  const std::string head = R"({"type":"FeatureCollection","features":[)";
+  const std::string two = write("two.geojson", head + feature("Polygon", sea) + "," + feature("Polygon", pond) + "]}");
+  const std::string one = write("one.geojson", head + feature("MultiPolygon", "[" + sea + "," + pond + "]") + "]}");
+  const auto triangles = [&](const std::string& input, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"mesh",   input,        "--bbox=-0.5,0.5,0.9,1.4",
+                                       "--size", "5000",       "--coast",
+                                       "follow", "--target",   "adcirc",
+                                       "-o",     file("m.14"), "--overwrite"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramRun run = runProgram(arguments);
+    EXPECT_EQ(run.code, 0) << run.errors;
+    EXPECT_EQ(run.errors.find("246 km² (4.3 %) of the water is left out") != std::string::npos, more.empty())
+        << run.errors;
+    return readFort14(file("m.14")).triangles.size();
+  };
+  EXPECT_EQ(triangles(two, {}), triangles(one, {}));
+  EXPECT_GT(triangles(two, {"--keep-water", "open"}), triangles(two, {}));
+}
+
 // The two halves of a square have the same circumcentre: no water would flow across the diagonal.
 TEST_F(Target, FlowLinksOfDflowfmHaveALength) {
   const std::string square =

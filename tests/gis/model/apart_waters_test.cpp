@@ -78,6 +78,32 @@ TEST(ApartWaters, TheirPlaceIsWithinThemAcrossTheAntimeridian) {
   EXPECT_GT(std::abs(dropped.place.x), 178.0);
 }
 
+// Squares of which the first three have an open boundary: 100, 16 and 4, and one without of 1.
+Grid squaresOpen() {
+  Grid grid = squares({10.0, 4.0, 2.0, 1.0});
+  for (const std::size_t square : {1u, 2u}) grid.boundaries[square].role = BoundaryRole::Open;
+  return grid;
+}
+
+TEST(ApartWaters, AreThoseThatTheFrameOnlyGrazes) {
+  Grid grid = squaresOpen();
+  EXPECT_EQ(apartWaters(grid).size(), 1u);
+  const DroppedWaters dropped = dropApartWaters(grid);
+  EXPECT_EQ(dropped.waters, 2u);
+  EXPECT_EQ(dropped.at_open, 1u);
+  EXPECT_DOUBLE_EQ(dropped.area_m2, 5.0);
+  EXPECT_EQ(grid.triangles.size(), 4u);
+  EXPECT_NO_THROW(requireConsistent(grid));
+}
+
+TEST(ApartWaters, GrazedOnesStayOnRequest) {
+  Grid grid = squaresOpen();
+  const DroppedWaters dropped = dropApartWaters(grid, GrazedWaters::Keep);
+  EXPECT_EQ(dropped.waters, 1u);
+  EXPECT_EQ(dropped.at_open, 0u);
+  EXPECT_EQ(grid.triangles.size(), 6u);
+}
+
 TEST(ApartWaters, StayIfTheFrameOnlyGrazesTheOthers) {
   Grid grid = squares({1.0, 5.0});
   EXPECT_EQ(dropApartWaters(grid).waters, 0u);
