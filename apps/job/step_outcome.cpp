@@ -21,6 +21,7 @@ std::string causesText(const std::vector<Short>& found, const SizeOptions& sizes
   const std::array<std::string, kShortCauses> texts{
       follows ? "at edges of the shore, which larger sizes there make longer"
               : "at edges of the shore, which --coast follow makes as long as the sizes",
+      "at edges of the open boundary, where larger sizes or a larger --size-max help",
       follows ? "where water is narrow, which a larger --channel-min closes"
               : "where water is narrow, which --coast follow closes",
       goal == QualityGoal::Centred

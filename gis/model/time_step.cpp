@@ -28,7 +28,7 @@ double stepOf(double shortest_m, double depth_m) {
   return depth_m > 0.0 ? shortest_m / longWaveSpeed(depth_m) : kInfinity;
 }
 
-// The edges and nodes that the shore or a line keeps in place.
+// The edges and nodes that the boundary or a line keeps in place.
 class HeldEdges {
  public:
   HeldEdges(const Grid& grid, const ItemLoop& loop) : on_shore_(grid.nodes.size(), false) {
@@ -48,7 +48,13 @@ class HeldEdges {
       if (end - i == 1) boundary.push_back(edges_[i]);
     }
     edges_ = std::move(boundary);
-    for (const auto& [a, b] : edges_) on_shore_[a] = on_shore_[b] = true;
+    for (const Boundary& each : grid.boundaries) {
+      if (each.role != BoundaryRole::Open && each.role != BoundaryRole::River) continue;
+      for (const auto& [a, b] : edgesOf(each)) openings_.push_back({std::min(a, b), std::max(a, b)});
+    }
+    std::ranges::sort(openings_);
+    for (const NodePair& edge : edges_)
+      if (!std::ranges::binary_search(openings_, edge)) on_shore_[edge[0]] = on_shore_[edge[1]] = true;
     for (const GridLine& line : grid.lines) {
       for (std::size_t i = 1; i < line.nodes.size() + (line.closed ? 1 : 0); ++i) {
         const std::uint32_t a = line.nodes[i - 1], b = line.nodes[i % line.nodes.size()];
@@ -59,12 +65,14 @@ class HeldEdges {
   }
 
   ShortCause causeOf(std::uint32_t a, std::uint32_t b) const {
-    if (std::ranges::binary_search(edges_, NodePair{std::min(a, b), std::max(a, b)})) return ShortCause::Shore;
+    const NodePair edge{std::min(a, b), std::max(a, b)};
+    if (std::ranges::binary_search(openings_, edge)) return ShortCause::Opening;
+    if (std::ranges::binary_search(edges_, edge)) return ShortCause::Shore;
     return on_shore_[a] && on_shore_[b] ? ShortCause::Narrow : ShortCause::Interior;
   }
 
  private:
-  std::vector<NodePair> edges_;  // the lesser node first
+  std::vector<NodePair> edges_, openings_;  // the lesser node first
   std::vector<bool> on_shore_;
 };
 
@@ -139,7 +147,7 @@ StepReport measureStep(const Grid& grid, const ItemLoop& loop) {
 }
 
 std::string_view toString(ShortCause cause) {
-  constexpr std::array<std::string_view, kShortCauses> kNames{"shore", "narrow", "interior"};
+  constexpr std::array<std::string_view, kShortCauses> kNames{"shore", "opening", "narrow", "interior"};
   return kNames[static_cast<std::size_t>(cause)];
 }
 

@@ -30,11 +30,12 @@ StepReport measureStep(const Grid& grid, const ItemLoop& loop = inOrder);  // th
 
 // The reason why an edge is short.
 enum class ShortCause {
-  Shore,     // an edge of the boundary, or of a line inside the mesh
+  Shore,     // an edge of the shore, or of a line inside the mesh
+  Opening,   // an edge of an open boundary or a river
   Narrow,    // an edge from shore to shore
   Interior,  // sizes or angles nearby
 };
-inline constexpr std::size_t kShortCauses = 3;
+inline constexpr std::size_t kShortCauses = 4;
 std::string_view toString(ShortCause cause);
 
 // A triangle whose Courant number is too large.

@@ -9,7 +9,8 @@ namespace coastmesh {
 struct RepairOptions {
   // Seconds: triangles with a shorter time step (`timeSteps`) are repaired too; 0: none.
   double time_step_s = 0.0;
-  bool shore_moves = false;  // nodes of the shore may slide along it, and be removed
+  // Nodes of the shore, and of straight parts of openings, may slide along them, and be removed.
+  bool shore_moves = false;
   // Degrees: the minimum angle of the mesh, which repairs should keep; 0: unknown.
   double min_angle_deg = 0.0;
   // Degrees: the maximum angle of the mesh. Repairs for the time step, and the final increase of small angles, keep it;

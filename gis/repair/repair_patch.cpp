@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/metric.hpp"
+
 namespace coastmesh {
 namespace {
 
@@ -25,6 +27,16 @@ std::optional<PatchEdge> findSide(const RepairView& view, const GridPatch& patch
 }
 
 bool isShore(const BoundaryKind& kind) { return kind.role == BoundaryRole::Land || kind.role == BoundaryRole::Island; }
+
+// True if the way from `a` by `node` to `b` turns by hardly more than a degree in the grid's CRS, in which sides of the
+// frame are straight.
+bool goesStraight(const RepairView& view, std::uint32_t a, std::uint32_t node, std::uint32_t b) {
+  constexpr double kSineOfTurn = 0.02;
+  const Point &middle = view.grid.nodes[node], &first = view.grid.nodes[a], &last = view.grid.nodes[b];
+  const Point to{middle.x - first.x, middle.y - first.y}, from{last.x - middle.x, last.y - middle.y};
+  return dot(to, from) > 0.0 &&
+         std::abs(cross(to, from)) <= kSineOfTurn * std::hypot(to.x, to.y) * std::hypot(from.x, from.y);
+}
 
 }  // namespace
 
@@ -156,17 +168,17 @@ std::vector<std::uint32_t> boundaryNeighbours(const RepairView& view, std::uint3
   return others;
 }
 
-bool isOnFreeShore(const RepairView& view, std::uint32_t node) {
+bool isOnFreeBoundary(const RepairView& view, std::uint32_t node) {
   const std::vector<std::uint32_t> others = boundaryNeighbours(view, node);
   if (others.size() != 2 || !fixedNeighbours(view, node).empty()) return false;
   const BoundaryKind &one = view.links.kinds.at(edgeKey(node, others[0])),
                      &other = view.links.kinds.at(edgeKey(node, others[1]));
-  return isShore(one) && one == other;
+  return one == other && (isShore(one) || goesStraight(view, others[0], node, others[1]));
 }
 
 bool isMovable(const RepairView& view, std::uint32_t node) {
   if (view.links.isAsked(node)) return false;
-  if (view.links.on_boundary[node]) return view.shores != nullptr && isOnFreeShore(view, node);
+  if (view.links.on_boundary[node]) return view.shores != nullptr && isOnFreeBoundary(view, node);
   return fixedNeighbours(view, node).empty();
 }
 

@@ -59,7 +59,7 @@ struct RepairView {
   // By node of a geographic grid: its place on `shape`; NaN until computed. Valid for nodes of the same triangles.
   std::span<SphereVector> in_space{};
   StepBound step{};
-  const ShoreIndex* shores = nullptr;        // if set, nodes of the shore may move along it, or be removed
+  const ShoreIndex* shores = nullptr;        // if set, nodes may move along the boundary, or be removed
   EarthShape shape = EarthShape::Ellipsoid;  // on which angles are measured
   // Set if a model measures in longitudes and latitudes what lies in a projected CRS; those of nodes as in `in_space`.
   const CrsMap* to_earth = nullptr;
@@ -131,14 +131,15 @@ std::optional<PatchEdit> nodeSplitOf(const RepairView& view, std::uint32_t node,
 // The other ends of a node's edges.
 std::set<std::uint32_t> neighboursOf(const RepairView& view, std::uint32_t node);
 
-// True if the node has exactly two boundary edges, both shore of the same kind, and no edge that must stay.
-bool isOnFreeShore(const RepairView& view, std::uint32_t node);
+// True if the node has exactly two boundary edges, both of the same kind, and no edge that must stay. Those of an
+// opening are in line, as on a side of the frame.
+bool isOnFreeBoundary(const RepairView& view, std::uint32_t node);
 
 // The neighbours of a node along boundary edges.
 std::vector<std::uint32_t> boundaryNeighbours(const RepairView& view, std::uint32_t node);
 
 // True if the node may move: nobody requested it, no edge that must stay ends there, and it is an inner node or on a
-// free shore that may move.
+// free boundary and boundaries may move.
 bool isMovable(const RepairView& view, std::uint32_t node);
 
 // Moves the node `share` of the way towards the midpoint of `a` and `b`, nodes of its ring.

@@ -56,10 +56,14 @@ class Contest {
 constexpr std::array kMoves{0.02, 0.05, 0.1, 0.15, 0.2, 0.3};
 constexpr std::array kFineMoves{0.004, 0.01, 0.02, 0.05, 0.1, 0.2};
 
-// Moves by `shares` of the way towards nodes of the ring and midpoints of consecutive ones; on the shore, along it.
-void forEachMove(const RepairView& view, std::uint32_t node, std::span<const double> shares, auto&& use) {
+void forEachSlide(const RepairView& view, std::uint32_t node, auto&& use) {
   for (const std::uint32_t other : boundaryNeighbours(view, node))
     for (const double share : {0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5}) use(moveOf(view, node, other, other, share));
+}
+
+// Moves by `shares` of the way towards nodes of the ring and midpoints of consecutive ones; on the boundary, along it.
+void forEachMove(const RepairView& view, std::uint32_t node, std::span<const double> shares, auto&& use) {
+  forEachSlide(view, node, use);
   if (view.links.on_boundary[node]) return;
   const std::vector<std::uint32_t> ring = ringRound(view, node);
   for (const double share : shares) {
@@ -112,6 +116,17 @@ std::optional<PatchEdit> bestLengthening(const RepairView& view, std::uint32_t t
         if (const auto edit = collapseOf(view, gone, kept, share)) contest.offer(*edit);
   }
   return contest.take();
+}
+
+std::vector<PatchEdit> harmlessSlides(const RepairView& view, std::uint32_t node, const GridPatch& patch) {
+  const PatchScale scale = scaleOf(view, patch);
+  const ScoreBar bar{
+      .defects = 1, .least_angle_deg = view.step.least_angle_deg, .largest_angle_deg = view.step.largest_angle_deg};
+  std::vector<PatchEdit> slides;
+  forEachSlide(view, node, [&](PatchEdit&& edit) {
+    if (scoreAbove(view, patch, scale, edit, bar) && keepsShores(view, edit)) slides.push_back(std::move(edit));
+  });
+  return slides;
 }
 
 bool mendsByCornersAlone(const RepairView& view, const GridPatch& patch) {

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "gis/repair/repair_patch.hpp"
 
@@ -25,6 +26,10 @@ std::optional<PatchEdit> bestReshaping(const RepairView& view, std::span<const s
 // surrounds the triangles at the movable nodes and at the triangle's corners (`patchRound`).
 std::optional<PatchEdit> bestLengthening(const RepairView& view, std::uint32_t t,
                                          std::span<const std::uint32_t> movable, const GridPatch& patch);
+
+// The moves of a node along the boundary that add no defect and keep the bounds on angles of `StepBound`, or make such
+// angles no worse. None for an inner node. REQUIRES: `patch` surrounds the triangles at the node.
+std::vector<PatchEdit> harmlessSlides(const RepairView& view, std::uint32_t node, const GridPatch& patch);
 
 // True if the triangles at its corners alone decide whether a triangle can be lengthened. False if models limit flow
 // links or valences, shores may move, or a triangle of the patch is clockwise: then other triangles matter too.

@@ -189,9 +189,15 @@ class MovedNodes {
   explicit MovedNodes(RepairState& state) : state_(state) {}
 
   void move(std::uint32_t node, const GridPatch& patch, const PatchEdit& edit) {
-    Grid& grid = state_.grid;
-    moves_.push_back({node, grid.nodes[node], grid.z.empty() ? 0.0 : grid.z[node]});
+    remember(node);
     applyEdit(state_, patch, edit);
+    forgetMeasures(node);
+  }
+
+  // Without marking triangles as changed: for moves that are put back in any case.
+  void tryOut(std::uint32_t node, const PatchEdit& edit) {
+    remember(node);
+    placeNode(state_, edit);
     forgetMeasures(node);
   }
 
@@ -211,6 +217,11 @@ class MovedNodes {
     double z;
   };
 
+  void remember(std::uint32_t node) {
+    const Grid& grid = state_.grid;
+    moves_.push_back({node, grid.nodes[node], grid.z.empty() ? 0.0 : grid.z[node]});
+  }
+
   void forgetMeasures(std::uint32_t node) {
     constexpr double kUnmeasured = std::numeric_limits<double>::quiet_NaN();
     for (const std::uint32_t t : state_.links.triangles_at[node]) state_.smallest_angle[t] = kUnmeasured;
@@ -221,6 +232,32 @@ class MovedNodes {
   RepairState& state_;
   std::vector<Move> moves_;
 };
+
+// For a triangle in a corner of the boundary, both of whose edges there are too short: slides the one's end, then
+// searches for the edit that lengthens the other. Returns whether there is such a pair.
+bool lengthenLegs(RepairState& state, std::uint32_t t, std::span<const std::uint32_t> movable, const GridPatch& patch,
+                  const FoundDefect& found) {
+  for (const std::uint32_t node : movable) {
+    for (const PatchEdit& slide : harmlessSlides(state.view(), node, patch)) {
+      MovedNodes trial(state);
+      trial.tryOut(node, slide);
+      const std::optional<PatchEdit> chosen = bestLengthening(state.view(), t, movable, patch);
+      trial.putBack();
+      if (!chosen) continue;
+      applyEdit(state, patch, slide);
+      applyRepair(state, patch, *chosen, found);
+      return true;
+    }
+  }
+  return false;
+}
+
+bool isInCorner(const RepairState& state, std::uint32_t t) {
+  const GridCorners& v = state.grid.triangles[t];
+  int edges = 0;
+  for (unsigned i = 0; i < 3; ++i) edges += state.links.kinds.contains(edgeKey(v[i], v[next3(i)]));
+  return edges == 2;
+}
 
 }  // namespace
 
@@ -271,6 +308,7 @@ void lengthenEdges(RepairState& state, const FoundDefect& found) {
   if (!patch) return;
   const std::optional<PatchEdit> chosen = bestLengthening(state.view(), t, movable, *patch);
   if (chosen) applyRepair(state, *patch, *chosen, found);
+  if (!chosen && isInCorner(state, t) && lengthenLegs(state, t, movable, *patch, found)) return;
   state.hopeless_triangles[t] = !chosen;
   state.stuck[t] = !chosen && mendsByCornersAlone(state.view(), *patch);
 }

@@ -13,6 +13,7 @@
 
 #include "gis/size/size_source.hpp"
 #include "tests/gis/grid_samples.hpp"
+#include "tests/gis/model/target_samples.hpp"
 
 namespace coastmesh {
 namespace {
@@ -104,6 +105,20 @@ TEST(TimeStep, AnEdgeFromShoreToShoreIsNarrow) {
   const std::vector<ShortEdge> edges = edgesBelow(grid, 1.1);
   EXPECT_EQ(std::ranges::count(edges, ShortCause::Narrow, &ShortEdge::cause), 2);
   EXPECT_EQ(std::ranges::count(edges, ShortCause::Shore, &ShortEdge::cause), 8);
+}
+
+TEST(TimeStep, AnEdgeOfAnOpeningIsNoShore) {
+  Grid grid = testing::openGrid();
+  const auto countOf = [&grid](ShortCause cause) {
+    return std::ranges::count(edgesBelow(grid, 1e6), cause, &ShortEdge::cause);
+  };
+  const auto opening = countOf(ShortCause::Opening), shore = countOf(ShortCause::Shore);
+  EXPECT_GT(opening, 4);
+  const auto narrow = countOf(ShortCause::Narrow);
+  for (Boundary& boundary : grid.boundaries) boundary.role = BoundaryRole::Land;
+  EXPECT_EQ(countOf(ShortCause::Shore), shore + opening);
+  EXPECT_GE(countOf(ShortCause::Narrow), narrow);
+  EXPECT_EQ(countOf(ShortCause::Opening), 0);
 }
 
 // Beside a cliff of 2000 m, sizes on the shelf must grow before the cliff is reached.
