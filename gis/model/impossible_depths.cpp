@@ -1,5 +1,6 @@
 #include "gis/model/impossible_depths.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -8,17 +9,16 @@
 namespace coastmesh {
 
 std::optional<ImpossibleDepths> impossibleDepths(const Grid& grid) {
-  // The deepest place of the sea is 10.9 km deep, the highest mountain 8.8 km high; exactly 9999 means no value.
-  constexpr double kDeepest = -12'000.0, kHighest = 9'000.0, kMark = 9'999.0;
-  std::optional<ImpossibleDepths> found;
-  for (std::size_t i = 0; i < grid.z.size(); ++i) {
-    const double z = grid.z[i];
-    if (!(z < kDeepest || z > kHighest || std::abs(z) == kMark)) continue;
-    if (!found) found = ImpossibleDepths{0, i};
-    ++found->nodes;
-    if (std::abs(z) > std::abs(grid.z[found->worst])) found->worst = i;
-  }
-  return found;
+  // The deepest place of the sea is 10.9 km deep, the highest mountain 8.8 km high.
+  constexpr double kDeepest = -12'000.0, kHighest = 9'000.0;
+  const auto isImpossible = [](double z) { return z < kDeepest || z > kHighest; };
+  const auto count = static_cast<std::size_t>(std::ranges::count_if(grid.z, isImpossible));
+  if (count == 0) return std::nullopt;
+  const auto worst = std::ranges::max_element(grid.z, [](double a, double b) {
+    const auto size = [](double z) { return std::isnan(z) ? 0.0 : std::abs(z); };
+    return size(a) < size(b);
+  });
+  return ImpossibleDepths{count, static_cast<std::size_t>(worst - grid.z.begin())};
 }
 
 std::string textOf(const ImpossibleDepths& found, const Grid& grid) {

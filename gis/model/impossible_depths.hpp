@@ -8,8 +8,7 @@
 
 namespace coastmesh {
 
-// Nodes deeper or higher, in metres, than any place on Earth, or at exactly ±9999: probably no-data values that are not
-// declared.
+// Nodes deeper or higher, in metres, than any place on Earth: probably no-data values that are not declared.
 struct ImpossibleDepths {
   std::size_t nodes = 0;
   std::size_t worst = 0;  // the index of the most extreme node
