@@ -106,17 +106,11 @@ void DepthGaps::build(const SizeField& known, const DomainMask& mask, double lea
       leaf.gap = is_gap;
       leaf.dry = share < 1.0 - kAllWater;
       leaf.scale = scale;
+      leaf.water = is_gap ? share : 0.0;
+      leaf.middle = box.centre;
       gap_leaves_ += is_gap && !leaf.dry ? 1 : 0;
     }
     level = std::move(next);
-  }
-  double largest = 0.0;
-  for (const Leaf& leaf : leaves_) {
-    const double side_m = 2.0 * leaf.box.half / leaf.scale;
-    area_m2_ += (leaf.gap ? 1.0 : 0.5) * side_m * side_m * mask.share(leaf.box);
-    if (!leaf.gap || !(leaf.box.half > largest)) continue;
-    largest = leaf.box.half;
-    place_ = leaf.box.centre;
   }
 }
 
@@ -138,7 +132,8 @@ void DepthGaps::forEachLeaf(const Point& low, const Point& high, const Visit& vi
   }
 }
 
-void DepthGaps::fillParts(const SizeField& known, const std::function<double(double)>& depth_of, const ItemLoop& loop) {
+void DepthGaps::fillParts(const SizeField& known, const DomainMask& mask, const std::function<double(double)>& depth_of,
+                          const ItemLoop& loop) {
   forStretches(loop, leaves_.size(), [&](std::size_t first, std::size_t last) {
     std::vector<Point> places;
     std::vector<double> sizes;
@@ -152,16 +147,45 @@ void DepthGaps::fillParts(const SizeField& known, const std::function<double(dou
                          Point{(k % kProbes + 0.5) * step - leaf.box.half, (k / kProbes + 0.5) * step - leaf.box.half});
       sizes.resize(places.size());
       known.sample(places, sizes);
-      double sum = 0.0;
+      double sum = 0.0, wettest = 0.0;
       int count = 0;
-      for (const double size : sizes) {
-        if (!std::isfinite(size)) continue;
-        sum += depth_of(size);
-        ++count;
+      for (std::size_t k = 0; k < sizes.size(); ++k) {
+        if (std::isfinite(sizes[k])) {
+          sum += depth_of(sizes[k]);
+          ++count;
+          continue;
+        }
+        const double share = mask.share({places[k], leaf.box.half / kProbes});
+        leaf.water += share / (kProbes * kProbes);
+        if (share <= wettest) continue;
+        wettest = share;
+        leaf.middle = places[k];
       }
       if (count > 0) leaf.depth_m = leaf.least_m = leaf.most_m = sum / count;
     }
   });
+}
+
+void DepthGaps::measureWater(const DomainMask& mask) {
+  const Leaf* wettest = nullptr;
+  double most_m2 = 0.0;
+  for (const Leaf& leaf : leaves_) {
+    const double side_m = 2.0 * leaf.box.half / leaf.scale, water_m2 = side_m * side_m * leaf.water;
+    area_m2_ += water_m2;
+    if (water_m2 <= most_m2) continue;
+    most_m2 = water_m2;
+    wettest = &leaf;
+  }
+  if (wettest == nullptr) return;
+  place_ = wettest->middle;
+  // The centre of a square that a shore crosses may be land: its wettest quarter, and the wettest quarter of that.
+  SizeBox box = wettest->box;
+  for (int level = 0; level < 2 && wettest->gap && mask.share(box) < kAllWater; ++level) {
+    std::array<SizeBox, 4> quarters;
+    for (unsigned c = 0; c < 4; ++c) quarters[c] = childOf(box, c);
+    box = *std::ranges::max_element(quarters, {}, [&mask](const SizeBox& quarter) { return mask.share(quarter); });
+    place_ = box.centre;
+  }
 }
 
 std::vector<DepthGaps::Side> DepthGaps::sides() const {
@@ -363,9 +387,10 @@ void DepthGaps::fillDry(const std::vector<Side>& sides) {
   }
 }
 
-void DepthGaps::fill(const SizeField& known, const std::function<double(double)>& depth_of, GapFill fill,
-                     const ItemLoop& loop) {
-  fillParts(known, depth_of, loop);
+void DepthGaps::fill(const SizeField& known, const DomainMask& mask, const std::function<double(double)>& depth_of,
+                     GapFill fill, const ItemLoop& loop) {
+  fillParts(known, mask, depth_of, loop);
+  measureWater(mask);
   std::vector<Side> all = sides(), met;
   fixSides(known, depth_of, all, loop);
   for (const Side& side : all)

@@ -29,11 +29,12 @@ class DepthGaps {
   // True if there are gaps.
   bool any() const { return gap_leaves_ > 0; }
   // Fills the gaps. `depth_of` converts sizes of `known` to depths, metres, above 0. `known` has values at the same
-  // places as the constructor's field. REQUIRES: `fill` is not None.
-  void fill(const SizeField& known, const std::function<double(double)>& depth_of, GapFill fill, const ItemLoop& loop);
+  // places as the constructor's field; `mask` is the constructor's. REQUIRES: `fill` is not None.
+  void fill(const SizeField& known, const DomainMask& mask, const std::function<double(double)>& depth_of, GapFill fill,
+            const ItemLoop& loop);
 
-  // The approximate area of the gaps' water, square metres; squares at edges count half. And the centre of the largest
-  // square.
+  // The approximate area of the gaps' water, square metres, and a place in the square with the most of it. Known once
+  // they are filled.
   double area() const { return area_m2_; }
   Point place() const { return place_; }
 
@@ -63,13 +64,17 @@ class DepthGaps {
     Point gradient;  // metres per plane length
     double least_m = 0.0, most_m = 0.0;
     double scale = 1.0;
+    double water = 0.0;  // the share that is water without a depth
+    Point middle;        // in that water
 
     double at(const Point& place) const;
   };
   struct Side;
 
   void build(const SizeField& known, const DomainMask& mask, double least_m, const ItemLoop& loop);
-  void fillParts(const SizeField& known, const std::function<double(double)>& depth_of, const ItemLoop& loop);
+  void fillParts(const SizeField& known, const DomainMask& mask, const std::function<double(double)>& depth_of,
+                 const ItemLoop& loop);
+  void measureWater(const DomainMask& mask);
   std::vector<Side> sides() const;
   void fixSides(const SizeField& known, const std::function<double(double)>& depth_of, std::vector<Side>& sides,
                 const ItemLoop& loop) const;

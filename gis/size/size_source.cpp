@@ -326,8 +326,8 @@ DepthSizes sizesOfDepths(const SizeOptions& options, const SizeInputs& inputs, c
     if (!has_step && !by_parts) again = std::move(read({telling}).front());
     const SizeField& known = again ? *again : *fields.back();
     gaps->fill(
-        known, [&](double size_m) { return depthOfStep(size_m, telling.time_step_s, telling.courant); }, options.gaps,
-        loop);
+        known, mask, [&](double size_m) { return depthOfStep(size_m, telling.time_step_s, telling.courant); },
+        options.gaps, loop);
     sizes.filled = {gaps->area(), domain.projection.inverse(gaps->place())};
     for (std::size_t f = 0; f < of_depths.size(); ++f)
       fields[f] = std::make_unique<FilledField>(std::move(fields[f]), gaps, of_depths[f]);

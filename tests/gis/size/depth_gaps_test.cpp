@@ -146,8 +146,27 @@ std::unique_ptr<DepthGaps> gapsOf(const Pslg& pslg, double side, const KnownIn& 
   const DomainMask mask(pslg, root);
   auto gaps = std::make_unique<DepthGaps>(
       known, mask, root, side / 200.0, [](const Point&) { return 1.0; }, loop);
-  if (gaps->any()) gaps->fill(known, depthOf, fill, loop);
+  if (gaps->any()) gaps->fill(known, mask, depthOf, fill, loop);
   return gaps;
+}
+
+// A raster that ends at the sides of the water, as one cut to the frame does, has a depth for all of it.
+TEST(DepthGaps, WaterUpToTheEndOfTheRasterIsNone) {
+  for (const bool has_gap : {false, true}) {
+    const auto isGap = [has_gap](const Point& p) { return has_gap && p.x > 7000 && p.y > 6000; };
+    const KnownIn known([&](const Point& p) {
+      return p.x < 0 || p.x > 10000 || p.y < 0 || p.y > 10000 || isGap(p) ? std::nan("") : 100.0;
+    });
+    const Pslg square = rectangle(10000.0, 10000.0);
+    // Squares of the quadtree do not end at the sides.
+    const SizeBox root{{5000.0, 5000.0}, 5900.0};
+    const DomainMask mask(square, root);
+    DepthGaps gaps(
+        known, mask, root, 1000.0, [](const Point&) { return 1.0; }, inOrder);
+    gaps.fill(known, mask, depthOf, GapFill::Mean, inOrder);
+    EXPECT_NEAR(gaps.area(), has_gap ? 3000.0 * 4000.0 : 0.0, 1e6) << has_gap;
+    if (has_gap) EXPECT_TRUE(isGap(gaps.place())) << gaps.place().x << ", " << gaps.place().y;
+  }
 }
 
 TEST(DepthGaps, AMembraneIsEvenBetweenEvenEdges) {
