@@ -153,13 +153,27 @@ std::string gapWarning(const Grid& grid, const DepthOptions& options) {
 // A warning about numbers that mean no value in a raster that does not declare them; empty if there are none.
 std::string impossibleWarning(const Grid& grid, const DepthOptions& options) {
   if (grid.crs.isPlane()) return {};
-  const std::optional<ImpossibleDepths> found = impossibleDepths(grid);
-  if (!found) return {};
-  const double raised = grid.z[found->worst] + options.water_level_m;
-  char text[120];
-  std::snprintf(text, sizeof text, "gdal_translate -a_nodata %.10g", options.positive_down ? 0.0 - raised : raised);
-  return textOf(*found, grid) + ": where a raster has such a value for places without one, it has to say so (" + text +
-         "); nodes near to one lie between it and depths";
+  const auto valueOf = [&options](double z) {
+    const double raised = z + options.water_level_m;
+    return options.positive_down ? 0.0 - raised : raised;
+  };
+  const auto remedy = [](double value) {
+    char text[120];
+    std::snprintf(text, sizeof text, "gdal_translate -a_nodata %.10g", value);
+    return ": where a raster has such a value for places without one, it has to say so (" + std::string(text) +
+           "); nodes near to one lie between it and depths";
+  };
+  if (const std::optional<ImpossibleDepths> found = impossibleDepths(grid))
+    return textOf(*found, grid) + remedy(valueOf(grid.z[found->worst]));
+  // The usual value for places without one: as deep as a trench, but hardly ever measured to the millimetre.
+  constexpr double kUsual = -9999.0, kRounding = 1e-6;
+  const auto isUsual = [&](double z) { return std::abs(valueOf(z) - kUsual) < kRounding; };
+  const auto first = std::ranges::find_if(grid.z, isUsual);
+  if (first == grid.z.end()) return {};
+  const auto count = static_cast<std::size_t>(std::ranges::count_if(grid.z, isUsual));
+  return std::to_string(count) + " of " + std::to_string(grid.z.size()) + " nodes" + forCount(count, " has", " have") +
+         " the value -9999, which often means none, the first at (" +
+         roughPlaceInWords(grid.nodes[static_cast<std::size_t>(first - grid.z.begin())]) + ")" + remedy(kUsual);
 }
 
 // A warning about waters in which no raster has any value.

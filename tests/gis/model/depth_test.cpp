@@ -1,6 +1,7 @@
 // Depths at nodes from rasters whose values are known functions of the place.
 #include "gis/model/depth.hpp"
 
+#include <gdal.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -101,7 +102,11 @@ TEST_F(Depth, ThatEarthDoesNotHaveAreWarnedOf) {
   const auto warningsOf = [&](double value, bool positive_down) {
     Grid grid = squares("EPSG:4326", {10.03, 50.07}, 0.31, 7, 5);
     const auto odd = [&](double x, double y) { return std::hypot(x - 11.0, y - 51.0) < 0.3 ? value : -20.0; };
-    DepthOptions options{{raster("dem.tif", "EPSG:4326", {40, 40, 9.0, 53.0, 0.1}, odd)}, DepthMethod::Bilinear};
+    const std::string path = raster("dem.tif", "EPSG:4326", {40, 40, 9.0, 53.0, 0.1}, odd);
+    const GDALDatasetH dataset = GDALOpen(path.c_str(), GA_Update);
+    EXPECT_EQ(GDALDeleteRasterNoDataValue(GDALGetRasterBand(dataset, 1)), CE_None);
+    GDALClose(dataset);
+    DepthOptions options{{path}, DepthMethod::Bilinear};
     options.positive_down = positive_down;
     std::string all;
     for (const std::string& warning : setDepths(grid, options).warnings) all += warning;
@@ -110,6 +115,10 @@ TEST_F(Depth, ThatEarthDoesNotHaveAreWarnedOf) {
   EXPECT_NE(warningsOf(-32767.0, false).find("gdal_translate -a_nodata -32767)"), std::string::npos);
   EXPECT_NE(warningsOf(-32767.0, false).find("such as 32767 m at ("), std::string::npos);
   EXPECT_NE(warningsOf(99999.0, true).find("gdal_translate -a_nodata 99999)"), std::string::npos);
+  EXPECT_NE(warningsOf(-9999.0, false).find("the value -9999, which often means none, the first at ("),
+            std::string::npos);
+  EXPECT_NE(warningsOf(-9999.0, false).find("gdal_translate -a_nodata -9999)"), std::string::npos);
+  EXPECT_EQ(warningsOf(-9998.0, false), "");
   EXPECT_EQ(warningsOf(-10900.0, false), "");
   EXPECT_EQ(warningsOf(8848.0, false), "");
 }
