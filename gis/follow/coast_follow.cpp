@@ -26,6 +26,7 @@
 #include "gis/shore/shore_mend.hpp"
 #include "gis/shore/shore_shift.hpp"
 #include "gis/shore/shore_thin.hpp"
+#include "gis/shore/water_width.hpp"
 
 namespace coastmesh {
 
@@ -44,6 +45,7 @@ void addGain(const ShoreChains& chains, VertexId v, const Point* x, const ScaleT
 // Calls `thinShores`. `before`: sizes of an earlier thinning, or null.
 void thin(ShoreChains& chains, const ShoreSizes& sizes, const BoxTree& lines, const FollowOptions& options,
           const SizeFunction* before, const EditLog& log, WaterAreas& gained, const ItemLoop& loop) {
+  limitToSmallWaters(chains);
   const auto dropped = [&](VertexId v, double area) {
     const double scale = sizes.scale.at(chains.at[v]);
     log.add(EditKind::SmallIsland, chains, v);
@@ -172,6 +174,7 @@ Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOpti
   ShoreChains chains = chainsOf(std::move(graph), size, loop, even);
   keepAsked(chains, asked.sources());
   dropSamples(chains);
+  limitToNarrowWaters(chains);
   const ShoreLoss gone = [&](VertexId v) {
     log.add(EditKind::SimplifiedPoint, chains, v);
     addGain(chains, v, nullptr, scales, opened.gained);
@@ -219,6 +222,7 @@ Domain coarsenFurther(Domain&& domain, const SizeFunction& size, const Coastline
   const SizesInPlane in_plane(size, domain);
   ShoreChains chains = chainsOf(takeGraph(domain), in_plane.get());
   keepAsked(chains, domain.asked);
+  limitToNarrowWaters(chains);
   const EditLog log{domain, coastline, report};
   const ShoreLoss gone = [&](VertexId v) { log.add(EditKind::SimplifiedPoint, chains, v); };
   const ShoreMove moved = [&](VertexId v, const Point&) { log.add(EditKind::MovedPoint, chains, v); };

@@ -11,6 +11,7 @@
 #include "gis/shore/shore_chains.hpp"
 #include "gis/shore/shore_mend.hpp"
 #include "gis/shore/shore_shift.hpp"
+#include "gis/shore/water_width.hpp"
 
 namespace coastmesh {
 
@@ -45,6 +46,7 @@ Domain lengthenShores(Domain&& domain, const EdgeWishes& wishes, const SizeFunct
   ShoreChains chains = chainsOf(takeGraph(domain), in_plane.get(), loop);
   keepAsked(chains, domain.asked);
   for (const Point& p : chains.at) chains.least.push_back(wishes.least_m * scales.at(p));
+  limitToNarrowWaters(chains);
   chains.no_square_ends = wishes.no_square_ends;
   const EditLog log{domain, coastline, report};
   WaterAreas areas = areasOf(chains, scales), missing;

@@ -31,7 +31,10 @@ OpenedShores openShores(const ShoreStart& start, const ShoreSizes& sizes, const 
   };
   opened.after = start.triangles;
   ShoreTriangles& triangles = opened.after;
-  openLand(triangles, sizes, guides, first * options.land_min, edit, opened.gained, opened.spits);
+  const double least = options.channel_min > 0.0 ? std::min(options.channel_min, 1.0) : 1.0;
+  opened.too_small = isNarrowEverywhere(triangles, sizes, guides, least);
+  if (!opened.too_small)
+    openLand(triangles, sizes, guides, first * options.land_min, edit, opened.gained, opened.spits);
   opened.gained_before = opened.gained;
   opened.edits_before = opened.edits.size();
   opened.spits_before = opened.spits.size();

@@ -99,8 +99,7 @@ class Opening {
     bool any_wide = false;
     for (TriId t = 0; t < is_narrow.size(); ++t) {
       if (isLand(t)) continue;
-      is_narrow[t] = t_.width[t] < narrowest && !hasOffShore(t_, t) && !allOpen(t) &&
-                     (!isAt(passages_, t, kPassage * t_.size[t]) || isAt(barriers_, t, kPassage * t_.size[t]));
+      is_narrow[t] = isNarrow(t, narrowest);
       any_wide = any_wide || is_narrow[t] == 0;
     }
     const auto narrow = [&](TriId t) { return is_narrow[t] != 0; };
@@ -117,6 +116,12 @@ class Opening {
     }
     parts_ = patchesOf(mesh(), [&](TriId t) { return !isLand(t); }).triangles;
     closeSmall();
+  }
+
+  bool isNarrowEverywhere(double narrowest) const {
+    for (TriId t = 0; t < mesh().triangles.size(); ++t)
+      if (!isLand(t) && !isNarrow(t, narrowest)) return false;
+    return true;
   }
 
   // Applies to what `openWater` left, for each water separately.
@@ -155,6 +160,11 @@ class Opening {
 
   const TriMesh& mesh() const { return t_.mesh; }
   bool isLand(TriId t) const { return mesh().regions[t] == t_.land; }
+  // True if this triangle of the water may be closed.
+  bool isNarrow(TriId t, double narrowest) const {
+    return t_.width[t] < narrowest && !hasOffShore(t_, t) && !allOpen(t) &&
+           (!isAt(passages_, t, kPassage * t_.size[t]) || isAt(barriers_, t, kPassage * t_.size[t]));
+  }
   std::uint8_t usesOf(TriId t) const {
     const auto& v = mesh().triangles[t].v;
     return t_.use[v[0]] | t_.use[v[1]] | t_.use[v[2]];
@@ -381,6 +391,13 @@ ConnectedRegions connectedRegions(const ShoreTriangles& triangles) {
   for (std::uint32_t r = 0; r < static_cast<std::uint32_t>(triangles.land); ++r)
     first.push_back(static_cast<RegionId>(sets.find(r)));
   return first;
+}
+
+bool isNarrowEverywhere(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides,
+                        double narrowest) {
+  const ShoreEdit none;
+  WaterAreas gained;
+  return Opening(triangles, sizes, guides, none, gained).isNarrowEverywhere(narrowest);
 }
 
 OpenedWater openWater(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,

@@ -41,6 +41,11 @@ struct WaterPart {
   std::vector<TriId> triangles;  // before settling
 };
 
+// True if no triangle of the water is `narrowest` times the size wide, or stays for another reason: `openWater` then
+// closes nothing.
+bool isNarrowEverywhere(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides,
+                        double narrowest);
+
 struct OpenedWater {
   std::vector<WaterPart> waters;
   WaterAreas areas;

@@ -79,6 +79,17 @@ std::string noteOnJoined(const FollowedWaters& waters) {
   return note + "; a larger --strait-min closes them";
 }
 
+// `least`: the least width, in elements, of what is removed to the benefit of what is meshed, or of this.
+std::string whatChangesArea(bool is_more, double least, bool of_land) {
+  if (is_more && least == 0.0)
+    return of_land ? "water smaller than an element is filled, and land narrower than one is widened"
+                   : "islands smaller than an element are removed, and water narrower than one is widened";
+  return (is_more != of_land ? "land narrower than " : "water narrower than ") +
+         (least > 1.0 ? formatted("%.3g elements", least) : "an element") +
+         (is_more ? (of_land ? " that ends in land is filled" : " that ends in water is removed")
+                  : (of_land ? " is removed" : " is closed"));
+}
+
 double leftOut(const FollowedWaters& waters, const FollowOptions& options) {
   return options.keep == KeepWater::All ? 0.0 : waters.cut_off.area_m2;
 }
@@ -107,12 +118,9 @@ std::string warningOfArea(const FollowedWaters& waters, const FollowOptions& opt
   if (!(std::abs(gained) > kWarned * waters.area_m2)) return {};
   const bool is_more = gained > 0.0;
   const double least = is_more ? options.land_min : options.channel_min;
-  const std::string narrow = is_more != options.of_land ? "land" : "water";
   std::string text = whatIsMeshed(options) + " has " + areaText(std::abs(gained), waters) +
-                     (is_more ? " more" : " less") + " area than in the input: " + narrow + " narrower than " +
-                     (least > 1.0 ? formatted("%.3g elements", least) : "an element") +
-                     (is_more ? " that ends in " + std::string(options.of_land ? "land is filled" : "water is removed")
-                              : std::string(" is ") + (options.of_land ? "removed" : "closed")) +
+                     (is_more ? " more" : " less") +
+                     " area than in the input: " + whatChangesArea(is_more, least, options.of_land) +
                      "; smaller sizes (--size-shore, --size-max)";
   if (least > 0.0) text += is_more ? " or a smaller --land-min" : " or a smaller --channel-min";
   return text + " keep more of it";

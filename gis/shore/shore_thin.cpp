@@ -109,7 +109,7 @@ class Thinner {
     const std::uint32_t most = std::max(1u, (stretch.last - stretch.first) / 3);
     for (std::uint32_t i = stretch.first; i < stretch.last;) {
       const Point& a = at(i);
-      const double size = sizeAt(i), before = sizeBefore(i), off = kMoved * (size - before);
+      const double size = sizeAt(i), before = sizeBefore(i), off = kMoved * std::max(0.0, size - before);
       const double longest = size >= kMuchMore * before ? kLongest * size : 0.0;
       std::uint32_t end = i + 1;
       double farthest = 0.0;

@@ -54,6 +54,9 @@ TEST(WaterNotes, AreasThatChangeByMoreThanTwoPercentAreWarnedOf) {
   EXPECT_EQ(warningOfArea(waters, {.land_min = 5.0}, 1.03e10),
             "the water has 300 km² (3 %) more area than in the input: land narrower than 5 elements that ends in water "
             "is removed; smaller sizes (--size-shore, --size-max) or a smaller --land-min keep more of it");
+  EXPECT_EQ(warningOfArea(waters, {.land_min = 0.0}, 1.03e10),
+            "the water has 300 km² (3 %) more area than in the input: islands smaller than an element are removed, and "
+            "water narrower than one is widened; smaller sizes (--size-shore, --size-max) keep more of it");
   EXPECT_EQ(warningOfArea(waters, {.channel_min = 0.0, .of_land = true}, 9e9),
             "the land has 1000 km² (10 %) less area than in the input: land narrower than an element is removed; "
             "smaller sizes (--size-shore, --size-max) keep more of it");
