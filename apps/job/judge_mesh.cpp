@@ -31,6 +31,29 @@ MeshJudgement judgeMesh(const TriMesh& mesh, const WorkingPlane& plane, const Re
   return result;
 }
 
+bool replaceAngles(std::span<const std::array<double, 3>> before, std::span<const std::array<double, 3>> after,
+                   double slack_deg, MeshQuality& quality) {
+  for (const auto& angles : before)
+    for (const double angle : angles)
+      if (angle <= quality.min_angle_deg + slack_deg || angle >= quality.max_angle_deg - slack_deg) return false;
+  const auto countOf = [&](double angle_deg) -> std::uint64_t& {
+    auto& counts = quality.angle_histogram;
+    const auto at = static_cast<std::size_t>(angle_deg / 180.0 * static_cast<double>(counts.size()));
+    return counts[std::min(at, counts.size() - 1)];
+  };
+  for (const auto& angles : before)
+    for (const double angle : angles)
+      if (std::uint64_t& count = countOf(angle); count > 0) --count;
+  for (const auto& angles : after) {
+    for (const double angle : angles) {
+      ++countOf(angle);
+      quality.min_angle_deg = std::min(quality.min_angle_deg, angle);
+      quality.max_angle_deg = std::max(quality.max_angle_deg, angle);
+    }
+  }
+  return true;
+}
+
 std::vector<std::vector<std::uint32_t>> trianglesOfGroups(const Grid& grid, const std::vector<MergedGroup>& groups) {
   std::vector<std::vector<std::uint32_t>> triangles(groups.size());
   for (std::uint32_t t = 0; t < grid.triangles.size(); ++t) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -33,6 +34,12 @@ struct MeshJudgement {
 // `slack_deg` as in `judgeFinished`; `places`: the mesh's points in space, empty if the plane is the surface.
 MeshJudgement judgeMesh(const TriMesh& mesh, const WorkingPlane& plane, const RefineOptions& options, double slack_deg,
                         std::span<const SpacePoint> places, const ItemLoop& loop = inOrder);
+
+// Replaces the angles of some triangles, which may be measured a little differently, by up to `slack_deg`. Returns
+// false, and changes nothing, if the smallest or the largest angle of all may be one of them: all have to be measured
+// then.
+bool replaceAngles(std::span<const std::array<double, 3>> before, std::span<const std::array<double, 3>> after,
+                   double slack_deg, MeshQuality& quality);
 
 // A group in a grid of several groups, one after another, with its first feature there. Its projection is fitted again
 // when needed: most runs never need it, and some have a million groups.

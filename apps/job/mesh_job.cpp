@@ -395,24 +395,16 @@ bool isMeasuredOnEarth(const MeshJobResult& result) {
   return std::ranges::any_of(result.surfaces, [](const auto& each) { return each.first != SurfaceKind::Plane; });
 }
 
-// Adds a note on triangles that met the bound when they were measured, but miss it in the file.
-void noteFallenShort(const FrameMoves& moves, double min_angle_deg, MeshJobResult& result) {
-  if (moves.fell_short.empty()) return;
-  double worst = 180.0;
-  Point where;
-  for (const std::uint32_t t : moves.fell_short) {
-    const std::vector<Point> p = localPlane(result.grid, result.grid.triangles[t]);
-    const double least = leastAngleDeg(p[0], p[1], p[2]);
-    if (least >= worst) continue;
-    worst = least;
-    where = middleOf(result.grid, t);
-  }
-  std::ostringstream text;
-  text << std::setprecision(4) << moves.fell_short.size()
-       << forCount(moves.fell_short.size(), " triangle at the frame is", " triangles at the frame are") << " short of "
-       << min_angle_deg << " degrees in the file, the worst with " << worst << " at " << placeInWords(where)
-       << ": their nodes were moved onto the box";
-  result.read.notes.push_back(text.str());
+// Moves nodes onto the box of a frame. The result then describes what is written.
+void keepInBox(const MeshJob& job, const JobInput& input, const std::vector<MergedGroup>& groups, const ItemLoop& loop,
+               MeshJobResult& result) {
+  const AngleBounds bounds{job.mesh.refine.min_angle_deg, job.mesh.refine.max_angle_deg};
+  const FrameMoves moves = keepInFrame(result.grid, input.coastline(), bounds, loop);
+  if (moves.nodes == 0) return;
+  // In the plane, few triangles have changed: measuring all would take as long as making a mesh with large sizes.
+  if (isMeasuredOnEarth(result) ||
+      !replaceAngles(moves.angles_before, moves.angles_after, kAngleSlackDeg, result.quality))
+    measureAgain(job, input, groups, false, result);
 }
 
 // For all groups together: shares are of all water that is meshed.
@@ -536,15 +528,7 @@ MeshJobResult runOnThreads(const MeshJob& given, const JobControl& control) {
   result.grid.crs = result.crs;
   Recorder recorder;
   const ItemLoop loop = recorder.loop("grid", RunControl{control.cancelled, {}});
-  const FrameMoves moves =
-      input.isPoly() ? FrameMoves{} : keepInFrame(result.grid, input.coastline(), job.mesh.refine.min_angle_deg, loop);
-  // If angles are measured on the Earth, those of moved nodes are measured again; in the plane, the mesh as it was made
-  // counts, and triangles that now fall short are noted.
-  if (moves.nodes > 0 && isMeasuredOnEarth(result)) {
-    measureAgain(job, input, merged, false, result);
-  } else {
-    noteFallenShort(moves, job.mesh.refine.min_angle_deg, result);
-  }
+  if (!input.isPoly()) keepInBox(job, input, merged, loop, result);
   result.mesh_area_m2 = std::accumulate(result.grid.area_m2.begin(), result.grid.area_m2.end(), 0.0);
   if (job.sizes.coast == CoastDetail::Follow) noteFollowed(job, result);
   if (!given.sizes.choose) noteRaisedShore(result);

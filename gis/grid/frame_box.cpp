@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "core/quality.hpp"
@@ -13,80 +14,133 @@
 
 namespace coastmesh {
 
-FrameMoves keepInFrame(Grid& grid, const Coastline& coastline, double min_angle_deg, const ItemLoop& loop) {
-  if (!coastline.framed_by_box) return {};
-  Box box;
-  bool in_parts = false;
-  for (const Feature& feature : coastline.features) {
-    if (feature.use != FeatureUse::Frame) continue;
-    box.add(boundsOf(feature));
-    in_parts = in_parts || feature.polygons.size() > 1;
+namespace {
+
+class FrameBox {
+ public:
+  explicit FrameBox(const Coastline& coastline) {
+    for (const Feature& feature : coastline.features) {
+      if (feature.use != FeatureUse::Frame) continue;
+      box_.add(boundsOf(feature));
+      in_parts_ = in_parts_ || feature.polygons.size() > 1;
+    }
   }
-  const auto inBox = [&](const Point& p) {
-    return Point{in_parts ? p.x : std::clamp(p.x, box.xmin, box.xmax), std::clamp(p.y, box.ymin, box.ymax)};
-  };
-  const std::vector<std::uint32_t> outside =
-      joined(overStretches(loop, grid.nodes.size(), [&](std::size_t first, std::size_t last) {
-        std::vector<std::uint32_t> some;
-        for (std::size_t n = first; n < last; ++n)
-          if (!(inBox(grid.nodes[n]) == grid.nodes[n])) some.push_back(static_cast<std::uint32_t>(n));
-        return some;
-      }));
-  if (outside.empty()) return {};
-  std::vector<std::uint8_t> moves(grid.nodes.size(), 0);
-  for (const std::uint32_t n : outside) moves[n] = 1;
-  const std::vector<std::size_t> changed =  // triangles
-      joined(overStretches(loop, grid.triangles.size(), [&](std::size_t first, std::size_t last) {
-        std::vector<std::size_t> some;
-        for (std::size_t t = first; t < last; ++t)
-          if (std::ranges::any_of(grid.triangles[t], [&](std::uint32_t n) { return moves[n] != 0; })) some.push_back(t);
-        return some;
-      }));
-  const auto isShort = [&](std::size_t t) {
-    const std::vector<Point> p = localPlane(grid, grid.triangles[t]);
-    return leastAngleDeg(p[0], p[1], p[2]) < min_angle_deg - kAngleSlackDeg;
-  };
-  const auto isTurned = [&](std::size_t t) {
-    const auto& [a, b, c] = grid.triangles[t];
-    return orientationOnGround(grid.nodes[a], grid.nodes[b], grid.nodes[c], grid.crs) <= 0;
-  };
-  std::vector<std::uint8_t> was_short;  // a flag for each of `changed`
-  for (const std::size_t t : changed) was_short.push_back(isShort(t));
-  std::vector<Point> before;
-  for (const std::uint32_t n : outside) {
-    before.push_back(grid.nodes[n]);
-    grid.nodes[n] = inBox(grid.nodes[n]);
+
+  Point nearest(const Point& p) const {
+    return {in_parts_ ? p.x : std::clamp(p.x, box_.xmin, box_.xmax), std::clamp(p.y, box_.ymin, box_.ymax)};
   }
-  // Nodes that are put back may invert triangles checked before. Each node is put back at most once.
-  for (bool again = true; again;) {
-    again = false;
-    for (const std::size_t t : changed) {
-      if (!isTurned(t)) continue;
-      for (const std::uint32_t n : grid.triangles[t]) {
-        if (moves[n] == 0) continue;
-        const auto at = std::ranges::lower_bound(outside, n);
-        grid.nodes[n] = before[static_cast<std::size_t>(at - outside.begin())];
-        moves[n] = 0;
+
+ private:
+  Box box_;
+  bool in_parts_ = false;  // at both ends of the longitudes
+};
+
+// Ascending indices of items for which `is_wanted`.
+template <typename IsWanted>
+std::vector<std::uint32_t> indicesOf(std::size_t count, const ItemLoop& loop, IsWanted&& is_wanted) {
+  return joined(overStretches(loop, count, [&](std::size_t first, std::size_t last) {
+    std::vector<std::uint32_t> some;
+    for (std::size_t i = first; i < last; ++i)
+      if (is_wanted(i)) some.push_back(static_cast<std::uint32_t>(i));
+    return some;
+  }));
+}
+
+std::array<double, 3> anglesOf(const Grid& grid, std::uint32_t triangle) {
+  const std::vector<Point> p = localPlane(grid, grid.triangles[triangle]);
+  return anglesDeg(p[0], p[1], p[2]);
+}
+
+class Mover {
+ public:
+  Mover(Grid& grid, std::vector<std::uint32_t>&& nodes, const AngleBounds& bounds, const ItemLoop& loop)
+      : grid_(grid), nodes_(std::move(nodes)), moves_(grid.nodes.size(), 0) {
+    for (const std::uint32_t n : nodes_) moves_[n] = 1, before_.push_back(grid.nodes[n]);
+    triangles_ = indicesOf(grid.triangles.size(), loop, [&](std::size_t t) { return hasMoved(t); });
+    for (const std::uint32_t t : triangles_) {
+      angles_.push_back(anglesOf(grid, t));
+      const auto [least, greatest] = std::ranges::minmax(angles_.back());
+      allowed_.push_back(
+          {std::min(bounds.least, least) - kAngleSlackDeg, std::max(bounds.greatest, greatest) + kAngleSlackDeg});
+    }
+  }
+
+  void move(const FrameBox& box) {
+    for (const std::uint32_t n : nodes_) grid_.nodes[n] = box.nearest(grid_.nodes[n]);
+    // Nodes that are put back may spoil triangles checked before. Each node is put back at most once.
+    for (bool again = true; again;) {
+      again = false;
+      for (std::size_t k = 0; k < triangles_.size(); ++k) {
+        if (!hasMoved(triangles_[k]) || !isSpoilt(k)) continue;
+        putBack(grid_.triangles[triangles_[k]]);
         again = true;
       }
     }
   }
-  FrameMoves result;
-  result.nodes = static_cast<std::size_t>(std::ranges::count(moves, std::uint8_t{1}));
-  for (std::size_t k = 0; k < changed.size(); ++k)
-    if (!was_short[k] && isShort(changed[k])) result.fell_short.push_back(static_cast<std::uint32_t>(changed[k]));
-  std::vector<std::array<std::uint32_t, 3>> corners;
-  for (const std::size_t t : changed) corners.push_back(grid.triangles[t]);
-  if (!grid.area_m2.empty() && !corners.empty()) {
-    const std::vector<double> areas = areasOfFew(grid.nodes, corners, grid.crs);
-    for (std::size_t k = 0; k < changed.size(); ++k) grid.area_m2[changed[k]] = areas[k];
+
+  // Also sets areas and angles of the triangles.
+  FrameMoves moves() {
+    FrameMoves moves;
+    moves.nodes = static_cast<std::size_t>(std::ranges::count(moves_, std::uint8_t{1}));
+    std::vector<std::uint32_t> changed;
+    std::vector<std::array<std::uint32_t, 3>> corners;
+    for (std::size_t k = 0; k < triangles_.size(); ++k) {
+      const std::uint32_t t = triangles_[k];
+      if (!hasMoved(t)) continue;
+      changed.push_back(t);
+      corners.push_back(grid_.triangles[t]);
+      moves.angles_before.push_back(angles_[k]);
+      moves.angles_after.push_back(anglesOf(grid_, t));
+    }
+    const std::vector<double> areas =
+        grid_.area_m2.empty() ? std::vector<double>() : areasOfFew(grid_.nodes, corners, grid_.crs);
+    for (std::size_t k = 0; k < changed.size(); ++k) {
+      if (!areas.empty()) grid_.area_m2[changed[k]] = areas[k];
+      if (!grid_.min_angle_deg.empty()) grid_.min_angle_deg[changed[k]] = std::ranges::min(moves.angles_after[k]);
+    }
+    return moves;
   }
-  if (grid.min_angle_deg.empty()) return result;
-  for (const std::size_t t : changed) {
-    const std::vector<Point> p = localPlane(grid, grid.triangles[t]);
-    grid.min_angle_deg[t] = leastAngleDeg(p[0], p[1], p[2]);
+
+ private:
+  bool hasMoved(std::size_t triangle) const {
+    return std::ranges::any_of(grid_.triangles[triangle], [&](std::uint32_t n) { return moves_[n] != 0; });
   }
-  return result;
+
+  bool isSpoilt(std::size_t k) const {
+    const auto& [a, b, c] = grid_.triangles[triangles_[k]];
+    if (orientationOnGround(grid_.nodes[a], grid_.nodes[b], grid_.nodes[c], grid_.crs) <= 0) return true;
+    const auto [least, greatest] = std::ranges::minmax(anglesOf(grid_, triangles_[k]));
+    return least < allowed_[k].least || greatest > allowed_[k].greatest;
+  }
+
+  void putBack(const std::array<std::uint32_t, 3>& corners) {
+    for (const std::uint32_t n : corners) {
+      if (moves_[n] == 0) continue;
+      grid_.nodes[n] = before_[static_cast<std::size_t>(std::ranges::lower_bound(nodes_, n) - nodes_.begin())];
+      moves_[n] = 0;
+    }
+  }
+
+  Grid& grid_;
+  std::vector<std::uint32_t> nodes_;           // outside the box, ascending
+  std::vector<Point> before_;                  // where they were
+  std::vector<std::uint8_t> moves_;            // of each node: moved, and not put back
+  std::vector<std::uint32_t> triangles_;       // with such nodes
+  std::vector<std::array<double, 3>> angles_;  // of each of these, before
+  std::vector<AngleBounds> allowed_;
+};
+
+}  // namespace
+
+FrameMoves keepInFrame(Grid& grid, const Coastline& coastline, const AngleBounds& bounds, const ItemLoop& loop) {
+  if (!coastline.framed_by_box) return {};
+  const FrameBox box(coastline);
+  std::vector<std::uint32_t> outside =
+      indicesOf(grid.nodes.size(), loop, [&](std::size_t n) { return !(box.nearest(grid.nodes[n]) == grid.nodes[n]); });
+  if (outside.empty()) return {};
+  Mover mover(grid, std::move(outside), bounds, loop);
+  mover.move(box);
+  return mover.moves();
 }
 
 }  // namespace coastmesh

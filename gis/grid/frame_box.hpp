@@ -1,7 +1,7 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 #include "core/item_loop.hpp"
@@ -10,14 +10,22 @@
 
 namespace coastmesh {
 
+// Bounds on angles, degrees.
+struct AngleBounds {
+  double least, greatest;
+};
+
+// Nodes that were moved, and the angles of their triangles, degrees.
+struct FrameMoves {
+  std::size_t nodes = 0;
+  std::vector<std::array<double, 3>> angles_before, angles_after;
+};
+
 // Moves nodes outside the box of a frame onto it: a parallel consists of straight pieces in the working plane, which
 // bulge towards the pole if elements are large. Areas and angles of their triangles are computed again. Does nothing if
-// the frame is not a box; if it crosses the end of the longitudes, only latitudes are clamped. A node whose move would
-// invert a triangle stays.
-struct FrameMoves {
-  std::size_t nodes = 0;                  // moved nodes
-  std::vector<std::uint32_t> fell_short;  // triangles whose smallest angle is now below `min_angle_deg`
-};
-FrameMoves keepInFrame(Grid& grid, const Coastline& coastline, double min_angle_deg, const ItemLoop& loop = inOrder);
+// the frame is not a box; if it crosses the end of the longitudes, only latitudes are clamped. A node stays where it is
+// if its move would invert a triangle, or make one break a bound that it met, or miss it by more.
+FrameMoves keepInFrame(Grid& grid, const Coastline& coastline, const AngleBounds& bounds,
+                       const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

@@ -78,6 +78,19 @@ TEST_F(Frame, NothingReachesPastTheBox) {
   EXPECT_EQ(north, 64.0);
 }
 
+// Moving nodes onto the box used to leave an angle of 32.89 degrees, and the report had that of before.
+TEST_F(Frame, NodesStayBesideTheBoxWhereAnglesWouldBreakTheBound) {
+  const ProgramRun run = runProgram({"mesh", island(), "--domain", "outside", "--bbox=0,60.5,4,61.61", "--size",
+                                     "10000", "-o", file("sea.nc"), "--report", file("sea.json")});
+  ASSERT_EQ(run.code, 0) << run.errors;
+  EXPECT_EQ(runProgram({"check", file("sea.nc"), "--min-angle", "33"}).code, 0);
+  const Json report = Json::parse(readText(file("sea.json")));
+  const ProgramRun info = runProgram({"info", file("sea.nc"), "--json"});
+  const Json written = Json::parse(info.output);
+  EXPECT_NEAR(report["mesh"]["min_angle_deg"].get<double>(), written["min_angle_deg"].get<double>(), 0.01)
+      << info.output;
+}
+
 TEST_F(Frame, ARingOfOpenBoundaryIsSaidToBeTwo) {
   const std::vector<std::string> arguments{"mesh",         island(), "--domain", "outside",     "--bbox=-9,58,9,64",
                                            "--size-shore", "10000",  "-o",       file("sea.14")};
