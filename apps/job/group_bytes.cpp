@@ -17,9 +17,19 @@ auto partsOf(auto& waters) requires std::is_same_v<std::remove_cvref_t<decltype(
   auto& [count, area_m2, largest] = waters;
   return std::tie(count, area_m2, largest);
 }
+auto partsOf(auto& item) requires std::is_same_v<std::remove_cvref_t<decltype(item)>, NotedLength> {
+  auto& [length_m, text] = item;
+  return std::tie(length_m, text);
+}
+auto partsOf(auto& items) requires std::is_same_v<std::remove_cvref_t<decltype(items)>, NotedLengths> {
+  auto& [count, longest] = items;
+  return std::tie(count, longest);
+}
 auto partsOf(auto& waters) requires std::is_same_v<std::remove_cvref_t<decltype(waters)>, FollowedWaters> {
-  auto& [area_m2, cut_off, apart, joined, with_apart, closed_m2, cut_off_by_way, none_kept_open, in_plane] = waters;
-  return std::tie(area_m2, cut_off, apart, joined, with_apart, closed_m2, cut_off_by_way, none_kept_open, in_plane);
+  auto& [area_m2, cut_off, apart, joined, too_small, straits, spits, met, with_apart, closed_m2, cut_off_by_way,
+         none_kept_open, in_plane] = waters;
+  return std::tie(area_m2, cut_off, apart, joined, too_small, straits, spits, met, with_apart, closed_m2,
+                  cut_off_by_way, none_kept_open, in_plane);
 }
 auto partsOf(auto& raised) requires std::is_same_v<std::remove_cvref_t<decltype(raised)>, RaisedShore> {
   auto& [length_m, raised_m, most_m] = raised;

@@ -407,9 +407,16 @@ void keepInBox(const MeshJob& job, const JobInput& input, const std::vector<Merg
     measureAgain(job, input, groups, false, result);
 }
 
+// True if waters of groups without an open boundary are left out of the finished grid.
+bool dropsWatersApart(const MeshJob& job) {
+  return job.sizes.coast == CoastDetail::Follow && !job.finish.targets.empty() &&
+         (!job.sizes.keep_water_given || job.sizes.follow.keep == KeepWater::Open);
+}
+
 // For all groups together: shares are of all water that is meshed.
 void noteFollowed(const MeshJob& job, MeshJobResult& result) {
   const FollowOptions follow = followOptionsOf(job);
+  if (dropsWatersApart(job)) result.waters.too_small = {};  // hardly any of them has an open boundary
   NotesAndWarnings texts = noteWaters(result.waters, follow);
   std::ranges::move(texts.notes, std::back_inserter(result.read.notes));
   std::ranges::move(texts.warnings, std::back_inserter(result.read.warnings));
@@ -444,12 +451,6 @@ void warnOfIdleInputs(const MeshJob& job, const SizeInputs& sizes, const Coastli
   std::ranges::move(result.idle_inputs, std::back_inserter(result.read.warnings));
   for (const auto& [text, regions] : result.idle)
     if (regions == result.regions) result.read.notes.push_back(text);
-}
-
-// True if waters of groups without an open boundary are left out of the finished grid.
-bool dropsWatersApart(const MeshJob& job) {
-  return job.sizes.coast == CoastDetail::Follow && !job.finish.targets.empty() &&
-         (!job.sizes.keep_water_given || job.sizes.follow.keep == KeepWater::Open);
 }
 
 // Chooses the sizes of all groups, from the largest of them: all shards have the same.

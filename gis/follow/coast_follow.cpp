@@ -161,6 +161,8 @@ Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOpti
   const std::vector<bool> is_main = areMain(opened.waters);
   for (std::size_t i = 0; i < opened.waters.size(); ++i) {
     noted.area += opened.waters[i].area;
+    if (opened.too_small && (opened.waters[i].kept || options.keep == KeepWater::All))
+      noted.too_small.push_back({opened.waters[i].area, opened.waters[i].inside.front()});
     if (is_main[i]) continue;
     (opened.waters[i].kept ? noted.apart : noted.cut_off)
         .push_back({std::move(opened.waters[i]), std::move(joined.ways[i])});
@@ -185,14 +187,12 @@ Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOpti
   };
   mendEndsButAsked(chains, asked.sources(), gone);
   coarsenShores(chains, gone);
-  MetPoints met_points;
   meetPoints(chains, [&](VertexId v, VertexId w) {
     const Point& x = chains.at[w];
     addGain(chains, v, &x, scales, opened.gained);
     log.add(EditKind::MovedPoint, x, chains.leaving[v].left);
-    met_points.add(x, distance(chains.at[v], x) / scales.at(x));
+    report.waters.met.add(metPoint(x, distance(chains.at[v], x) / scales.at(x), domain.projection));
   });
-  noteMetPoints(met_points, domain.projection, report);
   mendShores(chains, gone, moved, loop);
   WaterAreas missing;
   for (const auto& [water, gained] : opened.gained)

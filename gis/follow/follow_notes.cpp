@@ -14,7 +14,7 @@ namespace coastmesh {
 namespace {
 
 constexpr const char* kNoEffect = " meets no water that is meshed: it has no effect";
-constexpr std::size_t kNamedStraits = 10, kNamedSpits = 5, kNamedPoints = 5;
+constexpr std::size_t kNamedPoints = 5;
 
 std::string formatted(const char* format, double a, double b = 0.0) {
   char text[80];
@@ -68,27 +68,17 @@ FollowedWaters followedOf(const FollowNotes& notes, const FollowOptions& options
   }
   waters.with_apart = notes.apart.empty() ? 0 : 1;
   for (const JoinedWater& joined : notes.joined) waters.joined.add(notedOf(joined, projection));
+  for (const SmallWater& water : notes.too_small)
+    waters.too_small.add(
+        {water.area, areaInWords(water.area, projection.isIdentity()), " at " + placeText(water.place, projection)});
+  for (const ClosedStrait& strait : notes.straits)
+    waters.straits.add({strait.length_m, placeText(strait.place, projection) + ", about " +
+                                             lengthText(strait.length_m, projection) + " long, " +
+                                             lengthText(strait.width_m, projection) + " wide"});
+  for (const DroppedSpit& spit : notes.spits)
+    waters.spits.add({spit.length_m, placeText(spit.place, projection) + ", about " +
+                                         lengthText(spit.length_m, projection) + " long"});
   return waters;
-}
-
-std::string noteOn(const std::vector<ClosedStrait>& straits, const Projection& projection) {
-  std::string note = "straits closed, the longest of " + std::to_string(straits.size()) + ": ";
-  for (std::size_t i = 0; i < std::min(kNamedStraits, straits.size()); ++i) {
-    if (i > 0) note += "; ";
-    note += placeText(straits[i].place, projection) + ", about " + lengthText(straits[i].length_m, projection) +
-            " long, " + lengthText(straits[i].width_m, projection) + " wide";
-  }
-  return note + "; keep them open with --passages";
-}
-
-std::string noteOn(const std::vector<DroppedSpit>& spits, const Projection& projection) {
-  std::string note = "land narrower than an element that ended in water was removed, the longest of " +
-                     std::to_string(spits.size()) + ": ";
-  for (std::size_t i = 0; i < std::min(kNamedSpits, spits.size()); ++i) {
-    if (i > 0) note += "; ";
-    note += placeText(spits[i].place, projection) + ", about " + lengthText(spits[i].length_m, projection) + " long";
-  }
-  return note + "; --land-min 0 keeps such breakwaters and spits";
 }
 
 // "passage 'Solent'", "barrier 2".
@@ -117,12 +107,8 @@ void notePassages(const PassageEffects& effects, const std::vector<ShoreLine>& p
 
 }  // namespace
 
-void noteMetPoints(const MetPoints& met, const Projection& projection, CleanReport& report) {
-  if (met.count == 0) return;
-  report.notes.push_back("the shore passes through " + std::to_string(met.count) +
-                         forCount(met.count, " point or end of a line", " points or ends of lines") +
-                         " less than a quarter of an element off it, the farthest " +
-                         lengthText(met.apart_m, projection) + " at " + placeText(met.farthest, projection));
+NotedLength metPoint(const Point& place, double apart_m, const Projection& projection) {
+  return {apart_m, lengthText(apart_m, projection) + " at " + placeText(place, projection)};
 }
 
 void noteLostLines(const LostLines& lost, const Domain& domain, CleanReport& report) {
@@ -165,10 +151,6 @@ void noteFollowing(FollowNotes&& notes, const ShoreGuides& guides, const FollowO
       report.idle.push_back(name + kNoEffect);
     }
   }
-  std::ranges::stable_sort(notes.straits, std::ranges::greater{}, &ClosedStrait::length_m);
-  if (!notes.straits.empty()) texts.push_back(noteOn(notes.straits, projection));
-  std::ranges::stable_sort(notes.spits, std::ranges::greater{}, &DroppedSpit::length_m);
-  if (!notes.spits.empty()) texts.push_back(noteOn(notes.spits, projection));
   report.waters.append(followedOf(notes, options, projection));
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "gis/clean/clean_report.hpp"
@@ -17,39 +16,33 @@ struct DetachedWater {
   WaterWay way;  // to the others, in the data
 };
 
+// A water in which no element fits, which stays as it is.
+struct SmallWater {
+  double area = 0.0;  // square metres
+  Point place;
+};
+
 // Notes for users on a shore that was made to follow sizes.
 struct FollowNotes {
   double area = 0.0;                   // square metres of water, including what is cut off
   std::vector<DetachedWater> cut_off;  // not kept, but meshed nevertheless if all are
   std::vector<DetachedWater> apart;    // kept beside the largest
   std::vector<JoinedWater> joined;
+  std::vector<SmallWater> too_small;
   std::vector<ClosedStrait> straits;
   std::vector<DroppedSpit> spits;
   PassageEffects passages;
   std::vector<OpenBarrier> open_barriers;
 };
 
-// Points and ends of lines in the water, almost on the shore, that it was led through.
-struct MetPoints {
-  std::size_t count = 0;
-  Point farthest;        // from the original shore
-  double apart_m = 0.0;  // of `farthest`
-
-  void add(const Point& place, double metres) {
-    if (count++ != 0 && metres <= apart_m) return;
-    farthest = place;
-    apart_m = metres;
-  }
-};
-
-// Adds a note to the report if there are any.
-void noteMetPoints(const MetPoints& met, const Projection& projection, CleanReport& report);
-
 // Adds warnings on weirs, constraints and points that have no water left.
 void noteLostLines(const LostLines& lost, const Domain& domain, CleanReport& report);
 
-// Adds sentences on the largest changes to the report, with their places in the input's CRS. Shares of the water are
-// left to `noteWaters`, as they refer to all groups of features.
+// A point or an end of a line in the water, almost on the shore, that the shore was led through.
+NotedLength metPoint(const Point& place, double apart_m, const Projection& projection);
+
+// Adds sentences on guides to the report, and the largest changes of the water, with their places in the input's CRS.
+// Sentences on these are left to `noteWaters`, as they are for all groups of features.
 void noteFollowing(FollowNotes&& notes, const ShoreGuides& guides, const FollowOptions& options,
                    const Projection& projection, CleanReport& report);
 

@@ -10,7 +10,7 @@ namespace coastmesh {
 
 namespace {
 
-constexpr std::size_t kNamedWaters = 3, kNamedStraits = 10;
+constexpr std::size_t kNamedWaters = 3, kNamedStraits = 10, kNamedSpits = 5;
 // Shares of all water.
 constexpr double kLargeWater = 0.005;  // larger waters are named, even if not among the first
 constexpr double kWarned = 0.02;       // left out, separated or closed: more than models tolerate
@@ -90,6 +90,30 @@ std::string whatChangesArea(bool is_more, double least, bool of_land) {
                   : (of_land ? " is removed" : " is closed"));
 }
 
+// `begin`, their number, `most` of them at most, and `end`.
+std::string noteOn(const std::string& begin, const NotedLengths& items, std::size_t most, const std::string& end) {
+  std::string note = begin + std::to_string(items.count) + ": ";
+  for (std::size_t i = 0; i < std::min(most, items.longest.size()); ++i)
+    note += (i == 0 ? "" : "; ") + items.longest[i].text;
+  return note + end;
+}
+
+std::string noteOnMet(const NotedLengths& met) {
+  return "the shore passes through " + std::to_string(met.count) +
+         forCount(met.count, " point or end of a line", " points or ends of lines") +
+         " less than a quarter of an element off it, the farthest " + met.longest.front().text;
+}
+
+std::string noteOnTooSmall(const FollowedWaters& waters, const FollowOptions& options) {
+  const NotedWaters& small = waters.too_small;
+  return std::to_string(small.count) +
+         (options.of_land ? forCount(small.count, " piece of land", " pieces of land")
+                          : forCount(small.count, " water", " waters")) +
+         " narrower than an element" + forCount(small.count, " stays", " stay") +
+         " about as in the input, with shorter edges: " + forCount(small.count, "", "the largest ") +
+         namesOf(small, false, waters);
+}
+
 double leftOut(const FollowedWaters& waters, const FollowOptions& options) {
   return options.keep == KeepWater::All ? 0.0 : waters.cut_off.area_m2;
 }
@@ -107,6 +131,14 @@ NotesAndWarnings noteWaters(const FollowedWaters& waters, const FollowOptions& o
   const auto listFor = [&](double lost_m2) -> std::vector<std::string>& {
     return lost_m2 > kWarned * waters.area_m2 ? all.warnings : all.notes;
   };
+  if (waters.met.count > 0) all.notes.push_back(noteOnMet(waters.met));
+  if (waters.straits.count > 0)
+    all.notes.push_back(
+        noteOn("straits closed, the longest of ", waters.straits, kNamedStraits, "; keep them open with --passages"));
+  if (waters.spits.count > 0)
+    all.notes.push_back(noteOn("land narrower than an element that ended in water was removed, the longest of ",
+                               waters.spits, kNamedSpits, "; --land-min 0 keeps such breakwaters and spits"));
+  if (waters.too_small.count > 0) all.notes.push_back(noteOnTooSmall(waters, options));
   if (waters.joined.count > 0) all.notes.push_back(noteOnJoined(waters));
   if (waters.apart.count > 0) listFor(waters.closed_m2).push_back(noteOnApart(waters, options));
   if (waters.cut_off.count > 0) listFor(leftOut(waters, options)).push_back(noteOnCutOff(waters, options));

@@ -15,9 +15,10 @@ struct NotesAndWarnings {
   std::vector<std::string> notes, warnings;
 };
 
-// Sentences on waters that following sizes has left out, separated from the largest, or joined by widening straits,
-// with their shares of all water: a warning if more is left out or separated than is acceptable for a model, otherwise
-// notes.
+// For each kind of change by following sizes, a sentence on all groups of features: waters left out, separated from the
+// largest, joined by widening straits, or too small for an element, with their shares of all water; straits closed,
+// land removed, and points on the shore. A warning if more is left out or separated than is acceptable for a model,
+// otherwise a note.
 NotesAndWarnings noteWaters(const FollowedWaters& waters, const FollowOptions& options);
 
 // A warning if the meshed area, `meshed_m2`, differs from the original, without waters that were left out, by more than

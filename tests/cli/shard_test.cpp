@@ -82,6 +82,8 @@ TEST_F(Shard, GatheredIsTheWholeByteForByte) {
   };
   for (const std::vector<std::string>& options : {std::vector<std::string>{"--min-angle", "30", "--no-smooth"},
                                                   {"--size-max", "400", "--max-vertices", "4000", "--mark-pieces"},
+                                                  // No element fits into these lakes: one note for all.
+                                                  {"--size-shore", "4000", "--coast", "follow"},
                                                   // Repairs process each group again, in its own plane.
                                                   {"--size", "500", "--target", "fvcom", "--partition", "4"}}) {
     std::vector<std::string> whole{

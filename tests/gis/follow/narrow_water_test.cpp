@@ -231,6 +231,7 @@ TEST(FollowSizes, LongBreakwatersThatGoAreNamed) {
   CleanReport report;
   const Domain coarse = followSizes(harbour(15, 10), ConstantSize(1.0), {}, oneFeature(), report);
   EXPECT_EQ(boundaryLoops(constrainedDelaunay(coarse.pslg)).size(), 1u);
+  addWaterNotes(report, {});
   ASSERT_EQ(report.notes.size(), 1u);
   double x = 0.0, y = 0.0, length = 0.0;
   ASSERT_EQ(std::sscanf(report.notes[0].c_str(),

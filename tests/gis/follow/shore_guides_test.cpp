@@ -31,6 +31,7 @@ TEST(FollowSizes, AStraitThatIsClosedIsNamedThoughNothingIsCutOff) {
   CleanReport report;
   const Domain coarse = followSizes(seaWithStrait(), ConstantSize(2.0), {}, oneFeature(), report);
   EXPECT_EQ(boundaryLoops(constrainedDelaunay(coarse.pslg)).size(), 1u);
+  addWaterNotes(report, {});
   ASSERT_EQ(report.notes.size(), 1u);
   double x = 0.0, y = 0.0, length = 0.0, width = 0.0;
   ASSERT_EQ(std::sscanf(report.notes[0].c_str(),

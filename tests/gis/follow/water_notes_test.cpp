@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <string>
 #include <utility>
 
 namespace coastmesh {
@@ -40,6 +41,32 @@ TEST(WaterNotes, ManyLittleLossesAreOneWarning) {
   EXPECT_THAT(texts.warnings[0], HasSubstr("the largest 0.5 km² (0.05 %) at (0, 0); 0.2 km²"));
   EXPECT_EQ(all.cut_off.largest.size(), NotedWaters::kMost);
   EXPECT_EQ(all.cut_off.largest.back().area_m2, 0.2e6 + 82);
+}
+
+TEST(WaterNotes, ManyGroupsAreOneNoteOfEachKind) {
+  FollowedWaters all;
+  for (int i = 1; i <= 30; ++i) {
+    FollowedWaters lake = group(1e6, {});
+    const double length_m = 100.0 * ((7 * i) % 31);
+    lake.straits.add({length_m, "strait " + std::to_string(i)});
+    lake.straits.add({1.0, "a short one"});
+    lake.spits.add({length_m, "spit " + std::to_string(i)});
+    lake.met.add({length_m, "point " + std::to_string(i)});
+    lake.too_small.add({1e6, "1 km²", " at (" + std::to_string(i) + ", 0)"});
+    all.append(std::move(lake));
+  }
+  EXPECT_EQ(all.straits.longest.size(), NotedLengths::kMost);
+  const NotesAndWarnings texts = noteWaters(all, {});
+  EXPECT_THAT(texts.warnings, IsEmpty());
+  ASSERT_EQ(texts.notes.size(), 4u);
+  EXPECT_THAT(texts.notes[0], HasSubstr("through 30 points or ends of lines less than a quarter of an element off it, "
+                                        "the farthest point 22"));
+  EXPECT_THAT(texts.notes[1], HasSubstr("straits closed, the longest of 60: strait 22; strait 13; strait 4; strait "));
+  EXPECT_THAT(texts.notes[1], HasSubstr("; keep them open with --passages"));
+  EXPECT_THAT(texts.notes[2], HasSubstr("was removed, the longest of 30: spit 22; spit 13; spit 4; spit 26; spit 17; "
+                                        "--land-min 0 keeps"));
+  EXPECT_THAT(texts.notes[3], HasSubstr("30 waters narrower than an element stay about as in the input, with shorter "
+                                        "edges: the largest 1 km² (3.3 %) at (1, 0); 1 km² (3.3 %) at (2, 0)"));
 }
 
 TEST(WaterNotes, AreasThatChangeByMoreThanTwoPercentAreWarnedOf) {

@@ -57,6 +57,7 @@ struct Follow {
   explicit Follow(const std::vector<Point>& given, bool as_line = false)
       : domain(followSizes(basin(given, as_line), ConstantSize(kSize), {}, oneFeature(), report)) {
     EXPECT_NO_THROW(constrainedDelaunay(domain.pslg));
+    addWaterNotes(report, {});
   }
 };
 
