@@ -161,7 +161,7 @@ Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOpti
   const std::vector<bool> is_main = areMain(opened.waters);
   for (std::size_t i = 0; i < opened.waters.size(); ++i) {
     noted.area += opened.waters[i].area;
-    if (opened.too_small && (opened.waters[i].kept || options.keep == KeepWater::All))
+    if (opened.waters[i].small && (opened.waters[i].kept || options.keep == KeepWater::All))
       noted.too_small.push_back({opened.waters[i].area, opened.waters[i].inside.front()});
     if (is_main[i]) continue;
     (opened.waters[i].kept ? noted.apart : noted.cut_off)

@@ -32,14 +32,13 @@ OpenedShores openShores(const ShoreStart& start, const ShoreSizes& sizes, const 
   opened.after = start.triangles;
   ShoreTriangles& triangles = opened.after;
   const double least = options.channel_min > 0.0 ? std::min(options.channel_min, 1.0) : 1.0;
-  opened.too_small = isNarrowEverywhere(triangles, sizes, guides, least);
-  if (!opened.too_small)
-    openLand(triangles, sizes, guides, first * options.land_min, edit, opened.gained, opened.spits);
+  const ConnectedRegions connected = connectedRegions(triangles);
+  const SmallWaters small = smallWaters(triangles, sizes, guides, least, connected);
+  openLand(triangles, sizes, guides, first * options.land_min, small, edit, opened.gained, opened.spits);
   opened.gained_before = opened.gained;
   opened.edits_before = opened.edits.size();
   opened.spits_before = opened.spits.size();
   opened.before = triangles;
-  const ConnectedRegions connected = connectedRegions(triangles);
   const auto close = [&](KeepWater keep) {
     return openWater(triangles, sizes, guides, options.channel_min, keep, connected, edit, opened.gained);
   };
@@ -47,7 +46,7 @@ OpenedShores openShores(const ShoreStart& start, const ShoreSizes& sizes, const 
   if (first < 1.0) {
     opened.straits = closedStraits(triangles, sizes.scale);
     settleShores(triangles, sizes.wanted);
-    openLand(triangles, sizes, guides, options.land_min, edit, opened.gained, opened.spits);
+    openLand(triangles, sizes, guides, options.land_min, small, edit, opened.gained, opened.spits);
     water = close(options.keep);
   }
   opened.waters = std::move(water.waters);

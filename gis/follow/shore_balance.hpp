@@ -30,14 +30,13 @@ struct OpenedShores {
   WaterAreas areas, gained;
   ShoreEdits edits;
   std::vector<DroppedSpit> spits;
-  double first = 1.0;      // width of land removed before water is closed, as a share of the narrowest that stays
-  bool too_small = false;  // the water: nothing was opened
+  double first = 1.0;  // width of land removed before water is closed, as a share of the narrowest that stays
   double error = std::numeric_limits<double>::infinity();  // excess of water, as a share of its area
 };
 
 // Opens land and water (`openLand`, `openWater`): removes land narrower than `first` times the narrowest that stays,
-// closes narrow water and, if `first` < 1, removes the rest of the land and closes water again. If all of the water is
-// narrower than an element, it stays as it is, and so does the land: without its land, it would become larger.
+// closes narrow water and, if `first` < 1, removes the rest of the land and closes water again. Water all of
+// which is narrower than an element stays as it is, and so does the land in it: without, it would become larger.
 OpenedShores openShores(const ShoreStart& start, const ShoreSizes& sizes, const ShoreGuides& guides,
                         const FollowOptions& options, double first);
 

@@ -43,12 +43,13 @@ class Opening {
         edit_(edit),
         gained_(gained) {}
 
-  void dropIslands() {
+  void dropIslands(const SmallWaters& small) {
     const Patches lands = patchesOf(mesh(), [&](TriId t) { return isLand(t); });
     keeps_all_.assign(mesh().triangles.size(), false);
     for (const std::vector<TriId>& land : lands.triangles) {
       if (usesOf(land) & kAround) continue;
       const RegionId water = waterAround(land);
+      if (isIn(small, water)) continue;
       if (water != kNoRegion && isSmall(land)) {
         flip(land, water, EditKind::SmallIsland, firstVertexOf(land));
       } else if (std::ranges::all_of(land, [&](TriId t) { return t_.width[t] < narrowest_; })) {
@@ -57,9 +58,9 @@ class Opening {
     }
   }
 
-  void openLand(double narrowest, std::vector<DroppedSpit>& long_spits) {
+  void openLand(double narrowest, const SmallWaters& small, std::vector<DroppedSpit>& long_spits) {
     narrowest_ = narrowest;
-    dropIslands();
+    dropIslands(small);
     // Removes triangles from the ends, one by one, so that no land is cut in two.
     std::vector<bool> thin(mesh().triangles.size()), off(mesh().triangles.size(), false);
     std::vector<TriId> ends;
@@ -84,7 +85,7 @@ class Opening {
       const RegionId water = waterAround(spit);
       const auto gates = gatesOf(spit, spits.of, [&](TriId t) { return isLand(t); });
       const auto [deepest, depth] = deepestOf(spit, gates);
-      if (water == kNoRegion || isShallow(spit, gates, depth)) continue;
+      if (water == kNoRegion || isIn(small, water) || isShallow(spit, gates, depth)) continue;
       const auto [end, length] = farthestAlong(spit, spits.of, gates);
       if (length > kLongSpit * t_.size[end]) {
         const Point place = centreOf(end);
@@ -94,19 +95,11 @@ class Opening {
     }
   }
 
-  void openWater(double narrowest) {
-    std::vector<char> is_narrow(mesh().triangles.size(), 0);
-    bool any_wide = false;
-    for (TriId t = 0; t < is_narrow.size(); ++t) {
-      if (isLand(t)) continue;
-      is_narrow[t] = isNarrow(t, narrowest);
-      any_wide = any_wide || is_narrow[t] == 0;
-    }
-    const auto narrow = [&](TriId t) { return is_narrow[t] != 0; };
-    if (!any_wide) {
-      parts_ = patchesOf(mesh(), [&](TriId t) { return !isLand(t); }).triangles;
-      return;
-    }
+  void openWater(double narrowest, const ConnectedRegions& connected) {
+    small_ = smallWaters(narrowest, connected);
+    const auto narrow = [&](TriId t) {
+      return !isLand(t) && !isIn(small_, mesh().regions[t]) && isNarrow(t, narrowest);
+    };
     const Patches closed = patchesOf(mesh(), narrow);
     for (const std::vector<TriId>& patch : closed.triangles) {
       const auto gates = gatesOf(patch, closed.of, [&](TriId t) { return !isLand(t); });
@@ -115,13 +108,15 @@ class Opening {
       flip(patch, t_.land, EditKind::ClosedWater, gates.size() == 1 ? deepest : mesh().triangles[patch.front()].v[0]);
     }
     parts_ = patchesOf(mesh(), [&](TriId t) { return !isLand(t); }).triangles;
-    closeSmall();
+    closeSmall(connected);
   }
 
-  bool isNarrowEverywhere(double narrowest) const {
+  SmallWaters smallWaters(double narrowest, const ConnectedRegions& connected) const {
+    SmallWaters small(connected.size(), true);
     for (TriId t = 0; t < mesh().triangles.size(); ++t)
-      if (!isLand(t) && !isNarrow(t, narrowest)) return false;
-    return true;
+      if (!isLand(t) && !isNarrow(t, narrowest)) small[wholeOf(mesh().regions[t], connected)] = false;
+    for (std::size_t r = 0; r < small.size(); ++r) small[r] = small[static_cast<std::size_t>(connected[r])];
+    return small;
   }
 
   // Applies to what `openWater` left, for each water separately.
@@ -159,6 +154,12 @@ class Opening {
   static constexpr RegionId kNoRegion = kUnlabelled;
 
   const TriMesh& mesh() const { return t_.mesh; }
+  static std::size_t wholeOf(RegionId region, const ConnectedRegions& connected) {
+    return static_cast<std::size_t>(connected[static_cast<std::size_t>(region)]);
+  }
+  static bool isIn(const SmallWaters& small, RegionId region) {
+    return region >= 0 && static_cast<std::size_t>(region) < small.size() && small[static_cast<std::size_t>(region)];
+  }
   bool isLand(TriId t) const { return mesh().regions[t] == t_.land; }
   // True if this triangle of the water may be closed.
   bool isNarrow(TriId t, double narrowest) const {
@@ -193,6 +194,7 @@ class Opening {
   WaterPart partOf(const std::vector<TriId>& patch, const ConnectedRegions& connected) const {
     WaterPart part;
     part.whole = connected[static_cast<std::size_t>(mesh().regions[patch.front()])];
+    part.small = isIn(small_, part.whole);
     for (const TriId t : patch) {
       const double area = groundAreaOf(t);
       part.area += area;
@@ -346,13 +348,19 @@ class Opening {
     edit_(kind, mesh().point(place), water);
   }
 
-  void closeSmall() {
+  // Closes the smallest parts of each water, but not the largest of its parts.
+  void closeSmall(const ConnectedRegions& connected) {
     std::vector<double> elements;
-    for (const std::vector<TriId>& water : parts_) elements.push_back(elementsIn(water));
-    if (elements.empty()) return;
-    const auto most = static_cast<std::size_t>(std::ranges::max_element(elements) - elements.begin());
+    std::map<std::size_t, std::size_t> largest;
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      elements.push_back(elementsIn(parts_[i]));
+      const std::size_t whole = wholeOf(mesh().regions[parts_[i].front()], connected);
+      std::size_t& most = largest.try_emplace(whole, i).first->second;
+      if (elements[i] > elements[most]) most = i;
+    }
     for (std::size_t i = 0; i < elements.size(); ++i) {
-      if (i == most || elements[i] >= kLeastWater) continue;
+      const RegionId region = mesh().regions[parts_[i].front()];
+      if (elements[i] >= kLeastWater || isIn(small_, region) || largest[wholeOf(region, connected)] == i) continue;
       flip(parts_[i], t_.land, EditKind::ClosedWater, firstVertexOf(parts_[i]));
       parts_[i].clear();
     }
@@ -366,14 +374,15 @@ class Opening {
   WaterAreas& gained_;
   double narrowest_ = 0.0;
   std::vector<bool> keeps_all_;
+  SmallWaters small_;
   std::vector<std::vector<TriId>> parts_;  // of the opened water
 };
 
 }  // namespace
 
 void openLand(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
-              const ShoreEdit& edit, WaterAreas& gained, std::vector<DroppedSpit>& spits) {
-  Opening(triangles, sizes, guides, edit, gained).openLand(narrowest, spits);
+              const SmallWaters& small, const ShoreEdit& edit, WaterAreas& gained, std::vector<DroppedSpit>& spits) {
+  Opening(triangles, sizes, guides, edit, gained).openLand(narrowest, small, spits);
   settleShores(triangles, sizes.wanted);
 }
 
@@ -393,18 +402,18 @@ ConnectedRegions connectedRegions(const ShoreTriangles& triangles) {
   return first;
 }
 
-bool isNarrowEverywhere(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides,
-                        double narrowest) {
+SmallWaters smallWaters(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
+                        const ConnectedRegions& connected) {
   const ShoreEdit none;
   WaterAreas gained;
-  return Opening(triangles, sizes, guides, none, gained).isNarrowEverywhere(narrowest);
+  return Opening(triangles, sizes, guides, none, gained).smallWaters(narrowest, connected);
 }
 
 OpenedWater openWater(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
                       KeepWater keep, const ConnectedRegions& connected, const ShoreEdit& edit, WaterAreas& gained) {
   OpenedWater opened;
   Opening opening(triangles, sizes, guides, edit, gained);
-  opening.openWater(narrowest);
+  opening.openWater(narrowest, connected);
   opening.keepWater(keep, connected, opened.waters);
   for (const WaterPart& water : opened.waters) {
     if (!water.kept && keep != KeepWater::All) continue;

@@ -17,18 +17,24 @@ struct DroppedSpit {
   double length_m = 0.0;
 };
 
-// A morphological opening of the land, with disks of `narrowest` times the size there as diameter: removes land that no
-// disk fits into and that ends in water (spits, capes), and islands smaller than a triangle of that size. Keeps blunt
-// corners, land that connects two lands, and islands longer than three elements, however thin. With 0, removes only
-// small islands. The gain of each region of water is added to `gained`, as below, and long spits to `spits`. Settles
-// the triangles.
-void openLand(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
-              const ShoreEdit& edit, WaterAreas& gained, std::vector<DroppedSpit>& spits);
-
 // For each region of water, the first of those that it is connected with: features with a common border are one water.
 using ConnectedRegions = std::vector<RegionId>;
 
 ConnectedRegions connectedRegions(const ShoreTriangles& triangles);
+
+// For each region of water: true if no triangle of its water is `narrowest` times the size wide, or stays for another
+// reason. `openWater` then closes nothing of it.
+using SmallWaters = std::vector<bool>;
+SmallWaters smallWaters(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
+                        const ConnectedRegions& connected);
+
+// A morphological opening of the land, with disks of `narrowest` times the size there as diameter: removes land that no
+// disk fits into and that ends in water (spits, capes), and islands smaller than a triangle of that size. Keeps blunt
+// corners, land that connects two lands, and islands longer than three elements, however thin. With 0, removes only
+// small islands. Land in waters that are `small` stays. The gain of each region of water is added to `gained`, as below,
+// and long spits to `spits`. Settles the triangles.
+void openLand(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
+              const SmallWaters& small, const ShoreEdit& edit, WaterAreas& gained, std::vector<DroppedSpit>& spits);
 
 // A part of a water without a connection to the others, mostly because this was closed.
 struct WaterPart {
@@ -37,14 +43,10 @@ struct WaterPart {
   WaterAreas areas{};            // the same by region
   bool at_open = false;          // its open boundary is at least one element long
   bool kept = false;             // by `KeepWater`; for All as for Modelled
+  bool small = false;            // nothing of its water was closed, as all would have been
   std::vector<Point> inside;     // points in its largest triangles, the largest first
   std::vector<TriId> triangles;  // before settling
 };
-
-// True if no triangle of the water is `narrowest` times the size wide, or stays for another reason: `openWater` then
-// closes nothing.
-bool isNarrowEverywhere(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides,
-                        double narrowest);
 
 struct OpenedWater {
   std::vector<WaterPart> waters;
@@ -53,7 +55,7 @@ struct OpenedWater {
 
 // The same for water: closes narrower parts (channels, heads of bays, corners), and water smaller than a few triangles.
 // Triangles at vertices of borders in the water, along passages and at a corner of an open boundary stay. If nothing
-// would be left, all stays. Then keeps the parts of each water by `keep`, regions that were connected before
+// would be left of a water, all of it stays. Then keeps the parts of each water by `keep`, regions that were connected before
 // (`connected`) being one water; those left out are not subtracted from `gained`. Does not settle the triangles.
 OpenedWater openWater(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
                       KeepWater keep, const ConnectedRegions& connected, const ShoreEdit& edit, WaterAreas& gained);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <numbers>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -100,15 +101,28 @@ std::vector<Water> watersOf(const ShoreChains& c) {
   return waters;
 }
 
-// Limits sizes where `is_large(size, area, width)`, for the water's area and mean width.
+// Limits sizes where `is_large(size, area, width)`, for the water's area and mean width. Spares regions with a water
+// in which no size is large: their other waters are what was cut off from it, and need not be finer than it.
 template <typename IsLarge>
 void limitWhere(ShoreChains& chains, IsLarge&& is_large) {
-  for (const Water& water : watersOf(chains)) {
+  const std::vector<Water> waters = watersOf(chains);
+  std::vector<double> areas, widths;
+  std::set<RegionId> spared;
+  const auto regionOf = [&](const Water& water) { return chains.leaving[water.front().start].left; };
+  for (const Water& water : waters) {
     double area = 0.0, length = 0.0;
     for (const Ring& ring : water) area += ring.area, length += ring.length;
-    const double width = 2.0 * area / length;
-    if (!(width > 0.0)) continue;
-    for (const Ring& ring : water) {
+    areas.push_back(area);
+    widths.push_back(2.0 * area / length);
+    bool any_large = false;
+    forVertices(chains, water.front(),
+                [&](VertexId v) { any_large = any_large || is_large(chains.size[v], area, widths.back()); });
+    if (!any_large) spared.insert(regionOf(water));
+  }
+  for (std::size_t w = 0; w < waters.size(); ++w) {
+    const double area = areas[w], width = widths[w];
+    if (!(width > 0.0) || spared.contains(regionOf(waters[w]))) continue;
+    for (const Ring& ring : waters[w]) {
       forVertices(chains, ring, [&](VertexId v) {
         if (!is_large(chains.size[v], area, width)) return;
         chains.size[v] = std::min(chains.size[v], width);

@@ -91,6 +91,27 @@ TEST(SmallWaters, AreStillAsCoarseAsTheirWidthAllows) {
   EXPECT_NEAR(areaOf(coarse) / area, 1.0, 0.1);
 }
 
+// A lake beside a pond of another feature.
+TEST(SmallWaters, KeepTheirAreaBesideLargerOnes) {
+  Coastline lakes = oneFeature();
+  lakes.features.push_back(lakes.features.front());
+  Domain domain;
+  addRing(domain, {0.0, 0.0}, 100.0, 600, false);
+  const std::size_t first = domain.pslg.segments.size();
+  addRing(domain, {120.0, 0.0}, 5.0, 60, false);
+  addRing(domain, {120.0, 0.0}, 2.0, 30, true);
+  for (std::size_t s = first; s < domain.pslg.segments.size(); ++s)
+    for (RegionId* side : {&domain.pslg.segments[s].left, &domain.pslg.segments[s].right})
+      if (*side >= 0) *side = 1;
+  CleanReport report;
+  const Domain coarse = followSizes(std::move(domain), ConstantSize(25.0), {}, lakes, report);
+  double pond = 0.0;
+  for (const Segment& s : coarse.pslg.segments)
+    if (s.left == 1 || s.right == 1)
+      pond += (s.left == 1 ? 0.5 : -0.5) * cross(coarse.pslg.points[s.a], coarse.pslg.points[s.b]);
+  EXPECT_NEAR(pond, std::numbers::pi * (25.0 - 4.0), 0.1 * std::numbers::pi * 21.0);
+}
+
 // Only waters without room for an element: larger ones are generalised.
 TEST(SmallWaters, WaterWithRoomForElementsFollowsTheSizes) {
   Domain domain;
