@@ -31,8 +31,8 @@ SmallWaters smallWaters(ShoreTriangles& triangles, const ShoreSizes& sizes, cons
 // A morphological opening of the land, with disks of `narrowest` times the size there as diameter: removes land that no
 // disk fits into and that ends in water (spits, capes), and islands smaller than a triangle of that size. Keeps blunt
 // corners, land that connects two lands, and islands longer than three elements, however thin. With 0, removes only
-// small islands. Land in waters that are `small` stays. The gain of each region of water is added to `gained`, as below,
-// and long spits to `spits`. Settles the triangles.
+// small islands. Land in waters that are `small` stays. The gain of each region of water is added to `gained`, as
+// below, and long spits to `spits`. Settles the triangles.
 void openLand(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
               const SmallWaters& small, const ShoreEdit& edit, WaterAreas& gained, std::vector<DroppedSpit>& spits);
 
@@ -55,8 +55,8 @@ struct OpenedWater {
 
 // The same for water: closes narrower parts (channels, heads of bays, corners), and water smaller than a few triangles.
 // Triangles at vertices of borders in the water, along passages and at a corner of an open boundary stay. If nothing
-// would be left of a water, all of it stays. Then keeps the parts of each water by `keep`, regions that were connected before
-// (`connected`) being one water; those left out are not subtracted from `gained`. Does not settle the triangles.
+// would be left of a water, all of it stays. Then keeps the parts of each water by `keep`, regions that were connected
+// before (`connected`) being one water; those left out are not subtracted from `gained`. Does not settle the triangles.
 OpenedWater openWater(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
                       KeepWater keep, const ConnectedRegions& connected, const ShoreEdit& edit, WaterAreas& gained);
 
