@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <functional>
 #include <iomanip>
 #include <iterator>
 #include <memory>
 #include <mutex>
+#include <numbers>
 #include <numeric>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -435,6 +438,32 @@ void noteRaisedShore(MeshJobResult& result) {
                               "; a shorter step allows smaller elements");
 }
 
+// Borders that features share stay as in the data, however large the elements. Adds a warning if the shortest edge of
+// the grid is far shorter than those of the shore and lies at one.
+void warnOfSharedBorder(const MeshJob& job, MeshJobResult& result) {
+  constexpr double kFarShorter = 0.2, kNear = 3.0;  // of the shore's edges; in lengths of the shortest edge
+  const Grid& grid = result.grid;
+  const StepReport& step = result.step.step;
+  if (job.sizes.coast != CoastDetail::Follow || grid.feature_of.empty()) return;
+  if (!(step.shortest_edge_m < kFarShorter * job.sizes.mostAtShores())) return;
+  constexpr double kMetresPerDegree = 111e3;  // precise enough for what is near
+  const Point& middle = step.shortest_edge;
+  const double up = grid.crs.geographic ? kMetresPerDegree : 1.0;
+  const double along = grid.crs.geographic ? up * std::cos(middle.y * std::numbers::pi / 180.0) : 1.0;
+  const auto isNear = [&](std::uint32_t node) {
+    const Point& p = grid.nodes[node];
+    return std::hypot(along * (p.x - middle.x), up * (p.y - middle.y)) <= kNear * step.shortest_edge_m;
+  };
+  std::set<std::uint32_t> features;
+  for (std::size_t t = 0; t < grid.triangles.size(); ++t)
+    if (std::ranges::any_of(grid.triangles[t], isNear)) features.insert(grid.feature_of[t]);
+  if (features.size() < 2) return;
+  result.read.warnings.push_back("the shortest edge, " + amount("%.3g", step.shortest_edge_m) + " m at " +
+                                 pointText(step.shortest_edge) +
+                                 ", is at a border that two features share, which stays as it is in the data: "
+                                 "--dissolve makes them one");
+}
+
 // In the coordinates that are written: orientation in the working plane may differ.
 void findTurned(MeshJobResult& result, const ItemLoop& loop) {
   for (const std::uint32_t t : turnedTriangles(result.grid, result.grid.area_m2, loop)) {
@@ -560,6 +589,7 @@ MeshJobResult runOnThreads(const MeshJob& given, const JobControl& control) {
   if (job.exchange.shards <= 1) warnOfIdleInputs(job, sizes, input.coastline(), result);
   findTurned(result, loop);
   result.step = measureOutcome(result.grid, job.sizes, loop, job.mesh.refine.goal);
+  warnOfSharedBorder(job, result);
   result.rasters_read = rasters.use();
   result.log.append(recorder.finish("grid"));
   result.seconds.total = whole.seconds();

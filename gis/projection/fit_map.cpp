@@ -258,8 +258,8 @@ LonLat centreAwayFromLand(const std::vector<RingGroup>& groups, double west, con
   if (!clearest.best()) offerInsides(groups, clearest);
   if (!clearest.best()) {
     throw InputError(
-        "the features leave no gap on the globe wider than about 100 km, which the projection needs: leave some area "
-        "out, as --bbox=-180,-85,180,90 does around the south pole");
+        "no gap on the globe is left that is wider than about 100 km, which the projection needs: leave some area out, "
+        "as --bbox=-180,-85,180,90 does around the south pole");
   }
   return {Math::AngNormalize(clearest.best()->lon + 180), -clearest.best()->lat};
 }

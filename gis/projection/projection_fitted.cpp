@@ -121,6 +121,14 @@ void forEachChain(const Coastline& coastline, const std::vector<std::size_t>& me
                               "in QGIS), or take them as a plane with --crs plane"));
 }
 
+std::string namesOf(const Coastline& coastline, const std::vector<std::size_t>& members) {
+  if (members.empty()) return "the input";
+  const Feature& first = coastline.features[members.front()];
+  std::string names = first.source + ", feature " + std::to_string(first.fid);
+  if (members.size() > 1) names += " and " + std::to_string(members.size() - 1) + " meshed with it";
+  return names;
+}
+
 std::shared_ptr<const ProjectionMap> fitTo(const Coastline& coastline, const std::vector<std::size_t>& members,
                                            const GeographicMap& to_geographic, SurfaceKind kind) {
   std::vector<LonLat> places;
@@ -161,18 +169,20 @@ std::shared_ptr<const ProjectionMap> fitTo(const Coastline& coastline, const std
       for (Ring& turned : turnedRings(ring)) addProjected(std::move(turned));
     }
   });
-  if (places.empty() && !coastline.rest) {
-    const Feature* const first = members.empty() ? nullptr : &coastline.features[members.front()];
-    throw InputError((first ? first->source + ", feature " + std::to_string(first->fid) : std::string("the input")) +
-                     ": holds no point");
-  }
+  if (places.empty() && !coastline.rest) throw InputError(namesOf(coastline, members) + ": holds no point");
   const double middle = west >= -180 && east <= 180 ? 0 : (west + east) / 2;
   const Ellipsoid ellipsoid = kind == SurfaceKind::Sphere
                                   ? Ellipsoid{kSphereRadius, 0.0}
                                   : Ellipsoid{coastline.crs.semi_major_m, coastline.crs.flattening};
-  FittedMap map = places.empty()   ? mapOfEmptyGlobe(ellipsoid)
-                  : coastline.rest ? fitMap(places, groups, ellipsoid, SurfaceKind::Ellipsoid)
-                                   : fitMap(places, groups, ellipsoid, kind);
+  const auto fit = [&] {
+    if (places.empty()) return mapOfEmptyGlobe(ellipsoid);
+    try {
+      return fitMap(places, groups, ellipsoid, coastline.rest ? SurfaceKind::Ellipsoid : kind);
+    } catch (const InputError& error) {
+      throw InputError(namesOf(coastline, members) + ": " + error.what());
+    }
+  };
+  FittedMap map = fit();
   const Turn turn =
       to_geographic.isIdentity() || places.empty() ? Turn{} : turnOf(first_of_input, last_of_input, to_geographic);
   return std::make_shared<Fitted>(to_geographic, std::move(map), middle, turn);

@@ -57,6 +57,21 @@ TEST_F(ManyFeatures, NeighboursDoNotOverlapWhereShoresMove) {
   }
 }
 
+// Two waters that overlap; the shore of the first, which divides them, has an edge of 31 m.
+TEST_F(ManyFeatures, ShortEdgesOfSharedBordersAreNamed) {
+  const std::string waters = write(
+      "waters.geojson",
+      geoJsonPolygons({{{{10.0, 50.0}, {10.5, 50.0}, {10.5, 50.15}, {10.5003, 50.1502}, {10.5, 50.3}, {10.0, 50.3}}},
+                       {{{10.49, 50.05}, {10.9, 49.95}, {10.9, 50.25}, {10.49, 50.2}}}}));
+  const std::vector<std::string> sizes{"--size-shore", "3000", "--size-max", "8000", "--coast", "follow"};
+  const ProgramRun apart = mesh(waters, sizes);
+  EXPECT_EQ(apart.code, 0);
+  EXPECT_THAT(apart.errors, HasSubstr("the shortest edge, 30.9 m at (10.50015, 50.1501), is at a border"));
+  std::vector<std::string> dissolved = sizes;
+  dissolved.emplace_back("--dissolve");
+  EXPECT_EQ(mesh(waters, dissolved).errors, "");
+}
+
 TEST_F(ManyFeatures, TheBudgetIsSharedByThoseInTheFrame) {
   LonLatRing large;
   for (int i = 0; i < 600; ++i) large.push_back({30.0 + std::cos(i * 0.01047), 60.0 + 0.5 * std::sin(i * 0.01047)});
