@@ -1,18 +1,23 @@
 #include "apps/job/check_grid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <unordered_map>
 #include <utility>
 
 #include "apps/job/grid_pieces.hpp"
+#include "core/box_halves.hpp"
+#include "core/metric.hpp"
 #include "core/point_hash.hpp"
 #include "core/quality.hpp"
 #include "core/sphere/close_sphere.hpp"
 #include "gis/crs/geodesy.hpp"
 #include "gis/error.hpp"
+#include "gis/grid/frame_box.hpp"
 #include "gis/grid/ground_orientation.hpp"
 #include "gis/grid/local_plane.hpp"
 
@@ -38,6 +43,47 @@ void addTurns(const Grid& grid, InputVertices& vertices) {
   for (const auto& [place, vertex] : known)
     for (const double turn : {360.0, -360.0}) vertices.emplace(Point{place.x + turn, place.y}, vertex);
 }
+
+// Finds the places in the plane of nodes that `keepInFrame` moved: on the segments of the frame, which leave the sides
+// of the box a little.
+class FrameSides {
+ public:
+  FrameSides(const FrameBox& box, const Domain& domain) : box_(box) {
+    for (const Segment& s : domain.pslg.segments) {
+      const Point &a = domain.pslg.points[s.a], &b = domain.pslg.points[s.b];
+      const auto isOnSide = [&](VertexId v) { return box.hasOnSide(box.nearest(domain.input_points[v])); };
+      if ((s.left < 0) == (s.right < 0) || !isOnSide(s.a) || !isOnSide(s.b)) continue;
+      ends_.push_back({a, b});
+      Bounds& bounds = bounds_.emplace_back();
+      bounds.add(a);
+      bounds.add(b);
+    }
+    tree_ = BoxHalves(bounds_);
+  }
+
+  // The place on the nearest segment of a node that lies on a side of the box; otherwise `in_plane` itself.
+  Point placeOf(const Point& node, const Point& in_plane) const {
+    if (ends_.empty() || !box_.hasOnSide(node)) return in_plane;
+    double nearest = std::numeric_limits<double>::infinity();
+    Point place = in_plane;
+    tree_.visit([&](const Bounds& bounds) { return bounds.squaredDistanceTo(in_plane) < nearest; },
+                [&](std::uint32_t i) {
+                  const auto& [a, b] = ends_[i];
+                  const Point way = b - a;
+                  const double share = std::clamp(dot(in_plane - a, way) / squaredLength(way), 0.0, 1.0);
+                  const Point on_segment = a + share * way;
+                  const double distance = squaredDistance(in_plane, on_segment);
+                  if (distance < nearest) nearest = distance, place = on_segment;
+                });
+    return place;
+  }
+
+ private:
+  const FrameBox& box_;
+  std::vector<std::array<Point, 2>> ends_;
+  std::vector<Bounds> bounds_;
+  BoxHalves tree_;
+};
 
 // Degrees by which the sum of the angles opposite an interior edge exceeds 180.
 double delaunayExcess(const TriMesh& mesh, EdgeRef e) {
@@ -147,6 +193,12 @@ GridCheck checkGridAgainst(const Grid& grid, const JobInput& input, const GridCh
     }
     for (VertexId v = 0; v < domains[g]->input_points.size(); ++v) vertices[domains[g]->input_points[v]] = {g, v};
   }
+  std::optional<FrameBox> box;
+  if (input.coastline().framed_by_box) {
+    box.emplace(input.coastline());
+    const std::vector<std::pair<Point, InputVertex>> known(vertices.begin(), vertices.end());
+    for (const auto& [place, vertex] : known) vertices.emplace(box->nearest(place), vertex);
+  }
   addTurns(grid, vertices);
 
   GridCheck result;
@@ -169,12 +221,16 @@ GridCheck checkGridAgainst(const Grid& grid, const JobInput& input, const GridCh
     }
     std::ranges::sort(triangles_of[g]);
     GridPiece piece = makePiece(grid, std::move(triangles_of[g]), domains[g]->projection, lines);
+    std::optional<FrameSides> sides;
+    if (box) sides.emplace(*box, *domains[g]);
     // Vertices that cleaning made have exact places only in the plane: projecting their rounded coordinates does not
     // give these back.
     for (std::size_t v = 0; v < piece.nodes.size(); ++v) {
       const auto found = vertices.find(grid.nodes[piece.nodes[v]]);
       if (found != vertices.end() && found->second.group == g) {
         piece.mesh.points[v] = domains[g]->pslg.points[found->second.vertex];
+      } else if (sides) {
+        piece.mesh.points[v] = sides->placeOf(grid.nodes[piece.nodes[v]], piece.mesh.points[v]);
       }
     }
     checkPiece(piece, &domains[g]->pslg, options, result);

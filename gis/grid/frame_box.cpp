@@ -8,32 +8,28 @@
 #include "core/quality.hpp"
 #include "gis/coast/feature_bounds.hpp"
 #include "gis/crs/geodesy.hpp"
-#include "gis/geometry/box.hpp"
 #include "gis/grid/ground_orientation.hpp"
 #include "gis/grid/local_plane.hpp"
 
 namespace coastmesh {
 
+FrameBox::FrameBox(const Coastline& coastline) {
+  for (const Feature& feature : coastline.features) {
+    if (feature.use != FeatureUse::Frame) continue;
+    box_.add(boundsOf(feature));
+    in_parts_ = in_parts_ || feature.polygons.size() > 1;
+  }
+}
+
+Point FrameBox::nearest(const Point& p) const {
+  return {in_parts_ ? p.x : std::clamp(p.x, box_.xmin, box_.xmax), std::clamp(p.y, box_.ymin, box_.ymax)};
+}
+
+bool FrameBox::hasOnSide(const Point& p) const {
+  return p.y == box_.ymin || p.y == box_.ymax || (!in_parts_ && (p.x == box_.xmin || p.x == box_.xmax));
+}
+
 namespace {
-
-class FrameBox {
- public:
-  explicit FrameBox(const Coastline& coastline) {
-    for (const Feature& feature : coastline.features) {
-      if (feature.use != FeatureUse::Frame) continue;
-      box_.add(boundsOf(feature));
-      in_parts_ = in_parts_ || feature.polygons.size() > 1;
-    }
-  }
-
-  Point nearest(const Point& p) const {
-    return {in_parts_ ? p.x : std::clamp(p.x, box_.xmin, box_.xmax), std::clamp(p.y, box_.ymin, box_.ymax)};
-  }
-
- private:
-  Box box_;
-  bool in_parts_ = false;  // at both ends of the longitudes
-};
 
 // Ascending indices of items for which `is_wanted`.
 template <typename IsWanted>

@@ -6,9 +6,24 @@
 
 #include "core/item_loop.hpp"
 #include "gis/coast/coastline.hpp"
+#include "gis/geometry/box.hpp"
 #include "gis/grid/grid.hpp"
 
 namespace coastmesh {
+
+// The box of a frame. REQUIRES: `framed_by_box`.
+class FrameBox {
+ public:
+  explicit FrameBox(const Coastline& coastline);
+
+  // The point of the box that is nearest; if the box crosses the end of the longitudes, only latitudes are clamped.
+  Point nearest(const Point& p) const;
+  bool hasOnSide(const Point& p) const;
+
+ private:
+  Box box_;
+  bool in_parts_ = false;  // at both ends of the longitudes
+};
 
 // Bounds on angles, degrees.
 struct AngleBounds {

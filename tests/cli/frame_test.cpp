@@ -91,6 +91,20 @@ TEST_F(Frame, NodesStayBesideTheBoxWhereAnglesWouldBreakTheBound) {
       << info.output;
 }
 
+// Nodes that were moved onto the box are not missing.
+TEST_F(Frame, AMeshInABoxAgreesWithItsInput) {
+  LonLatRing shore;
+  for (int i = 0; i < 240; ++i) {
+    const double angle = 2.0 * M_PI * i / 240, radius = 0.35 + 0.08 * std::sin(9.0 * angle);
+    shore.push_back({29.6 + 1.24 * radius * std::cos(angle), 62.35 + radius * std::sin(angle)});
+  }
+  const std::string lake = write("wavy.geojson", geoJsonPolygons({{shore}}));
+  const std::string box = "--bbox=29.3,62.1,29.9,62.6";
+  ASSERT_EQ(runProgram({"mesh", lake, box, "-o", file("wavy.nc")}).code, 0);
+  const ProgramRun check = runProgram({"check", file("wavy.nc"), "--input", lake, box});
+  EXPECT_EQ(check.code, 0) << check.output;
+}
+
 TEST_F(Frame, ARingOfOpenBoundaryIsSaidToBeTwo) {
   const std::vector<std::string> arguments{"mesh",         island(), "--domain", "outside",     "--bbox=-9,58,9,64",
                                            "--size-shore", "10000",  "-o",       file("sea.14")};
