@@ -445,7 +445,8 @@ void warnOfSharedBorder(const MeshJob& job, MeshJobResult& result) {
   const Grid& grid = result.grid;
   const StepReport& step = result.step.step;
   if (job.sizes.coast != CoastDetail::Follow || grid.feature_of.empty()) return;
-  if (!(step.shortest_edge_m < kFarShorter * job.sizes.mostAtShores())) return;
+  const double at_shores = job.sizes.atShores();
+  if (!(at_shores < SizeOptions::kNone) || !(step.shortest_edge_m < kFarShorter * at_shores)) return;
   constexpr double kMetresPerDegree = 111e3;  // precise enough for what is near
   const Point& middle = step.shortest_edge;
   const double up = grid.crs.geographic ? kMetresPerDegree : 1.0;

@@ -56,9 +56,13 @@ struct SizeOptions {
     bool shore_rate = false, gradation = false, time_step = false, coast = false;
   } given{};  // options beside chosen sizes that the user gave
 
-  // The largest size that is known to apply along shores; 0 if none is known before there is a map.
+  // The size asked for along shores, before other sources and time steps; infinite if there is none.
+  double atShores() const { return std::min({size_m, shore_m, most_m}); }
+  // The largest size that is known to apply along shores, where a time step may ask for more than `shore_m`; 0 if none
+  // is known before there is a map.
   double mostAtShores() const {
-    const double most = std::min({size_m, shore_m, most_m});
+    const double elsewhere = std::min(size_m, most_m);
+    const double most = time_step_s > 0.0 && elsewhere < kNone ? elsewhere : atShores();
     return most < kNone ? std::max(most, least_m) : 0.0;
   }
   // True if anything other than bounds is requested.
