@@ -50,7 +50,9 @@ TEST(TakeMarkedEdges, EdgesInAnyOrderMakeTheSameBoundaries) {
   ASSERT_EQ(grid.boundaries.size(), 2u);
   grid.boundaries[1].role = BoundaryRole::Open;
   std::vector<MarkedEdge> edges = markedEdges(grid);
-  Grid again{.nodes = grid.nodes, .triangles = grid.triangles};
+  Grid again;
+  again.nodes = grid.nodes;
+  again.triangles = grid.triangles;
   takeMarkedEdges(edges, again);
   ASSERT_EQ(again.boundaries.size(), 2u);
   for (std::size_t b = 0; b < 2; ++b) {

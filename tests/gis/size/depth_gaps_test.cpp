@@ -165,7 +165,9 @@ TEST(DepthGaps, WaterUpToTheEndOfTheRasterIsNone) {
         known, mask, root, 1000.0, [](const Point&) { return 1.0; }, inOrder);
     gaps.fill(known, mask, depthOf, GapFill::Mean, inOrder);
     EXPECT_NEAR(gaps.area(), has_gap ? 3000.0 * 4000.0 : 0.0, 1e6) << has_gap;
-    if (has_gap) EXPECT_TRUE(isGap(gaps.place())) << gaps.place().x << ", " << gaps.place().y;
+    if (has_gap) {
+      EXPECT_TRUE(isGap(gaps.place())) << gaps.place().x << ", " << gaps.place().y;
+    }
   }
 }
 
