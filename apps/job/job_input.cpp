@@ -291,22 +291,16 @@ std::size_t JobInput::pointsOf(std::size_t group) const {
   return count;
 }
 
-bool JobInput::meetsFrame(std::size_t group) const {
-  Box frame, others;
-  for (const std::size_t member : groups_[group]) {
-    const Feature& feature = coastline_.features[member];
-    if (feature.use == FeatureUse::Frame) {
-      frame.add(boundsOf(feature));
-    } else if (!isGuest(feature.use)) {
-      others.add(boundsOf(feature));
-    }
+std::size_t JobInput::pointsInFrame() const {
+  const Box frame = boundsOfFrames(coastline_);
+  std::size_t points = 0;
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    Box shores;
+    for (const std::size_t member : groups_[g])
+      if (!isGuest(coastline_.features[member].use)) shores.add(boundsOf(coastline_.features[member]));
+    if (frame.empty() || shores.empty() || meetAtAnyTurn(frame, shores, coastline_.crs)) points += pointsOf(g);
   }
-  if (frame.empty() || others.empty()) return true;
-  for (const double turn : {0.0, -360.0, 360.0}) {
-    if (turn != 0.0 && !coastline_.crs.geographic) continue;
-    if (frame.meets({others.xmin + turn, others.ymin, others.xmax + turn, others.ymax})) return true;
-  }
-  return false;
+  return points;
 }
 
 std::uint64_t JobInput::digest() const {

@@ -78,8 +78,8 @@ class JobInput {
   std::size_t groups() const { return groups_.size(); }
   const std::vector<std::size_t>& members(std::size_t group) const { return groups_[group]; }
   std::size_t pointsOf(std::size_t group) const;
-  // False if all of the group lies beyond the frame, by their extents; it will not be meshed.
-  bool meetsFrame(std::size_t group) const;
+  // Of the groups that do not lie beyond the frame, by their extents: the others will not be meshed.
+  std::size_t pointsInFrame() const;
   // Groups the features again, for shores that may move by this distance after cleaning.
   void regroup(double shores_move_m, const ItemLoop& loop = inOrder);
   // Equal for the same features in the same groups, on any machine of a kind.

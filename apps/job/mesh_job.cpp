@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <functional>
 #include <iomanip>
 #include <iterator>
 #include <memory>
 #include <mutex>
-#include <numbers>
 #include <numeric>
-#include <set>
 #include <sstream>
 #include <utility>
 
@@ -309,11 +306,8 @@ class GroupMemory {
 std::vector<MergedGroup> meshGroups(const MeshJob& job, const JobInput& input, const SizeInputs& sizes,
                                     const JobControl& control, MeshJobResult& result) {
   std::vector<std::size_t> points(input.groups());
-  std::size_t all_points = 0;  // of groups that share the budget
-  for (std::size_t g = 0; g < points.size(); ++g) {
-    points[g] = input.pointsOf(g);
-    if (input.meetsFrame(g)) all_points += points[g];
-  }
+  for (std::size_t g = 0; g < points.size(); ++g) points[g] = input.pointsOf(g);
+  const std::size_t all_points = input.pointsInFrame();
   const GroupExchange& exchange = job.exchange;
   if (exchange.begin) exchange.begin(input.digest(), input.groups());
   std::vector<std::size_t> order = workOrder(points);
@@ -436,33 +430,6 @@ void noteRaisedShore(MeshJobResult& result) {
                               amount("%.0f %%", 100.0 * raised_m / length_m) + " of the shore, up to " +
                               (most_m < 1000.0 ? amount("%.0f m", most_m) : amount("%.3g km", most_m / 1000.0)) +
                               "; a shorter step allows smaller elements");
-}
-
-// Borders that features share stay as in the data, however large the elements. Adds a warning if the shortest edge of
-// the grid is far shorter than those of the shore and lies at one.
-void warnOfSharedBorder(const MeshJob& job, MeshJobResult& result) {
-  constexpr double kFarShorter = 0.2, kNear = 3.0;  // of the shore's edges; in lengths of the shortest edge
-  const Grid& grid = result.grid;
-  const StepReport& step = result.step.step;
-  if (job.sizes.coast != CoastDetail::Follow || grid.feature_of.empty()) return;
-  const double at_shores = job.sizes.atShores();
-  if (!(at_shores < SizeOptions::kNone) || !(step.shortest_edge_m < kFarShorter * at_shores)) return;
-  constexpr double kMetresPerDegree = 111e3;  // precise enough for what is near
-  const Point& middle = step.shortest_edge;
-  const double up = grid.crs.geographic ? kMetresPerDegree : 1.0;
-  const double along = grid.crs.geographic ? up * std::cos(middle.y * std::numbers::pi / 180.0) : 1.0;
-  const auto isNear = [&](std::uint32_t node) {
-    const Point& p = grid.nodes[node];
-    return std::hypot(along * (p.x - middle.x), up * (p.y - middle.y)) <= kNear * step.shortest_edge_m;
-  };
-  std::set<std::uint32_t> features;
-  for (std::size_t t = 0; t < grid.triangles.size(); ++t)
-    if (std::ranges::any_of(grid.triangles[t], isNear)) features.insert(grid.feature_of[t]);
-  if (features.size() < 2) return;
-  result.read.warnings.push_back("the shortest edge, " + amount("%.3g", step.shortest_edge_m) + " m at " +
-                                 pointText(step.shortest_edge) +
-                                 ", is at a border that two features share, which stays as it is in the data: "
-                                 "--dissolve makes them one");
 }
 
 // In the coordinates that are written: orientation in the working plane may differ.
@@ -590,7 +557,6 @@ MeshJobResult runOnThreads(const MeshJob& given, const JobControl& control) {
   if (job.exchange.shards <= 1) warnOfIdleInputs(job, sizes, input.coastline(), result);
   findTurned(result, loop);
   result.step = measureOutcome(result.grid, job.sizes, loop, job.mesh.refine.goal);
-  warnOfSharedBorder(job, result);
   result.rasters_read = rasters.use();
   result.log.append(recorder.finish("grid"));
   result.seconds.total = whole.seconds();

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <numbers>
+#include <optional>
 
 #include "apps/job/places.hpp"
 #include "gis/for_count.hpp"
@@ -64,6 +67,30 @@ std::vector<std::string> warningsOf(const StepOutcome& outcome, const SizeOption
   return all;
 }
 
+// True if the shortest edge is far shorter than those of a shore that follows the sizes, and at a border that features
+// share, which stays as in the data.
+bool isShortAtBorder(const Grid& grid, const StepReport& step, const SizeOptions& sizes) {
+  constexpr double kFarShorter = 0.2, kNear = 3.0;  // of the shore's edges; in lengths of the shortest edge
+  const double at_shores = sizes.atShores();
+  if (sizes.coast != CoastDetail::Follow || grid.feature_of.empty() || !std::isfinite(at_shores)) return false;
+  if (!(step.shortest_edge_m < kFarShorter * at_shores)) return false;
+  constexpr double kMetresPerDegree = 111e3;  // precise enough for what is near
+  const Point& middle = step.shortest_edge;
+  const double up = grid.crs.geographic ? kMetresPerDegree : 1.0;
+  const double along = grid.crs.geographic ? up * std::cos(middle.y * std::numbers::pi / 180.0) : 1.0;
+  const auto isNear = [&](std::uint32_t node) {
+    const Point& p = grid.nodes[node];
+    return std::hypot(along * (p.x - middle.x), up * (p.y - middle.y)) <= kNear * step.shortest_edge_m;
+  };
+  std::optional<std::uint32_t> feature;
+  for (std::size_t t = 0; t < grid.triangles.size(); ++t) {
+    if (std::ranges::none_of(grid.triangles[t], isNear)) continue;
+    if (feature && grid.feature_of[t] != *feature) return true;
+    feature = grid.feature_of[t];
+  }
+  return false;
+}
+
 }  // namespace
 
 StepOutcome measureOutcome(const Grid& grid, const SizeOptions& sizes, const ItemLoop& loop, QualityGoal goal) {
@@ -75,6 +102,11 @@ StepOutcome measureOutcome(const Grid& grid, const SizeOptions& sizes, const Ite
   outcome.least_missed = sizes.coast == CoastDetail::Follow && !outcome.below_least.empty() &&
                          outcome.below_least.front().length_m < StepOutcome::kShareOfLeast * sizes.least_m;
   outcome.warnings = warningsOf(outcome, sizes, goal);
+  if (isShortAtBorder(grid, outcome.step, sizes))
+    outcome.warnings.push_back("the shortest edge, " + amount("%.3g m at ", outcome.step.shortest_edge_m) +
+                               pointText(outcome.step.shortest_edge) +
+                               ", is at a border that two features share, which stays as it is in the data: "
+                               "--dissolve makes them one");
   return outcome;
 }
 

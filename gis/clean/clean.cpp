@@ -11,6 +11,7 @@
 #include "gis/clean/clean_simplify.hpp"
 #include "gis/clean/domain_of_edges.hpp"
 #include "gis/coast/feature_names.hpp"
+#include "gis/coast/snap_distance.hpp"
 #include "gis/error.hpp"
 #include "gis/geometry/chain_index.hpp"
 
@@ -18,18 +19,10 @@ namespace coastmesh {
 
 namespace {
 
-std::string namesOf(const Coastline& coastline, const std::vector<std::size_t>& members) {
-  if (members.empty()) return "no feature";
-  const Feature& first = coastline.features[members.front()];
-  std::string names = first.source + ", feature " + std::to_string(first.fid);
-  if (members.size() > 1) names += " and " + std::to_string(members.size() - 1) + " that touch it";
-  return names;
-}
-
-// Text that names the two nearest loose ends of lines, at which no other line begins or ends; empty if there are fewer
-// than two, or too many to join by hand.
-std::string nearestEnds(const Coastline& coastline, const std::vector<std::size_t>& members,
-                        const Projection& projection) {
+// Text that names the two nearest loose ends of lines, at which no other line begins or ends, and advises to join them;
+// without their names if there are fewer than two, or too many to join by hand.
+std::string adviceOnEnds(const Coastline& coastline, const std::vector<std::size_t>& members,
+                         const Projection& projection) {
   constexpr std::size_t kMost = 2000;
   std::vector<Point> ends;
   for (const std::size_t member : members) {
@@ -45,7 +38,7 @@ std::string nearestEnds(const Coastline& coastline, const std::vector<std::size_
   for (std::size_t i = 0; i < ends.size(); ++i)
     if ((i == 0 || ends[i - 1] != ends[i]) && (i + 1 == ends.size() || ends[i + 1] != ends[i]))
       loose.push_back(ends[i]);
-  if (loose.size() < 2 || loose.size() > kMost) return {};
+  if (loose.size() < 2 || loose.size() > kMost) return ": join them";
   std::ranges::transform(loose, std::back_inserter(plane), [&](const Point& p) { return projection.forward(p); });
   std::ranges::transform(plane, std::back_inserter(scales), [&](const Point& p) { return projection.scaleAt(p); });
   std::size_t a = 0, b = 1;
@@ -57,8 +50,9 @@ std::string nearestEnds(const Coastline& coastline, const std::vector<std::size_
       if (gap(i, j) < gap(a, b)) std::tie(a, b) = std::pair(i, j);
   char width[40];
   std::snprintf(width, sizeof width, "%.3g", gap(a, b));
+  const std::string with_snap = gap(a, b) <= kMostSnapped ? ", with --snap too" : "";
   return " (the nearest ends, " + placeInWords(loose[a]) + " and " + placeInWords(loose[b]) + ", are " + width +
-         (projection.isIdentity() ? "" : " m") + " apart)";
+         (projection.isIdentity() ? "" : " m") + " apart): join them" + with_snap;
 }
 
 void refuseEmpty(const Coastline& coastline, const std::vector<std::size_t>& members,
@@ -73,14 +67,13 @@ void refuseEmpty(const Coastline& coastline, const std::vector<std::size_t>& mem
     has_polygon = has_polygon || !feature.polygons.empty();
     has_land = has_land || feature.use == FeatureUse::Land || feature.use == FeatureUse::Coast;
   }
-  if (has_frame && !has_land) throw NothingWanted(namesOf(coastline, members) + ": lies outside of the frame");
+  if (has_frame && !has_land) throw NothingWanted(featuresInWords(coastline, members) + ": lies outside of the frame");
   if (has_frame) throw InputError("the frame holds no water: all of it is land");
-  throw InputError(namesOf(coastline, members) + ": " +
+  throw InputError(featuresInWords(coastline, members) + ": " +
                    (has_polygon ? "the polygons enclose no area"
                                 : "the lines close no ring, so there is nothing to mesh" +
-                                      nearestEnds(coastline, members, projection) +
-                                      ": join them, with --snap too, or close them with --bbox W,S,E,N or "
-                                      "--clip FILE"));
+                                      adviceOnEnds(coastline, members, projection) +
+                                      ", or close them with --bbox W,S,E,N or --clip FILE"));
 }
 
 // Removes edits outside the frame, where nothing is meshed, except for points that were requested there.

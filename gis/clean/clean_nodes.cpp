@@ -72,8 +72,8 @@ class Noder {
       if (!splitOnce(round)) return {std::move(uses_), std::move(crossed_)};
     }
     const Feature& feature = coastline_.features[last_split_.feature];
-    throw InputError(feature.source + ", feature " + std::to_string(feature.fid) + ": the edges near " +
-                     std::to_string(last_split_.place.x) + ", " + std::to_string(last_split_.place.y) +
+    throw InputError(featureInWords(feature) + ": the edges near " + std::to_string(last_split_.place.x) + ", " +
+                     std::to_string(last_split_.place.y) +
                      " cannot be untangled: simplify the feature there, or give a larger snap distance");
   }
 
@@ -284,8 +284,7 @@ class Noder {
     if (a == b || role != chains_.chains[b].role || !chains_.chains[a].isRing()) return;
     const std::uint32_t feature = chains_.chains[a].feature;
     if (!overlapping_.insert(feature).second) return;
-    const Feature& named = coastline_.features[feature];
-    report_.warnings.push_back(named.source + ", feature " + std::to_string(named.fid) +
+    report_.warnings.push_back(featureInWords(coastline_.features[feature]) +
                                (role == Role::Hole ? ": holes overlap near (" : ": parts overlap near (") +
                                roughPlaceInWords(place) + "), and what they share is " +
                                (role == Role::Hole ? "no hole" : "left out") +

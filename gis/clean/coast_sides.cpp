@@ -7,6 +7,7 @@
 
 #include "core/metric.hpp"
 #include "gis/coast/feature_names.hpp"
+#include "gis/coast/snap_distance.hpp"
 #include "gis/error.hpp"
 #include "gis/for_count.hpp"
 #include "gis/geometry/box.hpp"
@@ -212,10 +213,8 @@ class WaterFinder {
                        placeInWords(vertices_.input[end]) + ", inside of the frame, without meeting another";
     if (nearest >= 0) {
       const double metres = nearest / projection_.scaleAt(place);
-      // A larger snap distance would merge what is apart.
-      constexpr double kSmallGap = 100.0;  // metres
       char more[160];
-      if (metres <= kSmallGap)
+      if (metres <= kMostSnapped)
         std::snprintf(more, sizeof more, "; the next loose end is %.4g m away: join them, or give --snap %.2g", metres,
                       std::ceil(metres * 1.1 * 1000) / 1000);
       else

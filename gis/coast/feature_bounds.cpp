@@ -17,6 +17,13 @@ Box boundsOf(const Feature& feature) {
   return box;
 }
 
+Box boundsOfFrames(const Coastline& coastline) {
+  Box bounds;
+  for (const Feature& feature : coastline.features)
+    if (feature.use == FeatureUse::Frame) bounds.add(boundsOf(feature));
+  return bounds;
+}
+
 bool meetAtAnyTurn(const Box& a, const Box& b, const Crs& crs) {
   if (!crs.geographic) return a.meets(b);
   for (const double turn : {0.0, -360.0, 360.0})

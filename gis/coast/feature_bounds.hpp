@@ -9,6 +9,9 @@ namespace coastmesh {
 // The box of all parts of a feature: rings, lines and points, in the input's CRS.
 Box boundsOf(const Feature& feature);
 
+// The box of all frames; empty if there are none.
+Box boundsOfFrames(const Coastline& coastline);
+
 // True if two boxes of that CRS meet; longitudes may be a full turn apart.
 bool meetAtAnyTurn(const Box& a, const Box& b, const Crs& crs);
 

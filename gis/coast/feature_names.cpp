@@ -21,6 +21,17 @@ bool isNameAttribute(std::string_view attribute) {
   return lowerCase(std::string(attribute)).find("name") != std::string::npos;
 }
 
+std::string featureInWords(const Feature& feature) {
+  return feature.source + ", feature " + std::to_string(feature.fid);
+}
+
+std::string featuresInWords(const Coastline& coastline, const std::vector<std::size_t>& members) {
+  if (members.empty()) return "the input";
+  std::string names = featureInWords(coastline.features[members.front()]);
+  if (members.size() > 1) names += " and " + std::to_string(members.size() - 1) + " meshed with it";
+  return names;
+}
+
 std::string placeInWords(const Point& place) {
   char text[64];
   std::snprintf(text, sizeof text, "%.10g, %.10g", place.x, place.y);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -20,6 +21,10 @@ std::string placeInWords(const Point& place);
 
 // The same with fewer digits, where some metres, or a unit of a plane, are precise enough.
 std::string roughPlaceInWords(const Point& place);
+
+// "lakes.gpkg, feature 12", and the same for features that are meshed together: "… and 3 meshed with it".
+std::string featureInWords(const Feature& feature);
+std::string featuresInWords(const Coastline& coastline, const std::vector<std::size_t>& members);
 
 // The name of a region: its attribute "tag", "region" or "name", else the number of its feature.
 std::string regionNameOf(const Feature& feature);

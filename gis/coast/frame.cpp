@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <functional>
 #include <iterator>
 #include <limits>
 
@@ -23,18 +22,6 @@ namespace {
 
 constexpr double kTurn = 360;  // degrees
 
-Box boundsOf(const Coastline& coastline, const std::function<bool(FeatureUse)>& counts) {
-  Box box;
-  for (const Feature& feature : coastline.features) {
-    if (counts(feature.use)) box.add(boundsOf(feature));
-  }
-  return box;
-}
-
-Box boundsOfFrames(const Coastline& coastline) {
-  return boundsOf(coastline, [](FeatureUse use) { return use == FeatureUse::Frame; });
-}
-
 std::string inWords(const Box& box) {
   char text[160];
   std::snprintf(text, sizeof text, "%.10g,%.10g,%.10g,%.10g", box.xmin, box.ymin, box.xmax, box.ymax);
@@ -43,7 +30,10 @@ std::string inWords(const Box& box) {
 
 // Bounds without guests, which may lie in another turn.
 Box boundsOfHosts(const Coastline& coastline) {
-  return boundsOf(coastline, [](FeatureUse use) { return !isGuest(use); });
+  Box bounds;
+  for (const Feature& feature : coastline.features)
+    if (!isGuest(feature.use)) bounds.add(boundsOf(feature));
+  return bounds;
 }
 
 // Western end of the 360 degrees of longitude that the data use: -180, 0 for data from 0 to 360, or as far west of the

@@ -8,4 +8,8 @@ struct SnapDistance {
   bool in_plane = false;  // coordinates are used as given, whatever their CRS
 };
 
+// Gaps up to this length may be inaccuracies of data, which messages advise to snap; larger distances would merge what
+// is apart.
+inline constexpr double kMostSnapped = 100.0;  // metres
+
 }  // namespace coastmesh

@@ -96,10 +96,9 @@ class Opening {
   }
 
   void openWater(double narrowest, const ConnectedRegions& connected) {
-    small_ = smallWaters(narrowest, connected);
-    const auto narrow = [&](TriId t) {
-      return !isLand(t) && !isIn(small_, mesh().regions[t]) && isNarrow(t, narrowest);
-    };
+    const std::vector<char> is_narrow = narrowTriangles(narrowest);
+    small_ = smallWaters(is_narrow, connected);
+    const auto narrow = [&](TriId t) { return is_narrow[t] != 0 && !isIn(small_, mesh().regions[t]); };
     const Patches closed = patchesOf(mesh(), narrow);
     for (const std::vector<TriId>& patch : closed.triangles) {
       const auto gates = gatesOf(patch, closed.of, [&](TriId t) { return !isLand(t); });
@@ -111,10 +110,17 @@ class Opening {
     closeSmall(connected);
   }
 
-  SmallWaters smallWaters(double narrowest, const ConnectedRegions& connected) const {
+  // For each triangle: true if it is water that may be closed.
+  std::vector<char> narrowTriangles(double narrowest) const {
+    std::vector<char> is_narrow(mesh().triangles.size(), 0);
+    for (TriId t = 0; t < is_narrow.size(); ++t) is_narrow[t] = !isLand(t) && isNarrow(t, narrowest);
+    return is_narrow;
+  }
+
+  SmallWaters smallWaters(const std::vector<char>& is_narrow, const ConnectedRegions& connected) const {
     SmallWaters small(connected.size(), true);
     for (TriId t = 0; t < mesh().triangles.size(); ++t)
-      if (!isLand(t) && !isNarrow(t, narrowest)) small[wholeOf(mesh().regions[t], connected)] = false;
+      if (!isLand(t) && is_narrow[t] == 0) small[wholeOf(mesh().regions[t], connected)] = false;
     for (std::size_t r = 0; r < small.size(); ++r) small[r] = small[static_cast<std::size_t>(connected[r])];
     return small;
   }
@@ -406,7 +412,8 @@ SmallWaters smallWaters(ShoreTriangles& triangles, const ShoreSizes& sizes, cons
                         const ConnectedRegions& connected) {
   const ShoreEdit none;
   WaterAreas gained;
-  return Opening(triangles, sizes, guides, none, gained).smallWaters(narrowest, connected);
+  const Opening opening(triangles, sizes, guides, none, gained);
+  return opening.smallWaters(opening.narrowTriangles(narrowest), connected);
 }
 
 OpenedWater openWater(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,

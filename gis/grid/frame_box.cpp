@@ -13,13 +13,10 @@
 
 namespace coastmesh {
 
-FrameBox::FrameBox(const Coastline& coastline) {
-  for (const Feature& feature : coastline.features) {
-    if (feature.use != FeatureUse::Frame) continue;
-    box_.add(boundsOf(feature));
-    in_parts_ = in_parts_ || feature.polygons.size() > 1;
-  }
-}
+FrameBox::FrameBox(const Coastline& coastline)
+    : box_(boundsOfFrames(coastline)), in_parts_(std::ranges::any_of(coastline.features, [](const Feature& feature) {
+        return feature.use == FeatureUse::Frame && feature.polygons.size() > 1;
+      })) {}
 
 Point FrameBox::nearest(const Point& p) const {
   return {in_parts_ ? p.x : std::clamp(p.x, box_.xmin, box_.xmax), std::clamp(p.y, box_.ymin, box_.ymax)};

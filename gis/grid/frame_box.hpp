@@ -22,7 +22,7 @@ class FrameBox {
 
  private:
   Box box_;
-  bool in_parts_ = false;  // at both ends of the longitudes
+  bool in_parts_;  // at both ends of the longitudes
 };
 
 // Bounds on angles, degrees.

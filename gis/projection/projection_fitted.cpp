@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "gis/coast/feature_names.hpp"
 #include "gis/coast/turned_rings.hpp"
 #include "gis/crs/geodesy.hpp"
 #include "gis/crs/geographic_map.hpp"
@@ -112,21 +113,12 @@ void forEachChain(const Coastline& coastline, const std::vector<std::size_t>& me
 
 [[noreturn]] void refuse(const Feature& feature, const Point& input, const Crs& crs) {
   const bool swapped = crs.geographic && std::abs(input.x) <= 90 && std::abs(input.y) <= 180;
-  throw InputError(feature.source + ", feature " + std::to_string(feature.fid) + ": the point " +
-                   std::to_string(input.x) + ", " + std::to_string(input.y) + " is not a place on Earth in " +
-                   nameOf(crs) +
+  throw InputError(featureInWords(feature) + ": the point " + std::to_string(input.x) + ", " + std::to_string(input.y) +
+                   " is not a place on Earth in " + nameOf(crs) +
                    (swapped ? ": are latitude and longitude swapped? The longitude comes first; QGIS changes them "
                               "with Swap X and Y Coordinates"
                             : ": put the CRS that the data are in into the file (ogr2ogr -a_srs, or Assign Projection "
                               "in QGIS), or take them as a plane with --crs plane"));
-}
-
-std::string namesOf(const Coastline& coastline, const std::vector<std::size_t>& members) {
-  if (members.empty()) return "the input";
-  const Feature& first = coastline.features[members.front()];
-  std::string names = first.source + ", feature " + std::to_string(first.fid);
-  if (members.size() > 1) names += " and " + std::to_string(members.size() - 1) + " meshed with it";
-  return names;
 }
 
 std::shared_ptr<const ProjectionMap> fitTo(const Coastline& coastline, const std::vector<std::size_t>& members,
@@ -169,7 +161,7 @@ std::shared_ptr<const ProjectionMap> fitTo(const Coastline& coastline, const std
       for (Ring& turned : turnedRings(ring)) addProjected(std::move(turned));
     }
   });
-  if (places.empty() && !coastline.rest) throw InputError(namesOf(coastline, members) + ": holds no point");
+  if (places.empty() && !coastline.rest) throw InputError(featuresInWords(coastline, members) + ": holds no point");
   const double middle = west >= -180 && east <= 180 ? 0 : (west + east) / 2;
   const Ellipsoid ellipsoid = kind == SurfaceKind::Sphere
                                   ? Ellipsoid{kSphereRadius, 0.0}
@@ -179,7 +171,7 @@ std::shared_ptr<const ProjectionMap> fitTo(const Coastline& coastline, const std
     try {
       return fitMap(places, groups, ellipsoid, coastline.rest ? SurfaceKind::Ellipsoid : kind);
     } catch (const InputError& error) {
-      throw InputError(namesOf(coastline, members) + ": " + error.what());
+      throw InputError(featuresInWords(coastline, members) + ": " + error.what());
     }
   };
   FittedMap map = fit();

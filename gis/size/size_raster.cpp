@@ -16,6 +16,14 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr float kNothing = std::numeric_limits<float>::infinity();
 constexpr double kSteepShare = 0.6;
+// Sides of a box bulge between places that are computed: by this share of its extent, and a few roundings.
+constexpr double kBulge = 0.05, kHair = 1e-6;  // pixels
+
+std::array<std::int64_t, 4> windowAround(const Box& pixels) {
+  const Box grown = pixels.grownBy(1.0);
+  return {static_cast<std::int64_t>(std::floor(grown.xmin)), static_cast<std::int64_t>(std::floor(grown.ymin)),
+          static_cast<std::int64_t>(std::ceil(grown.xmax)), static_cast<std::int64_t>(std::ceil(grown.ymax))};
+}
 
 }  // namespace
 
@@ -163,8 +171,7 @@ double RasterField::mostKnownIn(const SizeTile& tile, std::uint32_t node, int x,
 std::optional<Box> RasterField::pixelsIn(const SizeBox& box) const {
   const RasterGeometry& raster = frame_->raster;
   Box pixels;
-  // Corners, midpoints of sides and the centre. Between them sides bulge a little, for which a share of the box is
-  // added.
+  // Corners, midpoints of sides and the centre.
   for (int k = 0; k < 9; ++k) {
     const Point p = frame_->pixelOf(box.centre + box.half * Point{k % 3 - 1.0, k / 3 - 1.0});
     if (!std::isfinite(p.x) || !std::isfinite(p.y)) return std::nullopt;
@@ -172,7 +179,7 @@ std::optional<Box> RasterField::pixelsIn(const SizeBox& box) const {
   }
   const double extent = std::max(pixels.xmax - pixels.xmin, pixels.ymax - pixels.ymin);
   if (raster.wraps && extent > 0.5 * raster.columns) return std::nullopt;
-  return pixels.grownBy(0.05 * extent + 1e-6);
+  return pixels.grownBy(kBulge * extent + kHair);
 }
 
 // Calls `found(tile, window)` for the tiles that meet these pixels and their neighbours, with the window in the tile's
@@ -201,16 +208,6 @@ void RasterField::forTiles(const PixelWindow& window, Found&& found) const {
   }
 }
 
-namespace {
-
-std::array<std::int64_t, 4> windowAround(const Box& pixels) {
-  const Box grown = pixels.grownBy(1.0);
-  return {static_cast<std::int64_t>(std::floor(grown.xmin)), static_cast<std::int64_t>(std::floor(grown.ymin)),
-          static_cast<std::int64_t>(std::ceil(grown.xmax)), static_cast<std::int64_t>(std::ceil(grown.ymax))};
-}
-
-}  // namespace
-
 void RasterField::bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const {
   const RasterGeometry& raster = frame_->raster;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -221,7 +218,7 @@ void RasterField::bound(std::span<const SizeBox> boxes, std::span<SizeRange> ran
       ranges[i] = {0.0, kInfinity};
       continue;
     }
-    constexpr double kFewPixels = 2.200002;  // with what was added
+    constexpr double kFewPixels = 2.0 * (1.0 + 2.0 * kBulge) + 2.0 * kHair;  // two, with what was added
     if (std::max(pixels->xmax - pixels->xmin, pixels->ymax - pixels->ymin) <= kFewPixels) {
       ranges[i] = boundBetween(*pixels);
       continue;

@@ -216,9 +216,16 @@ TEST_F(Globe, SizesGrowFromShores) {
   EXPECT_LT(made.triangles, 8000u);
 }
 
-// The node opposite to the middle of the plane lies at its infinity.
+// With these islands the node opposite to the middle of the plane is at its infinity, and not just far away.
 TEST_F(Globe, CanBeCheckedAgainstItsInputOnASphere) {
-  const std::string land = write("land.geojson", geoJsonPolygons({{{{0, 50}, {20, 48}, {25, 60}, {5, 62}}}}));
+  std::vector<std::vector<LonLatRing>> islands;
+  const LonLatRing middles{{0, 0}, {60, 20}, {130, -25}, {-100, 40}, {-60, -20}, {20, 60}, {100, 50}, {-150, -60}};
+  for (const auto& [x, y] : middles) {
+    LonLatRing& ring = islands.emplace_back(1).front();
+    for (int i = 0; i < 12; ++i)
+      ring.push_back({x + 8.0 * std::cos(i * M_PI / 6.0), y + 8.0 * std::sin(i * M_PI / 6.0)});
+  }
+  const std::string land = write("islands.geojson", geoJsonPolygons(islands));
   ASSERT_EQ(mesh({land, "--size", "400000", "--surface", "sphere"}, "globe.nc").code, 0);
   const ProgramRun check =
       runProgram({"check", file("globe.nc"), "--surface", "sphere", "--input", land, "--domain", "globe"});
