@@ -35,11 +35,12 @@ struct Piece {
 class Simplifier {
  public:
   Simplifier(const CleanVertices& vertices, const LabelledEdges& edges, const Resolution& resolution,
-             const std::function<double(VertexId)>& tolerance)
+             const std::function<double(VertexId)>& tolerance, double apart)
       : vertices_(vertices),
         lines_(edges.lines),
         resolution_(resolution),
         tolerance_(tolerance),
+        apart_(apart),
         links_(vertices.plane.size()) {
     pieces_.reserve(edges.segments.size());
     for (const VertexId v : edges.points) links_[v].degree = 3;  // never dropped, but it blocks others
@@ -150,17 +151,19 @@ class Simplifier {
   }
 
   // True if the triangle of v and its neighbours contains another living vertex, or one on its boundary, or if the
-  // segment that would replace v comes too near to one.
+  // segment that would replace v comes too near to one: within the gap, or, within `apart_` of the tolerance, much
+  // nearer than the shore was.
   bool blocked(VertexId v) const {
     const VertexId p = other(links_[v].segment[0], v), q = other(links_[v].segment[1], v);
     const int turn = orient2d(at(p), at(v), at(q));
     Box box = Box::of(at(p), at(q));
     box.add(at(v));
     bool found = false;
-    const double gap = resolution_.gap;
-    tree_.visit(box.grownBy(gap), [&](std::uint32_t w) {
+    const double gap = resolution_.gap, apart = apart_ * tolerance_(v);
+    tree_.visit(box.grownBy(std::max(gap, apart)), [&](std::uint32_t w) {
       if (found || w == v || w == p || w == q || links_[w].degree == 0) return;
-      found = squaredDistanceToSegment(at(w), at(p), at(q)) < gap * gap;
+      const double distance = squaredDistanceToSegment(at(w), at(p), at(q));
+      found = distance < gap * gap || (distance < apart * apart && narrows(w, v, distance));
       if (found) return;
       if (turn == 0) {  // v lies on pq, or the chain turns back: no vertex may lie on that line
         found = orient2d(at(p), at(q), at(w)) == 0;
@@ -170,6 +173,25 @@ class Simplifier {
               orient2d(at(q), at(p), at(w)) * turn >= 0;
     });
     return found;
+  }
+
+  // True if w is less than half as far from the segment that would replace v as from the shore that this segment stands
+  // for. `distance` is squared.
+  bool narrows(VertexId w, VertexId v, double distance) const {
+    constexpr double kShare = 0.5;
+    const auto isNear = [&](const Point& a, const Point& b) {
+      return kShare * kShare * squaredDistanceToSegment(at(w), a, b) <= distance;
+    };
+    for (const std::uint32_t s : links_[v].segment) {
+      const Piece& piece = pieces_[s];
+      VertexId from = piece.segment.a;
+      for (const VertexId to : piece.dropped) {
+        if (isNear(at(from), at(to))) return false;
+        from = to;
+      }
+      if (isNear(at(from), at(piece.segment.b))) return false;
+    }
+    return true;
   }
 
   // True if the segment that would replace v makes too small an angle with another at one of its ends.
@@ -233,6 +255,7 @@ class Simplifier {
   const std::vector<DomainLine>& lines_;
   const Resolution& resolution_;
   const std::function<double(VertexId)>& tolerance_;  // in the plane
+  double apart_;                                      // of the tolerance: see `blocked`
   std::vector<Link> links_;
   std::vector<Piece> pieces_;
   std::unordered_map<VertexId, std::vector<VertexId>> junctions_;  // neighbours, if more than two
@@ -250,7 +273,8 @@ std::vector<Segment> simplifyEdges(const CleanVertices& vertices, const Labelled
   const std::function<double(VertexId)> tolerance = [&](VertexId v) {
     return tolerance_m * projection.scaleAt(vertices.plane[v]);
   };
-  Simplifier simplifier(vertices, edges, resolution, tolerance);
+  constexpr double kApart = 0.25;  // hardly fewer points with more of it, which takes longer
+  Simplifier simplifier(vertices, edges, resolution, tolerance, kApart);
   return simplifier.run([&](VertexId v, const Segment& segment) {
     const auto feature = static_cast<std::size_t>(std::max(segment.left, segment.right));
     report.add(EditKind::SimplifiedPoint, vertices.input[v], coastline, feature);
@@ -280,7 +304,7 @@ std::vector<Segment> dropTraces(const CleanVertices& vertices, const LabelledEdg
   const std::function<double(VertexId)> farthest = [&](VertexId v) {
     return kFarthest * projection.scaleAt(vertices.plane[v]);
   };
-  Simplifier simplifier(vertices, edges, resolution, farthest);
+  Simplifier simplifier(vertices, edges, resolution, farthest, 0.0);
   simplifier.restrictTo([&](VertexId v, VertexId p, VertexId q) {
     if (!std::ranges::binary_search(edges.traces, v)) return false;
     const auto isStraight = [](const Point& at, const Point& a, const Point& b, double room) {

@@ -21,6 +21,15 @@ double distanceTo(const Point& p, const Pslg& pslg) {
   return least;
 }
 
+// The least distance of a point from a segment that does not end there.
+double leastWidth(const Pslg& pslg) {
+  double least = 1e300;
+  for (VertexId v = 0; v < pslg.points.size(); ++v)
+    for (const Segment& s : pslg.segments)
+      if (s.a != v && s.b != v) least = std::min(least, distanceTo(pslg.points[v], pslg.points[s.a], pslg.points[s.b]));
+  return least;
+}
+
 Domain simplify(const std::vector<Feature>& features, double tolerance, CleanReport& report) {
   const Coastline coastline = coastlineOf(features);
   const Domain domain = cleanFeatures(coastline, allMembers(coastline), Projection::plane(),
@@ -53,6 +62,14 @@ TEST(Simplify, AnIslandKeepsItsSide) {
   const Domain without = simplify({polygonFeature(1, shore)}, 3, report);
   EXPECT_EQ(std::find(without.input_points.begin(), without.input_points.end(), Point{5, -2}),
             without.input_points.end());
+}
+
+TEST(Simplify, NoLakeIsFlattened) {
+  // Three points lie almost on a line; those between them are the least important.
+  const Ring lake{{-236.6, 3580.7}, {316.9, 2521.0},    {-16.06, 758.527}, {-236.8, 758.539},
+                  {-236.9, -323.5}, {-1200.3, 758.819}, {-236.8, 1639.8}};
+  CleanReport report;
+  EXPECT_GT(leastWidth(simplify({polygonFeature(1, lake)}, 568, report).pslg), 10);
 }
 
 TEST(Simplify, JunctionsAndRingsStay) {
