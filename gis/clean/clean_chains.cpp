@@ -12,6 +12,7 @@
 #include "gis/clean/seam.hpp"
 #include "gis/clean/small_islands.hpp"
 #include "gis/clean/torn_edges.hpp"
+#include "gis/coast/feature_names.hpp"
 #include "gis/coast/input_polygons.hpp"
 #include "gis/error.hpp"
 #include "gis/geometry/box.hpp"
@@ -76,9 +77,9 @@ void keepTouches(std::vector<InputChain>& chains, const Coastline& coastline, do
 const Point& requirePlace(const Point& plane, const Point& input, const Feature& feature,
                           const Projection& projection) {
   if (std::isfinite(plane.x) && std::isfinite(plane.y)) return plane;
-  throw InputError(feature.source + ", feature " + std::to_string(feature.fid) + ": the point " +
-                   std::to_string(input.x) + ", " + std::to_string(input.y) + " has no place in the working plane (" +
-                   projection.description() + "): check the coordinates and their CRS");
+  throw InputError(featureInWords(feature) + ": the point " + std::to_string(input.x) + ", " + std::to_string(input.y) +
+                   " has no place in the working plane (" + projection.description() +
+                   "): check the coordinates and their CRS");
 }
 
 // All points of the chains in the plane, chain after chain.
@@ -111,9 +112,8 @@ void requireUntorn(const std::vector<InputChain>& chains, const std::vector<Poin
   for (const InputChain& chain : chains) {
     const Feature& feature = coastline.features[chain.feature];
     const bool closed = chain.role == CleanChain::Role::Outer || chain.role == CleanChain::Role::Hole;
-    requireUntorn({feature.source + ", feature " + std::to_string(feature.fid), chain.points,
-                   rest.first(chain.points.size()), closed},
-                  extent, coastline.crs, projection);
+    requireUntorn({featureInWords(feature), chain.points, rest.first(chain.points.size()), closed}, extent,
+                  coastline.crs, projection);
     rest = rest.subspan(chain.points.size());
   }
 }

@@ -85,7 +85,6 @@ class Labeller {
   bool isLine(const EdgeUse& use) const { return roleOf(use) == CleanChain::Role::Line; }
   FeatureUse useOf(std::uint32_t feature) const { return coastline_.features[feature].use; }
   std::uint32_t featureOf(const EdgeUse& use) const { return chains_.chains[use.chain].feature; }
-  std::int64_t fidOf(std::uint32_t feature) const { return coastline_.features[feature].fid; }
   const Point& inputOf(VertexId v) const { return chains_.vertices.input[v]; }
 
   // Features whose rings run along the edge: crossing it enters or leaves them.
@@ -342,9 +341,7 @@ class Labeller {
     if (shared.empty()) return;
     const auto& [feature, first] = *shared.begin();
     const std::string more = shared.size() > 1 ? ", and so do " + std::to_string(shared.size() - 1) + " more" : "";
-    const auto inWords = [this](std::uint32_t f) {
-      return coastline_.features[f].source + ", feature " + std::to_string(fidOf(f));
-    };
+    const auto inWords = [this](std::uint32_t f) { return featureInWords(coastline_.features[f]); };
     report_.warnings.push_back(
         inWords(feature) + " lies in " + inWords(first.other) + " at " + placeInWords(placeIn(first.face)) + more +
         ": both are meshed; an island has to be a hole of the polygon round it, which Difference "

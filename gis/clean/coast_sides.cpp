@@ -208,8 +208,7 @@ class WaterFinder {
     for (const CoastEdge& edge : coast_.edges) {
       if (edge.parts && (edge.low == end || edge.high == end)) feature = edge.feature;
     }
-    std::string text = coastline_.features[feature].source + ", feature " +
-                       std::to_string(coastline_.features[feature].fid) + ": the coastline ends at " +
+    std::string text = featureInWords(coastline_.features[feature]) + ": the coastline ends at " +
                        placeInWords(vertices_.input[end]) + ", inside of the frame, without meeting another";
     if (nearest >= 0) {
       const double metres = nearest / projection_.scaleAt(place);

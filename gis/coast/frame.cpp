@@ -9,6 +9,7 @@
 
 #include "gis/coast/clip_chains.hpp"
 #include "gis/coast/feature_bounds.hpp"
+#include "gis/coast/feature_names.hpp"
 #include "gis/coast/guests.hpp"
 #include "gis/coast/split_frames.hpp"
 #include "gis/coast/turned_rings.hpp"
@@ -89,9 +90,9 @@ void refuseOddFrames(const Coastline& coastline) {
     if (feature.use != FeatureUse::Frame || !coastline.crs.geographic) continue;
     const Box box = boundsOf(feature);
     if (box.empty() || (box.ymin >= -90 && box.ymax <= 90 && box.xmin >= -540 && box.xmax <= 540)) continue;
-    throw InputError(feature.source + ", feature " + std::to_string(feature.fid) + ": the frame reaches from " +
-                     inWords(box) + " (west, south, east, north), but the input is in degrees (" +
-                     nameOf(coastline.crs) + "): give its CRS in the file");
+    throw InputError(featureInWords(feature) + ": the frame reaches from " + inWords(box) +
+                     " (west, south, east, north), but the input is in degrees (" + nameOf(coastline.crs) +
+                     "): give its CRS in the file");
   }
 }
 

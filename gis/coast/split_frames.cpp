@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "gis/coast/feature_bounds.hpp"
+#include "gis/coast/feature_names.hpp"
 #include "gis/coast/ogr_polygons.hpp"
 #include "gis/coast/turned_rings.hpp"
 #include "gis/crs/ogr_support.hpp"
@@ -107,8 +108,7 @@ class Splitting {
 
   Shape required(OGRGeometry* made) const {
     if (made) return Shape(made);
-    throw InputError(frame_.source + ", feature " + std::to_string(frame_.fid) +
-                     ": the frame cannot be split at the antimeridian" +
+    throw InputError(featureInWords(frame_) + ": the frame cannot be split at the antimeridian" +
                      (errors_.text().empty() ? "" : " (" + errors_.text() + ")") + ": split it there first");
   }
 
@@ -137,7 +137,7 @@ std::string noteOfJump(const Feature& frame, const std::pair<Point, Point>& jump
   char text[160];
   std::snprintf(text, sizeof text, "%.10g,%.10g to %.10g,%.10g", jump.first.x, jump.first.y, jump.second.x,
                 jump.second.y);
-  return frame.source + ", feature " + std::to_string(frame.fid) + ": the frame's edge from " + text +
+  return featureInWords(frame) + ": the frame's edge from " + text +
          " is taken across the antimeridian; for the way round the rest of the globe, divide it";
 }
 

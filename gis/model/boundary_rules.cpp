@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "gis/coast/feature_names.hpp"
 #include "gis/coast/turned_rings.hpp"
 #include "gis/crs/crs_map.hpp"
 #include "gis/crs/ogr_support.hpp"
@@ -329,7 +330,7 @@ void BoundaryRules::add(const std::vector<RawLayer>& layers, const std::string& 
     const auto layer = std::make_shared<BoundaryLayer>(raw.crs);
     const auto kindOf = [&](const Feature& feature) -> std::optional<BoundaryKind> {
       const auto text = typeOf(feature, feature.use == FeatureUse::Boundary ? kBoundaryField : column);
-      const std::string what = feature.source + ", feature " + std::to_string(feature.fid);
+      const std::string what = featureInWords(feature);
       if (text) return kindOfText(*text, what);
       if (all_have_it)
         throw InputError(what + ": has no type of boundary in " +

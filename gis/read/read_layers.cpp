@@ -105,16 +105,16 @@ class LayerReader {
     feature.fid = given.GetFID() == OGRNullFID ? count_ : given.GetFID();
     feature.source = raw_.source;
     feature.use = raw_.use;
-    if (!geometry && of_texts_) refuseOddWkt(given, describe(feature));
+    if (!geometry && of_texts_) refuseOddWkt(given, featureInWords(feature));
     if (!geometry || geometry->IsEmpty()) {
       ++report.skipped_empty;
       return;
     }
     GeometryParts parts;
-    takeApart(*geometry, describe(feature), parts);
+    takeApart(*geometry, featureInWords(feature), parts);
     if (!parts.empty()) feature.attributes = attributesOf(given, guesses_);
     if (guesses_ && !std::exchange(told_guess_, true))
-      report.warnings.push_back(describe(feature) +
+      report.warnings.push_back(featureInWords(feature) +
                                 ": has a text that is not UTF-8; such texts are taken for those of " +
                                 "Windows-1252 (a .cpg beside a shapefile says its encoding)");
     add(std::move(parts), std::move(feature), report);
@@ -125,7 +125,7 @@ class LayerReader {
   // REQUIRES: `feature` has its source, fid and attributes.
   void add(GeometryParts parts, Feature feature, ReadReport& report) {
     ++count_;
-    tally(parts, describe(feature), report);
+    tally(parts, featureInWords(feature), report);
     forEachChain(parts, [&](std::vector<Point>& chain) {
       for (Point& p : chain) {
         if (swap_axes_) std::swap(p.x, p.y);
@@ -152,10 +152,6 @@ class LayerReader {
   }
 
  private:
-  static std::string describe(const Feature& feature) {
-    return feature.source + ", feature " + std::to_string(feature.fid);
-  }
-
   void tally(const GeometryParts& parts, const std::string& what, ReadReport& report) {
     report.points += parts.coordinates;
     report.rings += parts.rings;

@@ -24,7 +24,7 @@ std::vector<ShoreLine> readGuideLines(const std::string& source, const Crs& crs)
       for (Point& p : line.points) {
         if (map) p = map->forward(p);
         if (!std::isfinite(p.x) || !std::isfinite(p.y))
-          throw InputError(feature.source + ", feature " + std::to_string(feature.fid) +
+          throw InputError(featureInWords(feature) +
                            ": has a place that the input's coordinate system does not reach; take it out");
       }
       lines.push_back({std::move(line.points), std::string(nameOf(feature.attributes))});
