@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "apps/job/places.hpp"
+#include "gis/crs/geodesy.hpp"
 #include "gis/for_count.hpp"
 
 namespace coastmesh {
@@ -91,6 +92,24 @@ bool isShortAtBorder(const Grid& grid, const StepReport& step, const SizeOptions
   return false;
 }
 
+// The share of the edges at the shore that are shorter than half of the requested size there; 0 if no sizes are known.
+double shareOfFineShore(const Grid& grid, const ItemLoop& loop) {
+  constexpr double kFine = 0.5;
+  if (grid.size_m.empty()) return 0.0;
+  const EdgeMeter meter(grid.nodes, grid.crs, loop);
+  std::size_t edges = 0, fine = 0;
+  for (const Boundary& boundary : grid.boundaries) {
+    if (boundary.role != BoundaryRole::Land && boundary.role != BoundaryRole::Island) continue;
+    const std::vector<std::uint32_t>& nodes = boundary.nodes;
+    for (std::size_t i = boundary.closed ? 0 : 1; i < nodes.size(); ++i) {
+      const std::uint32_t a = nodes[i == 0 ? nodes.size() - 1 : i - 1], b = nodes[i];
+      ++edges;
+      fine += meter.between(a, b) < kFine * std::min(grid.size_m[a], grid.size_m[b]);
+    }
+  }
+  return edges == 0 ? 0.0 : static_cast<double>(fine) / static_cast<double>(edges);
+}
+
 }  // namespace
 
 StepOutcome measureOutcome(const Grid& grid, const SizeOptions& sizes, const ItemLoop& loop, QualityGoal goal) {
@@ -107,6 +126,12 @@ StepOutcome measureOutcome(const Grid& grid, const SizeOptions& sizes, const Ite
                                pointText(outcome.step.shortest_edge) +
                                ", is at a border that two features share, which stays as it is in the data: "
                                "--dissolve makes them one");
+  constexpr double kUsualFine = 0.25;  // refinement of angles divides that many
+  if (sizes.coast == CoastDetail::Keep && sizes.any())
+    if (const double fine = shareOfFineShore(grid, loop); fine > kUsualFine)
+      outcome.notes.push_back("the coast is finer than the sizes: " + amount("%.0f %%", 100.0 * fine) +
+                              " of the edges at the shore are shorter than half of the size there; --coast follow "
+                              "makes the coast as coarse as the sizes");
   return outcome;
 }
 

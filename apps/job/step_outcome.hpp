@@ -20,7 +20,7 @@ struct StepOutcome {
   std::vector<ShortEdge> below_least;  // edges that undercut --size-min, the shortest first
   bool least_missed = false;           // one of them is far too short, and not because --coast keep preserves the data
 
-  std::vector<std::string> warnings;
+  std::vector<std::string> notes, warnings;
 
   bool held() const { return below_step.empty() && !least_missed; }
 };

@@ -1,0 +1,58 @@
+#include "apps/job/step_outcome.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+
+namespace coastmesh {
+namespace {
+
+// A strip of unit squares in a plane, each of two triangles: land along its long sides, open at its ends.
+Grid strip(std::uint32_t squares) {
+  Grid grid;
+  Boundary south{BoundaryRole::Land, false, {}}, north = south;
+  for (std::uint32_t i = 0; i <= squares; ++i) {
+    for (const double y : {0.0, 1.0}) grid.nodes.push_back({static_cast<double>(i), y});
+    south.nodes.push_back(2 * i);
+    north.nodes.push_back(2 * (squares - i) + 1);
+    if (i == squares) break;
+    grid.triangles.push_back({2 * i, 2 * i + 2, 2 * i + 1});
+    grid.triangles.push_back({2 * i + 2, 2 * i + 3, 2 * i + 1});
+  }
+  grid.boundaries = {south, north, {BoundaryRole::Open, false, {1, 0}}};
+  grid.boundaries.push_back({BoundaryRole::Open, false, {2 * squares, 2 * squares + 1}});
+  return grid;
+}
+
+TEST(StepOutcome, CoastsFinerThanTheSizesAreNoted) {
+  Grid grid = strip(10);
+  SizeOptions sizes;
+  sizes.size_m = 3.0;
+  const auto notes = [&](double size_along_shores, std::size_t nodes) {
+    grid.size_m.assign(grid.nodes.size(), 1.0);
+    std::fill_n(grid.size_m.begin(), nodes, size_along_shores);
+    return measureOutcome(grid, sizes, inOrder).notes;
+  };
+  EXPECT_EQ(notes(1.9, grid.nodes.size()).size(), 0u);
+  EXPECT_EQ(notes(3.0, 4).size(), 0u);  // some edges are always shorter
+  ASSERT_EQ(notes(3.0, 12).size(), 1u);
+  EXPECT_NE(notes(3.0, 12).front().find(" 50 % of the edges at the shore"), std::string::npos);
+  sizes.coast = CoastDetail::Follow;
+  EXPECT_EQ(notes(3.0, 12).size(), 0u);
+  sizes = {};  // the sizes of a mesh that is only measured
+  EXPECT_EQ(notes(3.0, 12).size(), 0u);
+}
+
+TEST(StepOutcome, OpenBoundariesAreNoCoast) {
+  Grid grid = strip(10);
+  for (Boundary& boundary : grid.boundaries) boundary.role = BoundaryRole::Open;
+  grid.size_m.assign(grid.nodes.size(), 3.0);
+  SizeOptions sizes;
+  sizes.size_m = 3.0;
+  EXPECT_EQ(measureOutcome(grid, sizes, inOrder).notes.size(), 0u);
+}
+
+}  // namespace
+}  // namespace coastmesh
