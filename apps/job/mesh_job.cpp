@@ -476,7 +476,9 @@ void settleSizes(JobInput& input, const SizeInputs& sizes, const JobControl& con
   result.seconds.size += choosing.seconds();
   result.log.append(recorder.finish("size"));
   if (job.sizes.choose) return;  // nothing can be meshed
-  result.read.notes.push_back("sizes were chosen from the extent and the depths, as with " + sizesAsOptions(job.sizes) +
+  result.read.notes.push_back(std::string("sizes were chosen from the extent") +
+                              (job.sizes.bathymetry.empty() ? "" : " and the depths") + ", as with " +
+                              sizesAsOptions(job.sizes) +
                               ", besides the options given; give --size-shore or any other size to choose them "
                               "yourself");
 }

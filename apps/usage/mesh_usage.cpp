@@ -21,11 +21,12 @@ Enum named(const char* const (&names)[kCount], const std::string& name) {
   return static_cast<Enum>(std::ranges::find(names, name) - std::begin(names));
 }
 
-// True if sizes are to be chosen, for a model's sea without any. To be called before `settle`.
-bool choosesSizes(const MeshJob& job) {
+// Sizes are chosen for a model's sea without any. To be called before `settle`.
+SizeChoice sizeChoice(const MeshJob& job) {
   const bool is_framed = job.input.frame.box.has_value() || !job.input.clip.empty();
-  const bool is_for_model = !job.finish.targets.empty() && !job.finish.depth.files.empty();
-  return is_framed && is_for_model && !job.sizes.any() && job.sizes.most_m == SizeOptions::kNone;
+  const bool is_sized = job.sizes.any() || job.sizes.most_m < SizeOptions::kNone;
+  if (!is_framed || is_sized || job.finish.targets.empty()) return SizeChoice::None;
+  return job.finish.depth.files.empty() ? SizeChoice::FromExtent : SizeChoice::FromExtentAndDepths;
 }
 
 // MPAS requires circumcentres inside their triangles.
@@ -57,7 +58,7 @@ void declareMeshOptions(OptionTable& table, MeshUsage& usage) {
             "remove unneeded vertices, which the bounds do not require; by default only with --algorithm relocate",
             &usage.coarsen_given)
       .formerly({"--shrink", "--no-shrink"});
-  declareSizing(table, usage.job.sizes, usage.sizing, [&usage] { return choosesSizes(usage.job); });
+  declareSizing(table, usage.job.sizes, usage.sizing, [&usage] { return sizeChoice(usage.job); });
   table.section(Section::Triangles);
   table.flag({"--smooth,!--no-smooth", "Optimise longer"}, usage.job.mesh.smooth,
              "optimise longer; without sizes, shapes are optimised only with this option");
@@ -69,7 +70,7 @@ void declareMeshOptions(OptionTable& table, MeshUsage& usage) {
       .needs(
           [&usage] {
             const MeshOptions& mesh = usage.job.mesh;
-            const bool is_sized = usage.job.sizes.any() || choosesSizes(usage.job);
+            const bool is_sized = usage.job.sizes.any() || sizeChoice(usage.job) != SizeChoice::None;
             return usage.quality == "centred" || mesh.smooth || (is_sized && mesh.coarsen);
           },
           "without sizes or --smooth")
@@ -114,7 +115,7 @@ void requireGlobe(const InputOptions& input, const SizeOptions& sizes) {
 }  // namespace
 
 void settle(MeshUsage& usage) {
-  settleSizing(usage.sizing, usage.job.finish.depth, choosesSizes(usage.job), usage.job.sizes);
+  settleSizing(usage.sizing, usage.job.finish.depth, sizeChoice(usage.job), usage.job.sizes);
   std::ranges::move(notesOnOverriddenSizes(usage.sizing, usage.job.sizes), std::back_inserter(usage.job.notes));
   requireGlobe(usage.job.input, usage.job.sizes);
   usage.job.mesh.refine.algorithm = named<Algorithm>(kAlgorithmNames, usage.algorithm);

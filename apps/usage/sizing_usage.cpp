@@ -31,9 +31,12 @@ const std::vector<std::string> kSizes = {"--size",           "--size-shore",    
 
 }  // namespace
 
-void declareSizing(OptionTable& table, SizeOptions& sizes, SizingUsage& usage, const std::function<bool()>& chooses) {
+void declareSizing(OptionTable& table, SizeOptions& sizes, SizingUsage& usage,
+                   const std::function<SizeChoice()>& choice) {
+  const auto chooses = [choice] { return choice() != SizeChoice::None; };
+  const auto choosesByDepth = [choice] { return choice() == SizeChoice::FromExtentAndDepths; };
   const auto follows = [&usage, chooses] { return !usage.coast_given && chooses(); };
-  const auto keepsTime = [&usage, chooses] { return !usage.time_step_given && chooses(); };
+  const auto keepsTime = [&usage, choosesByDepth] { return !usage.time_step_given && choosesByDepth(); };
   constexpr NumberRange kAboveZero{0.0, kInfinity, true};
   constexpr NumberRange kNotNegative{0.0, kInfinity};
   table.section(Section::Sizes);
@@ -67,7 +70,7 @@ void declareSizing(OptionTable& table, SizeOptions& sizes, SizingUsage& usage, c
   table
       .number({"--wave-period", "Wave period"}, sizes.depth.period_s, "S", {0.1, 1e8},
               "period of that wave; default: the M2 tide")
-      .needs({"--wave-elements"}, chooses);
+      .needs({"--wave-elements"}, choosesByDepth);
   table.number({"--slope-elements", "Elements per slope length"}, sizes.depth.slope_elements, "N", {0.0, 1000.0},
                "elements per length of 2 pi times depth over slope; 0: not used");
   table
@@ -141,7 +144,7 @@ void declareSizing(OptionTable& table, SizeOptions& sizes, SizingUsage& usage, c
       .needs({"--time-step"}, keepsTime);
 }
 
-void settleSizing(const SizingUsage& usage, const DepthOptions& depths, bool choose, SizeOptions& sizes) {
+void settleSizing(const SizingUsage& usage, const DepthOptions& depths, SizeChoice choice, SizeOptions& sizes) {
   sizes.bathymetry = depths.files;
   sizes.gaps = depths.fill == DepthFill::None      ? GapFill::None
                : depths.fill == DepthFill::Nearest ? GapFill::Nearest
@@ -149,12 +152,14 @@ void settleSizing(const SizingUsage& usage, const DepthOptions& depths, bool cho
   sizes.depth.positive_down = depths.positive_down;
   sizes.depth.water_level_m = depths.water_level_m;
   sizes.depth.least_depth_m = std::max(sizes.depth.least_depth_m, depths.min_depth_m);
-  if (choose) {
+  if (choice != SizeChoice::None) {
     constexpr double kGradation = 0.2, kWaveElements = 100.0, kTimeStep = 5.0;
     sizes.choose = true;
     sizes.gradation = usage.grade_given ? sizes.gradation : kGradation;
-    sizes.depth.wave_elements = kWaveElements;
-    if (!usage.time_step_given) sizes.time_step_s = kTimeStep;
+    if (choice == SizeChoice::FromExtentAndDepths) {
+      sizes.depth.wave_elements = kWaveElements;
+      if (!usage.time_step_given) sizes.time_step_s = kTimeStep;
+    }
     if (!usage.coast_given) sizes.coast = CoastDetail::Follow;
     sizes.given = {usage.shore_rate_given, usage.grade_given, usage.time_step_given, usage.coast_given};
   }

@@ -19,13 +19,16 @@ struct SizingUsage {
   bool time_step_given = false;
 };
 
-// Declares the options on the size of elements; `sizes` and `usage` must outlive the parsing. `chooses` returns true
-// once parsed if sizes are to be chosen: options that need sizes then have an effect.
-void declareSizing(OptionTable& table, SizeOptions& sizes, SizingUsage& usage, const std::function<bool()>& chooses);
+// Whether sizes are to be chosen for a sea model, and from what.
+enum class SizeChoice { None, FromExtent, FromExtentAndDepths };
 
-// To be called once parsed. `depths`: where sizes find depths. `choose`: sizes for a sea model are to be chosen. Throws
-// OptionError for options that cannot be combined.
-void settleSizing(const SizingUsage& usage, const DepthOptions& depths, bool choose, SizeOptions& sizes);
+// Declares the options on the size of elements; `sizes` and `usage` must outlive the parsing. `choice` is called once
+// parsed: options that need sizes have an effect if they are chosen.
+void declareSizing(OptionTable& table, SizeOptions& sizes, SizingUsage& usage,
+                   const std::function<SizeChoice()>& choice);
+
+// To be called once parsed. `depths`: where sizes find depths. Throws OptionError for options that cannot be combined.
+void settleSizing(const SizingUsage& usage, const DepthOptions& depths, SizeChoice choice, SizeOptions& sizes);
 
 // A note for each requested size, or growth of sizes, that a bound on all sizes overrides.
 std::vector<std::string> notesOnOverriddenSizes(const SizingUsage& usage, const SizeOptions& sizes);

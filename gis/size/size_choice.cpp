@@ -126,8 +126,8 @@ std::string sizesAsOptions(const SizeOptions& options) {
   }
   if (std::isfinite(options.most_m)) add("--size-max", options.most_m);
   if (!options.given.gradation) add("--grade", options.gradation);
-  add("--wave-elements", options.depth.wave_elements);
-  if (!options.given.time_step) add("--time-step", options.time_step_s);
+  if (options.depth.wave_elements > 0.0) add("--wave-elements", options.depth.wave_elements);
+  if (!options.given.time_step && options.time_step_s > 0.0) add("--time-step", options.time_step_s);
   if (!options.given.coast) text += options.coast == CoastDetail::Follow ? " --coast follow" : " --coast keep";
   return text;
 }

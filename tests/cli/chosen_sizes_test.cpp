@@ -10,6 +10,7 @@
 namespace coastmesh::test {
 namespace {
 
+using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using Json = nlohmann::json;
@@ -33,11 +34,15 @@ class ChosenSizes : public ProgramTest {
     std::ostringstream depths;
     depths << "ncols 2\nnrows 100\nxllcorner -0.5\nyllcorner 49.5\ndx 2\ndy 0.02\n";
     for (int row = 0; row < 100; ++row) depths << -10 - 20 * row << " " << -10 - 20 * row << "\n";
+    std::vector<std::string> all{"--bathymetry", write("depths.asc", depths.str())};
+    all.insert(all.end(), more.begin(), more.end());
+    return meshWithoutDepths(waters, all, output);
+  }
+  ProgramRun meshWithoutDepths(const std::vector<std::vector<LonLatRing>>& waters, const std::vector<std::string>& more,
+                               const std::string& output = "a.14") const {
     std::vector<std::string> arguments{"mesh",
                                        write("waters.geojson", geoJsonPolygons(waters)),
                                        "--bbox=0.1,49.5,3,51.5",
-                                       "--bathymetry",
-                                       write("depths.asc", depths.str()),
                                        "--target",
                                        "adcirc",
                                        "--report",
@@ -112,6 +117,24 @@ TEST_F(ChosenSizes, LeaveTheirEffectToOtherOptions) {
     ASSERT_EQ(again.code, 0) << again.errors;
     EXPECT_TRUE(readText(file("a.14")) == readText(file("b.14")));
   }
+}
+
+TEST_F(ChosenSizes, NeedNoDepths) {
+  const ProgramRun run = meshWithoutDepths(sea(), {});
+  ASSERT_EQ(run.code, 0) << run.errors;
+  EXPECT_GE(report().at("mesh").at("vertices").get<int>(), 10'000);
+  EXPECT_LE(report().at("mesh").at("vertices").get<int>(), 100'000);
+  std::vector<std::string> said;
+  std::istringstream words(saidOptions());
+  for (std::string word; words >> word;) said.push_back(word);
+  EXPECT_THAT(said, Not(Contains("--wave-elements")));
+  EXPECT_THAT(said, Not(Contains("--time-step")));
+  ASSERT_EQ(meshWithoutDepths(sea(), said, "b.14").code, 0);
+  EXPECT_TRUE(readText(file("a.14")) == readText(file("b.14")));
+  // A wave and a time step need depths, so that options on them have no effect.
+  const ProgramRun idle = meshWithoutDepths(sea(), {"--wave-period", "40000", "--courant", "0.5"});
+  EXPECT_THAT(idle.errors, HasSubstr("--wave-period has no effect without --wave-elements"));
+  EXPECT_THAT(idle.errors, HasSubstr("--courant has no effect without --time-step"));
 }
 
 TEST_F(ChosenSizes, DoNotExcuseWhatTheCoastIgnores) {
