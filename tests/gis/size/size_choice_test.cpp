@@ -92,12 +92,14 @@ TEST(SizeChoice, LeavesVerticesToOtherDomains) {
 TEST(SizeChoice, OptionsThatWereGivenAreNotRepeated) {
   SizeOptions options;
   options.shore_m = 1.0 / 3.0;
+  EXPECT_EQ(sizesAsOptions(options), "--size-shore 0.3333333333333333 --shore-rate 0.15 --grade 0.3 --coast keep");
+  options.depth.wave_elements = 60.0;
   options.time_step_s = 5.0;
   EXPECT_EQ(sizesAsOptions(options),
-            "--size-shore 0.3333333333333333 --shore-rate 0.15 --grade 0.3 --wave-elements 0 --time-step 5 "
+            "--size-shore 0.3333333333333333 --shore-rate 0.15 --grade 0.3 --wave-elements 60 --time-step 5 "
             "--coast keep");
   options.given = {true, true, true, true};
-  EXPECT_EQ(sizesAsOptions(options), "--size-shore 0.3333333333333333 --wave-elements 0");
+  EXPECT_EQ(sizesAsOptions(options), "--size-shore 0.3333333333333333 --wave-elements 60");
 }
 
 }  // namespace
