@@ -559,7 +559,7 @@ MeshJobResult runOnThreads(const MeshJob& given, const JobControl& control) {
   if (job.exchange.shards <= 1) warnOfIdleInputs(job, sizes, input.coastline(), result);
   findTurned(result, loop);
   result.step = measureOutcome(result.grid, job.sizes, loop, job.mesh.refine.goal);
-  std::ranges::move(result.step.notes, std::back_inserter(result.read.notes));
+  std::ranges::copy(result.step.notes, std::back_inserter(result.read.notes));
   result.rasters_read = rasters.use();
   result.log.append(recorder.finish("grid"));
   result.seconds.total = whole.seconds();

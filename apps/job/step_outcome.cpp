@@ -11,6 +11,7 @@
 #include "apps/job/places.hpp"
 #include "gis/crs/geodesy.hpp"
 #include "gis/for_count.hpp"
+#include "gis/grid/boundary_chains.hpp"
 
 namespace coastmesh {
 
@@ -100,9 +101,7 @@ double shareOfFineShore(const Grid& grid, const ItemLoop& loop) {
   std::size_t edges = 0, fine = 0;
   for (const Boundary& boundary : grid.boundaries) {
     if (boundary.role != BoundaryRole::Land && boundary.role != BoundaryRole::Island) continue;
-    const std::vector<std::uint32_t>& nodes = boundary.nodes;
-    for (std::size_t i = boundary.closed ? 0 : 1; i < nodes.size(); ++i) {
-      const std::uint32_t a = nodes[i == 0 ? nodes.size() - 1 : i - 1], b = nodes[i];
+    for (const auto& [a, b] : edgesOf(boundary)) {
       ++edges;
       fine += meter.between(a, b) < kFine * std::min(grid.size_m[a], grid.size_m[b]);
     }
@@ -126,7 +125,7 @@ StepOutcome measureOutcome(const Grid& grid, const SizeOptions& sizes, const Ite
                                pointText(outcome.step.shortest_edge) +
                                ", is at a border that two features share, which stays as it is in the data: "
                                "--dissolve makes them one");
-  constexpr double kUsualFine = 0.25;  // refinement of angles divides that many
+  constexpr double kUsualFine = 0.25;  // some edges are always divided for the sake of angles
   if (sizes.coast == CoastDetail::Keep && sizes.any())
     if (const double fine = shareOfFineShore(grid, loop); fine > kUsualFine)
       outcome.notes.push_back("the coast is finer than the sizes: " + amount("%.0f %%", 100.0 * fine) +

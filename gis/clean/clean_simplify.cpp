@@ -159,7 +159,7 @@ class Simplifier {
     Box box = Box::of(at(p), at(q));
     box.add(at(v));
     bool found = false;
-    const double gap = resolution_.gap, apart = apart_ * tolerance_(v);
+    const double gap = resolution_.gap, apart = apart_ > 0.0 ? apart_ * tolerance_(v) : 0.0;
     tree_.visit(box.grownBy(std::max(gap, apart)), [&](std::uint32_t w) {
       if (found || w == v || w == p || w == q || links_[w].degree == 0) return;
       const double distance = squaredDistanceToSegment(at(w), at(p), at(q));
