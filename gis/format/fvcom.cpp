@@ -185,6 +185,8 @@ FormatRecord fvcomFormat() {
            {},
            true,
            NodePlaces::OneTurn,
+           true,
+           false,
            true},
           {writeFvcom, readFvcom, files, nullptr, openNodesRemark}};
 }

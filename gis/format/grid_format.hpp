@@ -28,6 +28,8 @@ struct GridFormat {
   // Read by models that take lengths to be in metres; the files do not hold the unit.
   bool lengths_in_metres = false;
   bool beside_grid = false;  // not a grid, but an additional file for a solver, with the parts in `holds`
+  bool marks_nodes = false;  // openings are marked at nodes, so an edge of shore between two of these nodes opens
+  bool of_water = false;     // has depth 0 where the grid has a height above the water
 };
 
 }  // namespace coastmesh

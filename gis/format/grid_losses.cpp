@@ -43,6 +43,10 @@ std::size_t countBoundaries(const Grid& grid, Wanted&& wanted) {
   return static_cast<std::size_t>(std::ranges::count_if(grid.boundaries, wanted));
 }
 
+std::string firstAt(const Point& place) {
+  return "the first at " + std::to_string(place.x) + ", " + std::to_string(place.y);
+}
+
 // "(0, 11)": the types of those boundaries.
 template <typename Wanted>
 std::string typesOf(const Grid& grid, Wanted&& wanted) {
@@ -120,11 +124,35 @@ std::string wordsFor(GridPart part, const Grid& grid, const GridFormat& format) 
       if (parts == 0 || !format.holds.has(GridPart::Ibtypes)) return "";
       const Point& first = grid.nodes[std::ranges::find_if(grid.boundaries, isPartOfIsland)->nodes.front()];
       return "that " + counted(parts, "boundary is an island", "boundaries are islands") + ' ' +
-             typesOf(grid, isPartOfIsland) + ": a part of a shore gets the mainland's type, the first at " +
-             std::to_string(first.x) + ", " + std::to_string(first.y);
+             typesOf(grid, isPartOfIsland) + ": a part of a shore gets the mainland's type, " + firstAt(first);
     }
   }
   return "";
+}
+
+// "that 2 edges between open nodes are shore: …"; empty if there are none. Rivers are open if the format holds them.
+std::string loneShoresOf(const Grid& grid, const GridFormat& format) {
+  const auto opens = [&](BoundaryRole role) {
+    return role == BoundaryRole::Open || (role == BoundaryRole::River && format.holds.has(GridPart::Rivers));
+  };
+  std::vector<bool> marked(grid.nodes.size(), false);
+  for (const Boundary& boundary : grid.boundaries)
+    if (opens(boundary.role))
+      for (const std::uint32_t node : boundary.nodes) marked[node] = true;
+  std::vector<NodePair> lone;
+  for (const Boundary& boundary : grid.boundaries)
+    if (!opens(boundary.role))
+      for (const NodePair& edge : edgesOf(boundary))
+        if (marked[edge[0]] && marked[edge[1]]) lone.push_back(edge);
+  if (lone.empty()) return "";
+  return "that " + counted(lone.size(), "edge between open nodes is", "edges between open nodes are") +
+         " shore: such edges become open, " + firstAt(grid.nodes[lone.front()[0]]);
+}
+
+// "the heights of 2 nodes above the water"; empty if there are none.
+std::string heightsOf(const Grid& grid) {
+  const auto heights = static_cast<std::size_t>(std::ranges::count_if(grid.z, [](double z) { return z > 0.0; }));
+  return heights == 0 ? "" : "the heights of " + counted(heights, "node", "nodes") + " above the water, which become 0";
 }
 
 constexpr std::array kGivenParts{GridPart::Regions,   GridPart::Pieces,    GridPart::Lines,
@@ -159,8 +187,11 @@ std::string lossesIn(const Grid& grid, const GridFormat& format, LossesOf of) {
   for (const GridPart part : kAllParts) {
     if (of == LossesOf::Input && std::ranges::find(kGivenParts, part) == kGivenParts.end()) continue;
     if (format.holds.has(part)) continue;
-    if (std::string words = wordsFor(part, grid, format); !words.empty()) losses.push_back(std::move(words));
+    losses.push_back(wordsFor(part, grid, format));
   }
+  if (format.marks_nodes) losses.push_back(loneShoresOf(grid, format));
+  if (format.of_water) losses.push_back(heightsOf(grid));
+  std::erase(losses, std::string());
   return joined(losses, "; ");
 }
 

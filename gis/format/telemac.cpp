@@ -242,6 +242,8 @@ FormatRecord telemacFormat() {
            {GridPart::Title, GridPart::Rivers},
            true,
            NodePlaces::OneTurn,
+           true,
+           false,
            true},
           {writeTelemac, readTelemac, files}};
 }

@@ -145,6 +145,8 @@ FormatRecord ww3Format() {
            {},
            true,
            NodePlaces::OneTurn,
+           true,
+           false,
            true},
           {writeWw3, readWw3, withPrjBeside, isWw3}};
 }

@@ -166,7 +166,11 @@ FormatRecord fesomFormat() {
            true,
            {},
            true,
-           NodePlaces::Geographic},
+           NodePlaces::Geographic,
+           false,
+           false,
+           true,
+           true},
           {writeFesom, readFesom, files}};
 }
 

@@ -9,6 +9,7 @@
 
 #include "gis/error.hpp"
 #include "gis/format/grid_losses.hpp"
+#include "gis/grid/boundary_kinds.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "tests/gis/grid_samples.hpp"
 
@@ -276,6 +277,50 @@ TEST(LossesIn, IslandsOfWhichAPartIsABoundary) {
                 HasSubstr("that 1 boundary is an island (" + std::to_string(type) +
                           "): a part of a shore gets the mainland's type"));
     EXPECT_THAT(lossesIn(grid, gridFormatFor("a.nc"), LossesOf::Grid), Not(HasSubstr("mainland")));
+  }
+}
+
+// Some formats mark open boundaries at nodes, so a single edge of shore between two of them comes back open.
+TEST(LossesIn, ShoreBetweenOpenNodes) {
+  Grid grid = namedGrid();
+  const auto outer = std::ranges::find(grid.boundaries, BoundaryRole::Land, &Boundary::role);
+  ASSERT_NE(outer, grid.boundaries.end());
+  const std::vector<std::uint32_t> loop = outer->nodes;
+  const std::vector<std::uint32_t> lone{loop[3], loop[4]};
+  std::vector<std::uint32_t> rest(loop.begin() + 7, loop.end());
+  rest.push_back(loop[0]);
+  outer->closed = false;
+  outer->nodes = lone;
+  for (const auto& [role, nodes] : {std::pair(BoundaryRole::Open, std::vector(loop.begin(), loop.begin() + 4)),
+                                    std::pair(BoundaryRole::Open, std::vector(loop.begin() + 4, loop.begin() + 8)),
+                                    std::pair(BoundaryRole::Land, rest)}) {
+    Boundary& boundary = grid.boundaries.emplace_back();
+    boundary.role = role;
+    boundary.nodes = nodes;
+  }
+  const TemporaryFolder folder;
+  for (const GridFormat& format : formatsOfGrids()) {
+    const Grid got = throughFile(grid, format, folder);
+    if (got.boundaries.empty()) continue;
+    const BoundaryKind* const kind = EdgeKinds(got).find(lone[0], lone[1]);
+    const bool opens = kind != nullptr && kind->role == BoundaryRole::Open;
+    EXPECT_EQ(lossesIn(grid, format, LossesOf::Input).find("1 edge between open nodes is shore") != std::string::npos,
+              opens)
+        << format.name;
+  }
+}
+
+TEST(LossesIn, HeightsAboveTheWater) {
+  Grid grid = namedGrid();
+  grid.z.assign(grid.nodes.size(), -10.0);
+  grid.z[3] = 2.5;
+  const TemporaryFolder folder;
+  for (const GridFormat& format : formatsOfGrids()) {
+    const Grid got = throughFile(grid, format, folder);
+    if (got.z.empty()) continue;
+    EXPECT_EQ(lossesIn(grid, format, LossesOf::Input).find("heights of 1 node above the water") != std::string::npos,
+              got.z[3] != 2.5)
+        << format.name;
   }
 }
 
