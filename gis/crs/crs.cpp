@@ -101,8 +101,9 @@ double metresPerUnit(const Crs& crs) {
 }
 
 std::string unitOf(const Crs& crs) {
+  const OGRSpatialReference srs = toOgr(crs);  // owns the name
   const char* name = nullptr;
-  const double metres = toOgr(crs).GetLinearUnits(&name);
+  const double metres = srs.GetLinearUnits(&name);
   if (metres == 1.0) return "metre";
   return name ? name : "unnamed unit";
 }
@@ -110,7 +111,8 @@ std::string unitOf(const Crs& crs) {
 std::string nameOf(const Crs& crs) {
   if (crs.isPlane()) return "plane";
   if (!crs.authority.empty()) return crs.authority;
-  const char* name = toOgr(crs).GetName();
+  const OGRSpatialReference srs = toOgr(crs);  // owns the name
+  const char* name = srs.GetName();
   return name ? name : "unnamed CRS";
 }
 

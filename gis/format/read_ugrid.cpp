@@ -187,8 +187,8 @@ std::vector<DepthVariable> depthVariables(const NetcdfReader& file, const std::s
     return said.empty() || said == value;
   };
   for (const std::string& name : file.variables()) {
-    if (file.dimensionsOf(name) != at_nodes || !isOrUnsaid(name, "mesh", mesh) || !isOrUnsaid(name, "location", "node"))
-      continue;
+    if (file.dimensionsOf(name) != at_nodes || file.shape(name) != file.shape(x)) continue;  // a name may be repeated
+    if (!isOrUnsaid(name, "mesh", mesh) || !isOrUnsaid(name, "location", "node")) continue;
     const Rank rank = rankOf(file, name, mesh);
     if (rank == Rank::None) continue;
     const bool depth = rank == Rank::Depth || rank == Rank::DepthName;

@@ -9,7 +9,8 @@ namespace coastmesh {
 struct RepairOptions {
   // Seconds: triangles with a shorter time step (`timeSteps`) are repaired too; 0: none.
   double time_step_s = 0.0;
-  // Nodes of the shore, and of straight parts of openings, may slide along them, and be removed.
+  // Nodes of the shore, and of straight parts of openings, may slide along them, and be removed; those where the two
+  // meet slide along the opening.
   bool shore_moves = false;
   // Degrees: the minimum angle of the mesh, which repairs should keep; 0: unknown.
   double min_angle_deg = 0.0;

@@ -176,10 +176,20 @@ bool isOnFreeBoundary(const RepairView& view, std::uint32_t node) {
   return one == other && (isShore(one) || goesStraight(view, others[0], node, others[1]));
 }
 
+std::vector<std::uint32_t> slideNeighbours(const RepairView& view, std::uint32_t node) {
+  if (view.shores == nullptr || view.links.isAsked(node)) return {};
+  const std::vector<std::uint32_t> others = boundaryNeighbours(view, node);
+  if (isOnFreeBoundary(view, node)) return others;
+  if (others.size() != 2 || !fixedNeighbours(view, node).empty()) return {};
+  const auto kindTo = [&](std::uint32_t other) { return view.links.kinds.at(edgeKey(node, other)); };
+  for (const auto& [open, shore] : {std::pair(others[0], others[1]), std::pair(others[1], others[0])})
+    if (kindTo(open).role == BoundaryRole::Open && isShore(kindTo(shore))) return {open};
+  return {};
+}
+
 bool isMovable(const RepairView& view, std::uint32_t node) {
-  if (view.links.isAsked(node)) return false;
-  if (view.links.on_boundary[node]) return view.shores != nullptr && isOnFreeBoundary(view, node);
-  return fixedNeighbours(view, node).empty();
+  if (view.links.on_boundary[node]) return !slideNeighbours(view, node).empty();
+  return !view.links.isAsked(node) && fixedNeighbours(view, node).empty();
 }
 
 PatchEdit moveOf(const RepairView& view, std::uint32_t node, std::uint32_t a, std::uint32_t b, double share) {

@@ -138,8 +138,12 @@ bool isOnFreeBoundary(const RepairView& view, std::uint32_t node);
 // The neighbours of a node along boundary edges.
 std::vector<std::uint32_t> boundaryNeighbours(const RepairView& view, std::uint32_t node);
 
-// True if the node may move: nobody requested it, no edge that must stay ends there, and it is an inner node or on a
-// free boundary and boundaries may move.
+// The neighbours of a boundary node towards which it may slide, if nobody requested it and boundaries may move: both on
+// a free boundary; where a shore meets an open boundary, the one along the open boundary, which gets shorter.
+std::vector<std::uint32_t> slideNeighbours(const RepairView& view, std::uint32_t node);
+
+// True if the node may move: it is an inner node that nobody requested and where no edge that must stay ends, or it may
+// slide.
 bool isMovable(const RepairView& view, std::uint32_t node);
 
 // Moves the node `share` of the way towards the midpoint of `a` and `b`, nodes of its ring.

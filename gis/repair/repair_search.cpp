@@ -52,21 +52,29 @@ class Contest {
   std::optional<PatchEdit> best_;
 };
 
-// How far inner nodes move; the fine moves are for sums, which change steadily.
-constexpr std::array kMoves{0.02, 0.05, 0.1, 0.15, 0.2, 0.3};
-constexpr std::array kFineMoves{0.004, 0.01, 0.02, 0.05, 0.1, 0.2};
+// How far nodes move, as shares of the way: inner ones, and those that slide along the boundary.
+struct MoveShares {
+  std::span<const double> inner, slides;
+};
+constexpr std::array kInner{0.02, 0.05, 0.1, 0.15, 0.2, 0.3};
+constexpr std::array kSlides{0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5};
+constexpr MoveShares kMoves{kInner, kSlides};
+// For sums, which change steadily.
+constexpr std::array kFineInner{0.001, 0.004, 0.01, 0.02, 0.05, 0.1, 0.2};
+constexpr std::array kFineSlides{0.001, 0.004, 0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5};
+constexpr MoveShares kFineMoves{kFineInner, kFineSlides};
 
-void forEachSlide(const RepairView& view, std::uint32_t node, auto&& use) {
-  for (const std::uint32_t other : boundaryNeighbours(view, node))
-    for (const double share : {0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5}) use(moveOf(view, node, other, other, share));
+void forEachSlide(const RepairView& view, std::uint32_t node, std::span<const double> shares, auto&& use) {
+  for (const std::uint32_t other : slideNeighbours(view, node))
+    for (const double share : shares) use(moveOf(view, node, other, other, share));
 }
 
-// Moves by `shares` of the way towards nodes of the ring and midpoints of consecutive ones; on the boundary, along it.
-void forEachMove(const RepairView& view, std::uint32_t node, std::span<const double> shares, auto&& use) {
-  forEachSlide(view, node, use);
+// Moves towards nodes of the ring and midpoints of consecutive ones; on the boundary, along it.
+void forEachMove(const RepairView& view, std::uint32_t node, const MoveShares& shares, auto&& use) {
+  forEachSlide(view, node, shares.slides, use);
   if (view.links.on_boundary[node]) return;
   const std::vector<std::uint32_t> ring = ringRound(view, node);
-  for (const double share : shares) {
+  for (const double share : shares.inner) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
       use(moveOf(view, node, ring[i], ring[i], share));
       use(moveOf(view, node, ring[i], ring[(i + 1) % ring.size()], share));
@@ -79,12 +87,17 @@ void offerMoves(Contest& contest, const RepairView& view, std::uint32_t node) {
   forEachMove(view, node, kMoves, [&contest](const PatchEdit& edit) { contest.offer(edit); });
 }
 
-// The square of what the smallest angle of a triangle lacks of `goal_deg`; infinite if it is clockwise.
+// The sum of the squares of what the angles of a triangle lack of `goal_deg`; infinite if it is clockwise. Not of the
+// smallest alone: where two are equally small, no move of one node would increase that.
 double squaredLack(const RepairView& view, std::array<Point, 3> p, double goal_deg) {
   flattenLocally(view.grid.crs, p, view.shape);
   if (orient2d(p[0], p[1], p[2]) <= 0) return std::numeric_limits<double>::infinity();
-  const double lack = std::max(0.0, goal_deg - leastAngleDeg(p[0], p[1], p[2]));
-  return lack * lack;
+  double sum = 0.0;
+  for (const double angle : anglesDeg(p[0], p[1], p[2])) {
+    const double lack = std::max(0.0, goal_deg - angle);
+    sum += lack * lack;
+  }
+  return sum;
 }
 
 }  // namespace
@@ -123,7 +136,7 @@ std::vector<PatchEdit> harmlessSlides(const RepairView& view, std::uint32_t node
   const ScoreBar bar{
       .defects = 1, .least_angle_deg = view.step.least_angle_deg, .largest_angle_deg = view.step.largest_angle_deg};
   std::vector<PatchEdit> slides;
-  forEachSlide(view, node, [&](PatchEdit&& edit) {
+  forEachSlide(view, node, kSlides, [&](PatchEdit&& edit) {
     if (scoreAbove(view, patch, scale, edit, bar) && keepsShores(view, edit)) slides.push_back(std::move(edit));
   });
   return slides;

@@ -40,8 +40,7 @@ bool mendsByCornersAlone(const RepairView& view, const GridPatch& patch);
 std::optional<PatchEdit> bestRelaxing(const RepairView& view, std::uint32_t t, std::span<const std::uint32_t> movable,
                                       const GridPatch& patch);
 
-// The sum, over triangles, of the squares of what their smallest angles lack of `goal_deg`; infinite if one is
-// clockwise.
+// The sum, over triangles, of the squares of what their angles lack of `goal_deg`; infinite if one is clockwise.
 double lackOfAngles(const RepairView& view, std::span<const std::uint32_t> triangles, double goal_deg);
 
 // For a node near a triangle with a small angle: the move that leaves the least `lackOfAngles` of the triangles around

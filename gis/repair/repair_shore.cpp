@@ -11,7 +11,9 @@
 namespace coastmesh {
 namespace {
 
-constexpr double kApart = 0.5;  // share of an edge's length
+constexpr double kApart = 0.5;        // share of an edge's length
+constexpr double kAlong = 0.9;        // share of the length of the edge between two along the shore
+constexpr double kSame = 1.0 - 1e-6;  // share of an unchanged distance: local planes round it
 
 bool crosses(const std::array<Point, 4>& p) {
   return orient2d(p[0], p[1], p[2]) * orient2d(p[0], p[1], p[3]) <= 0 &&
@@ -44,7 +46,8 @@ bool ShoreIndex::keepsApart(const RepairView& view, const PatchEdit& edit) const
   for (const auto& [edge, kind] : edit.made) changed.push_back(edge);
   std::set<std::uint32_t> before{edit.placed};  // nodes whose edges these replace
   for (const NodePair& edge : edit.gone) before.insert(edge.begin(), edge.end());
-  for (const std::uint32_t node : boundaryNeighbours(view, edit.placed)) {
+  const std::vector<std::uint32_t> next_ones = boundaryNeighbours(view, edit.placed);
+  for (const std::uint32_t node : next_ones) {
     const NodePair edge = edgeKey(edit.placed, node);
     if (std::ranges::count(edit.gone, edge) == 0) changed.push_back(edge);
   }
@@ -54,7 +57,12 @@ bool ShoreIndex::keepsApart(const RepairView& view, const PatchEdit& edit) const
   const auto between = [&](const NodePair& edge, const NodePair& other, bool moved) {
     std::array p{placeOf(edge[0], moved), placeOf(edge[1], moved), grid.nodes[other[0]], grid.nodes[other[1]]};
     flattenLocally(grid.crs, p);
-    return std::pair(apart(p), kApart * distance(p[0], p[1]));
+    double wanted = kApart * distance(p[0], p[1]);
+    // The edge between the two, along the shore, may be short.
+    for (unsigned k = 0; k < 2; ++k)
+      if (std::ranges::count(next_ones, other[k]) > 0)
+        wanted = std::min(wanted, kAlong * distance(p[edge[0] == edit.placed ? 0 : 1], p[2 + k]));
+    return std::pair(apart(p), wanted);
   };
   for (const NodePair& edge : changed) {
     Box box = Box::of(placeOf(edge[0], true), placeOf(edge[1], true));
@@ -73,7 +81,7 @@ bool ShoreIndex::keepsApart(const RepairView& view, const PatchEdit& edit) const
       for (const std::uint32_t node : before)
         for (const std::uint32_t next : boundaryNeighbours(view, node))
           if (next != other[0] && next != other[1]) was = std::min(was, between({node, next}, other, false).first);
-      keeps = now >= was;
+      keeps = now >= kSame * was;
     });
     if (!keeps) return false;
   }
@@ -84,7 +92,7 @@ std::optional<PatchEdit> collapseOf(const RepairView& view, std::uint32_t gone, 
   const Grid& grid = view.grid;
   const bool by_shore = view.links.kinds.contains(edgeKey(gone, kept));
   const auto mayMove = [&](std::uint32_t node) {
-    return isMovable(view, node) && (by_shore || !view.links.on_boundary[node]);
+    return isMovable(view, node) && (!view.links.on_boundary[node] || (by_shore && isOnFreeBoundary(view, node)));
   };
   if (!mayMove(gone) || (share > 0.0 && !mayMove(kept))) return std::nullopt;
   PatchEdit edit{.kind = PatchEditKind::EdgeCollapse, .nodes = {kept, gone}, .share = share, .placed = kept};

@@ -15,7 +15,7 @@ class ShoreIndex {
   explicit ShoreIndex(const RepairView& view);
 
   // True if the boundary edges that the edit makes or moves stay at least half of their lengths away from all others,
-  // or get no closer to them.
+  // or get no closer to them. Of the next edge but one it is enough to stay nearly as far as the edge between is long.
   bool keepsApart(const RepairView& view, const PatchEdit& edit) const;
 
  private:

@@ -1,10 +1,16 @@
-// Nodes on straight parts of an open boundary slide along it.
+// Nodes on straight parts of an open boundary slide along it, as do those where a shore meets it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "core/quality.hpp"
+#include "gis/grid/local_plane.hpp"
 #include "gis/model/time_step.hpp"
+#include "gis/repair/repair_boundaries.hpp"
+#include "gis/repair/repair_shore.hpp"
+#include "gis/repair/repair_state.hpp"
 #include "tests/gis/model/target_samples.hpp"
 
 namespace coastmesh {
@@ -98,6 +104,66 @@ TEST(OpenSide, BothLegsOfACornerAreMadeLonger) {
     EXPECT_EQ(tooShort(grid), 0u);
     EXPECT_NEAR(areaOf(grid), area, 1e-9 * area);
     EXPECT_EQ(grid.nodes.size(), 36u);
+  }
+}
+
+// A sea in the shape of a parallelogram, whose south is open. The triangles in its corners of 56 degrees, in the
+// south-west and the north-east, have one neighbour.
+Grid slantingSea() {
+  constexpr std::uint32_t kCells = 6, kRow = kCells + 1;
+  constexpr double kCorner = 56.0 * std::numbers::pi / 180.0;
+  Grid grid;
+  for (std::uint32_t j = 0; j < kRow; ++j)
+    for (std::uint32_t i = 0; i < kRow; ++i)
+      grid.nodes.push_back({1000.0 * (i + j * std::cos(kCorner)), 1000.0 * j * std::sin(kCorner)});
+  for (std::uint32_t j = 0; j < kCells; ++j) {
+    for (std::uint32_t i = 0; i < kCells; ++i) {
+      const std::uint32_t sw = j * kRow + i, se = sw + 1, nw = sw + kRow, ne = nw + 1;
+      grid.triangles.push_back({sw, se, nw});
+      grid.triangles.push_back({se, ne, nw});
+    }
+  }
+  const auto isSouth = [](std::uint32_t node) { return node < kRow; };
+  grid.boundaries = cutLoops(grid, boundaryLoops(grid), [&](std::uint32_t from, std::uint32_t to) {
+    return BoundaryKind{isSouth(from) && isSouth(to) ? BoundaryRole::Open : BoundaryRole::Land};
+  });
+  return grid;
+}
+
+// A second triangle in a corner halves its angle, which must then be wider: the node there slides.
+TEST(OpenSide, CornersWidenForASecondTriangle) {
+  constexpr double kBoundDeg = 33.0;
+  for (const bool geographic : {false, true}) {
+    Grid grid = placed(slantingSea(), geographic);
+    const std::vector<Target> targets{Target::Fesom};
+    ASSERT_EQ(checkTarget(grid, Target::Fesom).size(), 2u);
+    repairForTargets(grid, targets, {.shore_moves = true, .min_angle_deg = kBoundDeg});
+    EXPECT_TRUE(checkTarget(grid, Target::Fesom).empty());
+    for (const auto& [a, b, c] : grid.triangles) {
+      const std::vector<Point> p = localPlane(grid, std::array{a, b, c});
+      EXPECT_GE(leastAngleDeg(p[0], p[1], p[2]), kBoundDeg - 0.02);
+    }
+    const auto open = std::ranges::find(grid.boundaries, BoundaryRole::Open, &Boundary::role);
+    ASSERT_NE(open, grid.boundaries.end());
+    for (const std::uint32_t node : open->nodes) EXPECT_NEAR(grid.nodes[node].y, 0.0, 1e-9);
+  }
+}
+
+// Edges of a shore that a short one separates are as close as that is long.
+TEST(OpenSide, EdgesMayBeCloseAlongTheShore) {
+  for (const bool geographic : {false, true}) {
+    Grid grid = slantingSea();
+    constexpr std::uint32_t kNode = 45, kNext = 46;  // in the north
+    for (std::uint32_t node = 42; node < 49; ++node) grid.nodes[node].y += node % 2 * 60.0;
+    grid.nodes[kNode].x += 700.0;
+    grid = placed(grid, geographic);
+    RepairState state{.grid = grid, .targets = {}, .options = {.shore_moves = true}};
+    startRepairs(state, nullptr);
+    state.links.kinds = takeBoundaryKinds(grid);
+    startRound(state);
+    const RepairView view = state.view();
+    for (const double share : {0.001, 0.1, 0.5})
+      EXPECT_TRUE(view.shores->keepsApart(view, moveOf(view, kNode, kNext, kNext, share))) << share;
   }
 }
 
