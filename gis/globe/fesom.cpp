@@ -169,7 +169,7 @@ FormatRecord fesomFormat() {
            NodePlaces::Geographic,
            false,
            false,
-           true,
+           false,  // FESOM2 has no open boundaries
            true},
           {writeFesom, readFesom, files}};
 }

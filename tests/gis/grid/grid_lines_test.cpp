@@ -301,7 +301,7 @@ TEST(LossesIn, ShoreBetweenOpenNodes) {
   const TemporaryFolder folder;
   for (const GridFormat& format : formatsOfGrids()) {
     const Grid got = throughFile(grid, format, folder);
-    if (got.boundaries.empty()) continue;
+    if (got.boundaries.empty() || format.name == "fesom") continue;  // FESOM2 has no open boundaries
     const BoundaryKind* const kind = EdgeKinds(got).find(lone[0], lone[1]);
     const bool opens = kind != nullptr && kind->role == BoundaryRole::Open;
     EXPECT_EQ(lossesIn(grid, format, LossesOf::Input).find("1 edge between open nodes is shore") != std::string::npos,
