@@ -38,21 +38,6 @@ bool goesStraight(const RepairView& view, std::uint32_t a, std::uint32_t node, s
          std::abs(cross(to, from)) <= kSineOfTurn * std::hypot(to.x, to.y) * std::hypot(from.x, from.y);
 }
 
-// The neighbours of a boundary node towards which it may slide: see `slideNeighbours`.
-std::vector<std::uint32_t> freeNeighbours(const RepairView& view, std::uint32_t node) {
-  const std::vector<std::uint32_t> others = boundaryNeighbours(view, node);
-  if (others.size() != 2 || !fixedNeighbours(view, node).empty()) return {};
-  const auto kindTo = [&](std::uint32_t other) { return view.links.kinds.at(edgeKey(node, other)); };
-  const BoundaryKind one = kindTo(others[0]), other = kindTo(others[1]);
-  if (one == other) {
-    const bool is_free = isShore(one) || goesStraight(view, others[0], node, others[1]);
-    return is_free ? others : std::vector<std::uint32_t>();
-  }
-  if (one.role == BoundaryRole::Open && isShore(other)) return {others[0]};
-  if (other.role == BoundaryRole::Open && isShore(one)) return {others[1]};
-  return {};
-}
-
 }  // namespace
 
 std::vector<PatchEdge> GridPatch::edgesAt(const RepairView& view, const NodePair& key) const {
@@ -183,11 +168,16 @@ std::vector<std::uint32_t> boundaryNeighbours(const RepairView& view, std::uint3
   return others;
 }
 
-bool isOnFreeBoundary(const RepairView& view, std::uint32_t node) { return freeNeighbours(view, node).size() == 2; }
-
 std::vector<std::uint32_t> slideNeighbours(const RepairView& view, std::uint32_t node) {
   if (view.shores == nullptr || view.links.isAsked(node)) return {};
-  return freeNeighbours(view, node);
+  const std::vector<std::uint32_t> others = boundaryNeighbours(view, node);
+  if (others.size() != 2 || !fixedNeighbours(view, node).empty()) return {};
+  const BoundaryKind &one = view.links.kinds.at(edgeKey(node, others[0])),
+                     &other = view.links.kinds.at(edgeKey(node, others[1]));
+  if (one == other && (isShore(one) || goesStraight(view, others[0], node, others[1]))) return others;
+  if (one.role == BoundaryRole::Open && isShore(other)) return {others[0]};
+  if (other.role == BoundaryRole::Open && isShore(one)) return {others[1]};
+  return {};
 }
 
 bool isMovable(const RepairView& view, std::uint32_t node) {

@@ -131,15 +131,12 @@ std::optional<PatchEdit> nodeSplitOf(const RepairView& view, std::uint32_t node,
 // The other ends of a node's edges.
 std::set<std::uint32_t> neighboursOf(const RepairView& view, std::uint32_t node);
 
-// True if the node has exactly two boundary edges, both of the same kind, and no edge that must stay. Those of an
-// opening are in line, as on a side of the frame.
-bool isOnFreeBoundary(const RepairView& view, std::uint32_t node);
-
 // The neighbours of a node along boundary edges.
 std::vector<std::uint32_t> boundaryNeighbours(const RepairView& view, std::uint32_t node);
 
-// The neighbours of a boundary node towards which it may slide, if nobody requested it and boundaries may move: both on
-// a free boundary; where a shore meets an open boundary, the one along the open boundary, which gets shorter.
+// The neighbours of a boundary node towards which it may slide if boundaries may move. Both, if its two boundary edges
+// have the same kind, those of an opening in line, as on a side of the frame; where a shore meets an open boundary, the
+// one along the open boundary, which gets shorter. None for a node that was requested or has an edge that must stay.
 std::vector<std::uint32_t> slideNeighbours(const RepairView& view, std::uint32_t node);
 
 // True if the node may move: it is an inner node that nobody requested and where no edge that must stay ends, or it may

@@ -15,9 +15,10 @@ constexpr double kApart = 0.5;        // share of an edge's length
 constexpr double kAlong = 0.9;        // share of the length of the edge between two along the shore
 constexpr double kSame = 1.0 - 1e-6;  // share of an unchanged distance: local planes round it
 
+// Edges that touch or are in line do not cross: the least distance of an end is right for them.
 bool crosses(const std::array<Point, 4>& p) {
-  return orient2d(p[0], p[1], p[2]) * orient2d(p[0], p[1], p[3]) <= 0 &&
-         orient2d(p[2], p[3], p[0]) * orient2d(p[2], p[3], p[1]) <= 0;
+  return orient2d(p[0], p[1], p[2]) * orient2d(p[0], p[1], p[3]) < 0 &&
+         orient2d(p[2], p[3], p[0]) * orient2d(p[2], p[3], p[1]) < 0;
 }
 
 // The distance between two edges, p[0] to p[1] and p[2] to p[3], in a plane; 0 if they cross.
@@ -92,7 +93,8 @@ std::optional<PatchEdit> collapseOf(const RepairView& view, std::uint32_t gone, 
   const Grid& grid = view.grid;
   const bool by_shore = view.links.kinds.contains(edgeKey(gone, kept));
   const auto mayMove = [&](std::uint32_t node) {
-    return isMovable(view, node) && (!view.links.on_boundary[node] || (by_shore && isOnFreeBoundary(view, node)));
+    if (!view.links.on_boundary[node]) return isMovable(view, node);
+    return by_shore && slideNeighbours(view, node).size() == 2;
   };
   if (!mayMove(gone) || (share > 0.0 && !mayMove(kept))) return std::nullopt;
   PatchEdit edit{.kind = PatchEditKind::EdgeCollapse, .nodes = {kept, gone}, .share = share, .placed = kept};

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/quality.hpp"
 #include "gis/grid/local_plane.hpp"
@@ -36,23 +35,32 @@ std::uint32_t nodeAt(const Grid& grid, const Point& place) {
   return static_cast<std::uint32_t>(std::ranges::find(grid.nodes, place) - grid.nodes.begin());
 }
 
-// An open sea of squares, each cut from north-west to south-east: the south-western corner is one triangle.
-Grid squareSea() {
-  constexpr std::uint32_t kCells = 5, kRow = kCells + 1;
+// A sea of `cells` by `cells` parallelograms with sides of 1000 m, each cut from north-west to south-east: the
+// south-western and north-eastern corners are one triangle. `kind_of` decides on boundary edges.
+Grid slantingSea(std::uint32_t cells, double corner_deg, const BoundaryKindOf& kind_of) {
+  const std::uint32_t row = cells + 1;
+  const double corner = toRadians(corner_deg);
   Grid grid;
-  for (std::uint32_t j = 0; j < kRow; ++j)
-    for (std::uint32_t i = 0; i < kRow; ++i) grid.nodes.push_back({1000.0 * i, 1000.0 * j});
-  for (std::uint32_t j = 0; j < kCells; ++j) {
-    for (std::uint32_t i = 0; i < kCells; ++i) {
-      const std::uint32_t sw = j * kRow + i, se = sw + 1, nw = sw + kRow, ne = nw + 1;
+  for (std::uint32_t j = 0; j < row; ++j)
+    for (std::uint32_t i = 0; i < row; ++i)
+      grid.nodes.push_back({1000.0 * (i + j * std::cos(corner)), 1000.0 * j * std::sin(corner)});
+  for (std::uint32_t j = 0; j < cells; ++j) {
+    for (std::uint32_t i = 0; i < cells; ++i) {
+      const std::uint32_t sw = j * row + i, se = sw + 1, nw = sw + row, ne = nw + 1;
       grid.triangles.push_back({sw, se, nw});
       grid.triangles.push_back({se, ne, nw});
     }
   }
   grid.z.assign(grid.nodes.size(), -20.0);
-  const auto loops = boundaryLoops(grid);
-  grid.boundaries =
-      cutLoops(grid, loops, [](std::uint32_t, std::uint32_t) { return BoundaryKind{BoundaryRole::Open}; });
+  grid.boundaries = cutLoops(grid, boundaryLoops(grid), kind_of);
+  return grid;
+}
+
+Grid squareSea() {
+  constexpr std::uint32_t kCells = 5;
+  Grid grid = slantingSea(kCells, 90.0, [](std::uint32_t, std::uint32_t) { return BoundaryKind{BoundaryRole::Open}; });
+  for (std::uint32_t node = 0; node < grid.nodes.size(); ++node)  // without rounding
+    grid.nodes[node] = {1000.0 * (node % (kCells + 1)), 1000.0 * (node / (kCells + 1))};
   return grid;
 }
 
@@ -107,34 +115,19 @@ TEST(OpenSide, BothLegsOfACornerAreMadeLonger) {
   }
 }
 
-// A sea in the shape of a parallelogram, whose south is open. The triangles in its corners of 56 degrees, in the
-// south-west and the north-east, have one neighbour.
-Grid slantingSea() {
-  constexpr std::uint32_t kCells = 6, kRow = kCells + 1;
-  constexpr double kCorner = 56.0 * std::numbers::pi / 180.0;
-  Grid grid;
-  for (std::uint32_t j = 0; j < kRow; ++j)
-    for (std::uint32_t i = 0; i < kRow; ++i)
-      grid.nodes.push_back({1000.0 * (i + j * std::cos(kCorner)), 1000.0 * j * std::sin(kCorner)});
-  for (std::uint32_t j = 0; j < kCells; ++j) {
-    for (std::uint32_t i = 0; i < kCells; ++i) {
-      const std::uint32_t sw = j * kRow + i, se = sw + 1, nw = sw + kRow, ne = nw + 1;
-      grid.triangles.push_back({sw, se, nw});
-      grid.triangles.push_back({se, ne, nw});
-    }
-  }
-  const auto isSouth = [](std::uint32_t node) { return node < kRow; };
-  grid.boundaries = cutLoops(grid, boundaryLoops(grid), [&](std::uint32_t from, std::uint32_t to) {
-    return BoundaryKind{isSouth(from) && isSouth(to) ? BoundaryRole::Open : BoundaryRole::Land};
+constexpr std::uint32_t kSouth = 7;  // nodes in the south, the first ones
+
+Grid seaWithOpenSouth() {
+  return slantingSea(kSouth - 1, 56.0, [](std::uint32_t from, std::uint32_t to) {
+    return BoundaryKind{from < kSouth && to < kSouth ? BoundaryRole::Open : BoundaryRole::Land};
   });
-  return grid;
 }
 
 // A second triangle in a corner halves its angle, which must then be wider: the node there slides.
 TEST(OpenSide, CornersWidenForASecondTriangle) {
   constexpr double kBoundDeg = 33.0;
   for (const bool geographic : {false, true}) {
-    Grid grid = placed(slantingSea(), geographic);
+    Grid grid = placed(seaWithOpenSouth(), geographic);
     const std::vector<Target> targets{Target::Fesom};
     ASSERT_EQ(checkTarget(grid, Target::Fesom).size(), 2u);
     repairForTargets(grid, targets, {.shore_moves = true, .min_angle_deg = kBoundDeg});
@@ -149,21 +142,23 @@ TEST(OpenSide, CornersWidenForASecondTriangle) {
   }
 }
 
-// Edges of a shore that a short one separates are as close as that is long.
-TEST(OpenSide, EdgesMayBeCloseAlongTheShore) {
+// Edges that a short one separates are as close as that is long, on a shore and on a straight side.
+TEST(OpenSide, EdgesMayBeCloseAlongTheBoundary) {
   for (const bool geographic : {false, true}) {
-    Grid grid = slantingSea();
-    constexpr std::uint32_t kNode = 45, kNext = 46;  // in the north
+    Grid grid = seaWithOpenSouth();
+    constexpr std::uint32_t kNorth = 45, kOfSouth = 3;
     for (std::uint32_t node = 42; node < 49; ++node) grid.nodes[node].y += node % 2 * 60.0;
-    grid.nodes[kNode].x += 700.0;
+    for (const std::uint32_t node : {kNorth, kOfSouth}) grid.nodes[node].x += 700.0;
     grid = placed(grid, geographic);
     RepairState state{.grid = grid, .targets = {}, .options = {.shore_moves = true}};
     startRepairs(state, nullptr);
     state.links.kinds = takeBoundaryKinds(grid);
     startRound(state);
     const RepairView view = state.view();
-    for (const double share : {0.001, 0.1, 0.5})
-      EXPECT_TRUE(view.shores->keepsApart(view, moveOf(view, kNode, kNext, kNext, share))) << share;
+    for (const std::uint32_t node : {kNorth, kOfSouth})
+      for (const double share : {0.001, 0.1, 0.5})
+        EXPECT_TRUE(view.shores->keepsApart(view, moveOf(view, node, node + 1, node + 1, share)))
+            << node << ' ' << share;
   }
 }
 
