@@ -107,7 +107,7 @@ BoundaryKind EdgeKinds::forCutting(std::uint32_t a, std::uint32_t b) const {
   return {role, kind->ibtype, separators_[kind->segment]};
 }
 
-const BoundaryKind* EdgeKinds::find(std::uint32_t a, std::uint32_t b) const {
+const BoundaryKind* EdgeKinds::find(std::uint32_t a, std::uint32_t b) const& {
   const NodePair key = keyOf(a, b);
   const auto at = std::ranges::lower_bound(edges_, key, {}, [](const auto& entry) { return entry.first; });
   return at != edges_.end() && at->first == key ? &kinds_[at->second] : nullptr;

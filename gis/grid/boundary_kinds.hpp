@@ -43,7 +43,8 @@ class EdgeKinds {
   explicit EdgeKinds(const Grid& grid);
 
   // Null for an edge in no boundary. `segment` is the boundary's number.
-  const BoundaryKind* find(std::uint32_t a, std::uint32_t b) const;
+  const BoundaryKind* find(std::uint32_t a, std::uint32_t b) const&;
+  const BoundaryKind* find(std::uint32_t a, std::uint32_t b) const&& = delete;  // would point into what is gone
 
   // The kind for boundaries that are cut anew (`cutLoops`): islands, and edges in no boundary, are land. `segment` is 0
   // unless it separates open boundaries or rivers of one kind that meet at a node.

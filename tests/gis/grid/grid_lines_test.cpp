@@ -302,7 +302,8 @@ TEST(LossesIn, ShoreBetweenOpenNodes) {
   for (const GridFormat& format : formatsOfGrids()) {
     const Grid got = throughFile(grid, format, folder);
     if (got.boundaries.empty() || format.name == "fesom") continue;  // FESOM2 has no open boundaries
-    const BoundaryKind* const kind = EdgeKinds(got).find(lone[0], lone[1]);
+    const EdgeKinds kinds(got);
+    const BoundaryKind* const kind = kinds.find(lone[0], lone[1]);
     const bool opens = kind != nullptr && kind->role == BoundaryRole::Open;
     EXPECT_EQ(lossesIn(grid, format, LossesOf::Input).find("1 edge between open nodes is shore") != std::string::npos,
               opens)
