@@ -29,15 +29,15 @@ Grid readAdcirc(const std::string& path, const Crs& unsaid) {
 }  // namespace
 
 FormatRecord adcircFormat() {
-  return {{"adcirc",
-           {".14", ".grd"},
-           "ADCIRC's fort.14, depth positive down",
-           true,
-           true,
-           {GridPart::Title, GridPart::Rivers, GridPart::Ibtypes, GridPart::Weirs},
-           true,
-           NodePlaces::OneTurn,
-           true},
+  return {{.name = "adcirc",
+           .endings = {".14", ".grd"},
+           .description = "ADCIRC's fort.14, depth positive down",
+           .readable = true,
+           .writable = true,
+           .holds = {GridPart::Title, GridPart::Rivers, GridPart::Ibtypes, GridPart::Weirs},
+           .says_depth = true,
+           .places = NodePlaces::OneTurn,
+           .lengths_in_metres = true},
           {writeAdcirc, readAdcirc, withPrjBeside}};
 }
 

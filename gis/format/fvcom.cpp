@@ -177,17 +177,15 @@ FormatRecord fvcomFormat() {
     all.prj = prjBeside(fileOfSet(path, "grd"));
     return all;
   };
-  return {{"fvcom",
-           {std::string_view(kGridEnding)},
-           "FVCOM's _grd, _dep, _obc and _cor.dat, depth positive down",
-           true,
-           true,
-           {},
-           true,
-           NodePlaces::OneTurn,
-           true,
-           false,
-           true},
+  return {{.name = "fvcom",
+           .endings = {std::string_view(kGridEnding)},
+           .description = "FVCOM's _grd, _dep, _obc and _cor.dat, depth positive down",
+           .readable = true,
+           .writable = true,
+           .says_depth = true,
+           .places = NodePlaces::OneTurn,
+           .lengths_in_metres = true,
+           .marks_nodes = true},
           {writeFvcom, readFvcom, files, nullptr, openNodesRemark}};
 }
 

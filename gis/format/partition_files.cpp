@@ -31,30 +31,22 @@ void writeAdcircPartition(const Grid& grid, const std::string& path, const ItemL
 }  // namespace
 
 FormatRecord schismPartitionFormat() {
-  return {{"schism_partition",
-           {".prop"},
-           "SCHISM's partition.prop, for --partition",
-           false,
-           true,
-           {GridPart::Partition},
-           false,
-           NodePlaces::AsTheyAre,
-           false,
-           true},
+  return {{.name = "schism_partition",
+           .endings = {".prop"},
+           .description = "SCHISM's partition.prop, for --partition",
+           .writable = true,
+           .holds = {GridPart::Partition},
+           .beside_grid = true},
           {writeSchismPartition, nullptr, nullptr}};
 }
 
 FormatRecord adcircPartitionFormat() {
-  return {{"adcirc_partition",
-           {"partmesh.txt"},
-           "ADCIRC's partmesh.txt, for --partition",
-           false,
-           true,
-           {GridPart::NodePartition},
-           false,
-           NodePlaces::AsTheyAre,
-           false,
-           true},
+  return {{.name = "adcirc_partition",
+           .endings = {"partmesh.txt"},
+           .description = "ADCIRC's partmesh.txt, for --partition",
+           .writable = true,
+           .holds = {GridPart::NodePartition},
+           .beside_grid = true},
           {writeAdcircPartition, nullptr, nullptr}};
 }
 

@@ -54,15 +54,15 @@ FormatRecord schismFormat() {
   const auto files = [](const std::string& path) -> OutputFiles {
     return {{withEnding(path, ".gr3"), withEnding(path, ".ll")}, {}, prjBeside(path)};
   };
-  return {{"schism",
-           {".gr3", ".ll"},
-           "SCHISM's hgrid.gr3 and hgrid.ll, depth positive down",
-           true,
-           true,
-           {GridPart::Title},
-           true,
-           NodePlaces::OneTurn,
-           true},
+  return {{.name = "schism",
+           .endings = {".gr3", ".ll"},
+           .description = "SCHISM's hgrid.gr3 and hgrid.ll, depth positive down",
+           .readable = true,
+           .writable = true,
+           .holds = {GridPart::Title},
+           .says_depth = true,
+           .places = NodePlaces::OneTurn,
+           .lengths_in_metres = true},
           {writeSchism, readSchism, files}};
 }
 

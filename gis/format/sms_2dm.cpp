@@ -220,15 +220,14 @@ void write2dm(const Grid& grid, const std::string& path, const ItemLoop& loop) {
 }  // namespace
 
 FormatRecord sms2dmFormat() {
-  return {{"2dm",
-           {".2dm"},
-           "SMS 2dm for QGIS and TUFLOW, z positive up",
-           true,
-           true,
-           {GridPart::Features, GridPart::Regions, GridPart::Lines, GridPart::Rivers},
-           false,
-           NodePlaces::OneTurn,
-           true},
+  return {{.name = "2dm",
+           .endings = {".2dm"},
+           .description = "SMS 2dm for QGIS and TUFLOW, z positive up",
+           .readable = true,
+           .writable = true,
+           .holds = {GridPart::Features, GridPart::Regions, GridPart::Lines, GridPart::Rivers},
+           .places = NodePlaces::OneTurn,
+           .lengths_in_metres = true},
           {write2dm, read2dm, withPrjBeside}};
 }
 

@@ -234,17 +234,16 @@ FormatRecord telemacFormat() {
   const auto files = [](const std::string& path) -> OutputFiles {
     return {{path, withEnding(path, ".cli")}, {}, prjBeside(path)};
   };
-  return {{"telemac",
-           {".slf"},
-           "TELEMAC's SELAFIN and .cli, elevation positive up",
-           true,
-           true,
-           {GridPart::Title, GridPart::Rivers},
-           true,
-           NodePlaces::OneTurn,
-           true,
-           false,
-           true},
+  return {{.name = "telemac",
+           .endings = {".slf"},
+           .description = "TELEMAC's SELAFIN and .cli, elevation positive up",
+           .readable = true,
+           .writable = true,
+           .holds = {GridPart::Title, GridPart::Rivers},
+           .says_depth = true,
+           .places = NodePlaces::OneTurn,
+           .lengths_in_metres = true,
+           .marks_nodes = true},
           {writeTelemac, readTelemac, files}};
 }
 

@@ -233,14 +233,13 @@ FormatRecord triangleFormat() {
   const auto files = [](const std::string& path) -> OutputFiles {
     return {{withEnding(path, ".node"), withEnding(path, ".ele"), withEnding(path, ".poly")}, {}, prjBeside(path)};
   };
-  return {{"triangle",
-           {".node", ".ele"},
-           "Triangle's .node, .ele and .poly",
-           true,
-           true,
-           {GridPart::Features, GridPart::Lines, GridPart::Rivers},
-           false,
-           NodePlaces::OneTurn},
+  return {{.name = "triangle",
+           .endings = {".node", ".ele"},
+           .description = "Triangle's .node, .ele and .poly",
+           .readable = true,
+           .writable = true,
+           .holds = {GridPart::Features, GridPart::Lines, GridPart::Rivers},
+           .places = NodePlaces::OneTurn},
           {writeTriangle, readTriangle, files}};
 }
 

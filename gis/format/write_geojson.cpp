@@ -160,7 +160,12 @@ void writeGeoJson(const Grid& grid, const std::string& path, const ItemLoop& loo
 }  // namespace
 
 FormatRecord geoJsonFormat() {
-  return {{"geojson", {".geojson", ".json"}, "GeoJSON, three or four files", true, true, kLayerParts},
+  return {{.name = "geojson",
+           .endings = {".geojson", ".json"},
+           .description = "GeoJSON, three or four files",
+           .readable = true,
+           .writable = true,
+           .holds = kLayerParts},
           {writeGeoJson, readOgrGrid, layerFiles}};
 }
 

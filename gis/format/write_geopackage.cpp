@@ -334,9 +334,13 @@ OutputFiles geoPackageFiles(const std::string& path) {
 }  // namespace
 
 FormatRecord geoPackageFormat() {
-  return {
-      {"gpkg", {".gpkg"}, "GeoPackage with layers of triangles, nodes, boundaries and lines", true, true, kLayerParts},
-      {writeGeoPackage, readOgrGrid, geoPackageFiles}};
+  return {{.name = "gpkg",
+           .endings = {".gpkg"},
+           .description = "GeoPackage with layers of triangles, nodes, boundaries and lines",
+           .readable = true,
+           .writable = true,
+           .holds = kLayerParts},
+          {writeGeoPackage, readOgrGrid, geoPackageFiles}};
 }
 
 }  // namespace coastmesh

@@ -399,19 +399,24 @@ FormatRecord gmshFormat() {
   constexpr GridParts kParts41{GridPart::Features,  GridPart::Regions,     GridPart::Lines,
                                GridPart::LineNames, GridPart::Rivers,      GridPart::Ibtypes,
                                GridPart::BareWeirs, GridPart::PartIslands, GridPart::Partition};
-  return {{"gmsh",
-           {".msh"},
-           "Gmsh 4.1 for Thetis, Firedrake, SLIM and FEniCS",
-           true,
-           true,
-           kParts41,
-           false,
-           NodePlaces::OneTurn},
+  return {{.name = "gmsh",
+           .endings = {".msh"},
+           .description = "Gmsh 4.1 for Thetis, Firedrake, SLIM and FEniCS",
+           .readable = true,
+           .writable = true,
+           .holds = kParts41,
+           .places = NodePlaces::OneTurn},
           {writeGmsh, readGmsh, withPrjBeside}};
 }
 
 FormatRecord gmsh22Format() {
-  return {{"gmsh22", {"_22.msh"}, "Gmsh 2.2", true, true, kParts22, false, NodePlaces::OneTurn},
+  return {{.name = "gmsh22",
+           .endings = {"_22.msh"},
+           .description = "Gmsh 2.2",
+           .readable = true,
+           .writable = true,
+           .holds = kParts22,
+           .places = NodePlaces::OneTurn},
           {writeGmsh22, readGmsh, withPrjBeside}};
 }
 

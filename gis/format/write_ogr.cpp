@@ -327,12 +327,22 @@ OutputFiles shapefileFiles(const std::string& path) {
 }  // namespace
 
 FormatRecord shapefileFormat() {
-  return {{"shp", {".shp"}, "Shapefile, three or four sets of files", true, true, kLayerParts},
+  return {{.name = "shp",
+           .endings = {".shp"},
+           .description = "Shapefile, three or four sets of files",
+           .readable = true,
+           .writable = true,
+           .holds = kLayerParts},
           {writeShapefile, readOgrGrid, shapefileFiles}};
 }
 
 FormatRecord flatGeobufFormat() {
-  return {{"fgb", {".fgb"}, "FlatGeobuf, three or four files", true, true, kLayerParts},
+  return {{.name = "fgb",
+           .endings = {".fgb"},
+           .description = "FlatGeobuf, three or four files",
+           .readable = true,
+           .writable = true,
+           .holds = kLayerParts},
           {writeFlatGeobuf, readOgrGrid, layerFiles}};
 }
 

@@ -371,16 +371,15 @@ void writeUgrid(const Grid& grid, const std::string& path, const ItemLoop& loop)
 }  // namespace
 
 FormatRecord ugridFormat() {
-  return {{"ugrid",
-           {".nc"},
-           "UGRID NetCDF for QGIS, xugrid and D-FlowFM (_net.nc)",
-           true,
-           true,
-           {GridPart::Title, GridPart::Sizes, GridPart::Features, GridPart::Regions, GridPart::Pieces,
-            GridPart::Partition, GridPart::Lines, GridPart::LineNames, GridPart::Rivers, GridPart::Ibtypes,
-            GridPart::BareWeirs, GridPart::PartIslands},
-           false,
-           NodePlaces::OneTurn},
+  return {{.name = "ugrid",
+           .endings = {".nc"},
+           .description = "UGRID NetCDF for QGIS, xugrid and D-FlowFM (_net.nc)",
+           .readable = true,
+           .writable = true,
+           .holds = {GridPart::Title, GridPart::Sizes, GridPart::Features, GridPart::Regions, GridPart::Pieces,
+                     GridPart::Partition, GridPart::Lines, GridPart::LineNames, GridPart::Rivers, GridPart::Ibtypes,
+                     GridPart::BareWeirs, GridPart::PartIslands},
+           .places = NodePlaces::OneTurn},
           {writeUgrid, readUgrid, nullptr, nullptr, depthRemark}};
 }
 

@@ -223,19 +223,24 @@ constexpr GridParts kParts{GridPart::Features, GridPart::Regions, GridPart::Line
 }  // namespace
 
 FormatRecord vtuGlobeFormat() {
-  return {{"vtu3d",
-           {"_globe.vtu"},
-           "the same on a globe, in metres from its middle",
-           true,
-           true,
-           kParts,
-           false,
-           NodePlaces::Geographic},
+  return {{.name = "vtu3d",
+           .endings = {"_globe.vtu"},
+           .description = "the same on a globe, in metres from its middle",
+           .readable = true,
+           .writable = true,
+           .holds = kParts,
+           .places = NodePlaces::Geographic},
           {writeVtuGlobe, readVtu, nullptr}};
 }
 
 FormatRecord vtuFormat() {
-  return {{"vtu", {".vtu"}, "VTK unstructured grid for ParaView", true, true, kParts, false, NodePlaces::OneTurn},
+  return {{.name = "vtu",
+           .endings = {".vtu"},
+           .description = "VTK unstructured grid for ParaView",
+           .readable = true,
+           .writable = true,
+           .holds = kParts,
+           .places = NodePlaces::OneTurn},
           {writeVtu, readVtu, withPrjBeside}};
 }
 

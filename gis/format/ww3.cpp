@@ -137,17 +137,15 @@ bool isWw3(const std::string& path) {
 }  // namespace
 
 FormatRecord ww3Format() {
-  return {{"ww3",
-           {"_ww3.msh"},
-           "Gmsh 2 for WAVEWATCH III, depth positive down",
-           true,
-           true,
-           {},
-           true,
-           NodePlaces::OneTurn,
-           true,
-           false,
-           true},
+  return {{.name = "ww3",
+           .endings = {"_ww3.msh"},
+           .description = "Gmsh 2 for WAVEWATCH III, depth positive down",
+           .readable = true,
+           .writable = true,
+           .says_depth = true,
+           .places = NodePlaces::OneTurn,
+           .lengths_in_metres = true,
+           .marks_nodes = true},
           {writeWw3, readWw3, withPrjBeside, isWw3}};
 }
 

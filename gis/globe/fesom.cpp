@@ -159,18 +159,14 @@ FormatRecord fesomFormat() {
   const auto files = [](const std::string& path) -> OutputFiles {
     return {{fileOfSet(path, "nod2d"), fileOfSet(path, "elem2d"), fileOfSet(path, "aux3d")}, {}, {}};
   };
-  return {{"fesom",
-           {kNodeEnding},
-           "FESOM2's nod2d.out, elem2d.out and aux3d.out, longitudes and latitudes",
-           true,
-           true,
-           {},
-           true,
-           NodePlaces::Geographic,
-           false,
-           false,
-           false,  // FESOM2 has no open boundaries
-           true},
+  return {{.name = "fesom",
+           .endings = {kNodeEnding},
+           .description = "FESOM2's nod2d.out, elem2d.out and aux3d.out, longitudes and latitudes",
+           .readable = true,
+           .writable = true,
+           .says_depth = true,
+           .places = NodePlaces::Geographic,
+           .of_water = true},
           {writeFesom, readFesom, files}};
 }
 

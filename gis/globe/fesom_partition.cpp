@@ -360,16 +360,12 @@ OutputFiles filesOfPartition(const std::string& path) {
 }  // namespace
 
 FormatRecord fesomPartitionFormat() {
-  return {{"fesom_partition",
-           {kMainFile},
-           "FESOM2's rpart.out, my_list and com_info of a folder dist_N, for --partition",
-           false,
-           true,
-           {GridPart::NodePartition},
-           false,
-           NodePlaces::AsTheyAre,
-           false,
-           true},
+  return {{.name = "fesom_partition",
+           .endings = {kMainFile},
+           .description = "FESOM2's rpart.out, my_list and com_info of a folder dist_N, for --partition",
+           .writable = true,
+           .holds = {GridPart::NodePartition},
+           .beside_grid = true},
           {writeFesomPartition, nullptr, filesOfPartition}};
 }
 

@@ -182,14 +182,13 @@ bool isJigsaw(const std::string& path) {
 }  // namespace
 
 FormatRecord jigsawFormat() {
-  return {{"jigsaw",
-           {"_jigsaw.msh"},
-           "JIGSAW's mesh, of the globe in radians",
-           true,
-           true,
-           {GridPart::Lines, GridPart::Rivers},
-           false,
-           NodePlaces::Sphere},
+  return {{.name = "jigsaw",
+           .endings = {"_jigsaw.msh"},
+           .description = "JIGSAW's mesh, of the globe in radians",
+           .readable = true,
+           .writable = true,
+           .holds = {GridPart::Lines, GridPart::Rivers},
+           .places = NodePlaces::Sphere},
           {writeJigsaw, readJigsaw, withPrjBeside, isJigsaw}};
 }
 

@@ -168,9 +168,14 @@ bool isMpas(const std::string& path) {
 }  // namespace
 
 FormatRecord mpasFormat() {
-  return {
-      {"mpas", {"_mpas.nc"}, "NetCDF for MPAS' mesh converter, on a sphere", true, true, {}, false, NodePlaces::Sphere},
-      {writeMpas, readMpas, nullptr, isMpas}};
+  return {{.name = "mpas",
+           .endings = {"_mpas.nc"},
+           .description = "NetCDF for MPAS' mesh converter, on a sphere",
+           .readable = true,
+           .writable = true,
+           .places = NodePlaces::Sphere,
+           .marks_nodes = true},
+          {writeMpas, readMpas, nullptr, isMpas}};
 }
 
 }  // namespace coastmesh

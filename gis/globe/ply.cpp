@@ -32,14 +32,11 @@ void writePly(const Grid& grid, const std::string& path, const ItemLoop& loop) {
 }  // namespace
 
 FormatRecord plyFormat() {
-  return {{"ply",
-           {".ply"},
-           "PLY, for viewers of shapes: longitudes and latitudes as a globe",
-           false,
-           true,
-           {},
-           false,
-           NodePlaces::Sphere},
+  return {{.name = "ply",
+           .endings = {".ply"},
+           .description = "PLY, for viewers of shapes: longitudes and latitudes as a globe",
+           .writable = true,
+           .places = NodePlaces::Sphere},
           {writePly, nullptr, nullptr}};
 }
 

@@ -296,6 +296,7 @@ TEST(LossesIn, ShoreBetweenOpenNodes) {
                                     std::pair(BoundaryRole::Land, rest)}) {
     Boundary& boundary = grid.boundaries.emplace_back();
     boundary.role = role;
+    boundary.closed = false;
     boundary.nodes = nodes;
   }
   const TemporaryFolder folder;
