@@ -13,7 +13,7 @@
 namespace coastmesh {
 
 TriMesh linkTriangles(std::vector<Point> points, std::span<const std::array<VertexId, 3>> corners,
-                      std::vector<EdgeConflict>& conflicts) {
+                      std::vector<EdgeConflict>& conflicts, const ItemLoop& loop) {
   TriMesh mesh;
   mesh.points = std::move(points);
   mesh.triangles.resize(corners.size());
@@ -37,7 +37,7 @@ TriMesh linkTriangles(std::vector<Point> points, std::span<const std::array<Vert
   // The only candidate for the other side of each edge; kNone if there is none, or several.
   const auto from = [&](VertexId v) { return std::span(leaving).subspan(first[v], first[v + 1] - first[v]); };
   std::vector<std::array<EdgeRef, 3>> twins(corners.size(), {kNone, kNone, kNone});
-  for (TriId t = 0; t < corners.size(); ++t) {
+  const auto findTwins = [&](TriId t, std::vector<EdgeConflict>& found_conflicts) {
     for (unsigned i = 0; i < 3; ++i) {
       const VertexId a = mesh.origin(edgeRef(t, i)), b = mesh.target(edgeRef(t, i));
       const auto claims = std::ranges::count_if(from(a), [&](EdgeRef f) { return mesh.target(f) == b; });
@@ -49,19 +49,26 @@ TriMesh linkTriangles(std::vector<Point> points, std::span<const std::array<Vert
         ++found;
       }
       if (a == b || claims > 1 || found > 1) {
-        if (a <= b || found == 0) conflicts.push_back({a, b});
+        if (a <= b || found == 0) found_conflicts.push_back({a, b});
       } else if (found == 1) {
         twins[t][i] = twin;
       }
     }
-  }
+  };
+  for (const std::vector<EdgeConflict>&some :
+       overStretches(loop, corners.size(), [&](std::size_t begin, std::size_t end) {
+         std::vector<EdgeConflict> found;
+         for (std::size_t t = begin; t < end; ++t) findTwins(static_cast<TriId>(t), found);
+         return found;
+       }))
+    conflicts.insert(conflicts.end(), some.begin(), some.end());
   // If one side of an edge was rejected, the other is on the boundary too.
-  for (TriId t = 0; t < corners.size(); ++t) {
+  forEachByStretches(loop, corners.size(), [&](std::size_t t) {
     for (unsigned i = 0; i < 3; ++i) {
-      const EdgeRef e = edgeRef(t, i), twin = twins[t][i];
+      const EdgeRef e = edgeRef(static_cast<TriId>(t), i), twin = twins[t][i];
       if (twin != kNone && e < twin && twins[triOf(twin)][indexOf(twin)] == e) setTwins(mesh.triangles, e, twin);
     }
-  }
+  });
   return mesh;
 }
 

@@ -31,7 +31,7 @@ struct EdgeConflict {
 // Links triangles given by their corners (in any rotation, counter-clockwise) into a mesh without constraints, all in
 // region 0. Edges that cannot be linked become boundary and are listed in `conflicts`.
 TriMesh linkTriangles(std::vector<Point> points, std::span<const std::array<VertexId, 3>> corners,
-                      std::vector<EdgeConflict>& conflicts);
+                      std::vector<EdgeConflict>& conflicts, const ItemLoop& loop = inOrder);
 
 // For each vertex one edge that starts there; a boundary edge if there is one. kNone for an unused vertex.
 std::vector<EdgeRef> outgoingEdges(const TriMesh& mesh);

@@ -24,6 +24,8 @@
 #include "gis/model/impossible_depths.hpp"
 #include "gis/model/node_meets.hpp"
 #include "gis/model/triangle_overlaps.hpp"
+#include "parallel/recorder.hpp"
+#include "parallel/workers.hpp"
 
 namespace coastmesh {
 
@@ -91,11 +93,11 @@ DefectRow rowOf(const TargetDefect& defect, const std::string& target) {
 
 // Where triangles meet without being connected: overlaps and, `with_nodes`, repeated and hanging nodes, which
 // `checkTarget` reports for models. Nodes of weirs are exempt: both sides may coincide.
-std::vector<DefectRow> meetingRows(const Grid& grid, bool with_nodes) {
+std::vector<DefectRow> meetingRows(const Grid& grid, bool with_nodes, const ItemLoop& loop) {
   std::vector<DefectRow> rows;
   std::vector<EdgeConflict> conflicts;
-  const TriMesh mesh = linkTriangles(grid.nodes, grid.triangles, conflicts);
-  for (const auto& [t, other] : triangleOverlaps(grid, mesh))
+  const TriMesh mesh = linkTriangles(grid.nodes, grid.triangles, conflicts, loop);
+  for (const auto& [t, other] : triangleOverlaps(grid, mesh, loop))
     rows.push_back({std::string(toString(TargetDefectKind::Overlap)),
                     {},
                     middleOf(grid, t),
@@ -112,8 +114,8 @@ std::vector<DefectRow> meetingRows(const Grid& grid, bool with_nodes) {
     for (const std::uint32_t node : nodes)
       if (!of_weir[node]) rows.push_back({std::string(toString(kind)), {}, grid.nodes[node], -1, node, 0.0, {}});
   };
-  add(TargetDefectKind::RepeatedNode, repeatedNodes(grid));
-  add(TargetDefectKind::HangingNode, hangingNodes(grid, mesh));
+  add(TargetDefectKind::RepeatedNode, repeatedNodes(grid, loop));
+  add(TargetDefectKind::HangingNode, hangingNodes(grid, mesh, loop));
   return rows;
 }
 
@@ -159,7 +161,7 @@ VectorLayer layerOf(const std::vector<DefectRow>& defects) {
 // Formats of models are checked as models read them. In other formats longitudes may jump at 180°: conversion unwraps
 // them into one turn, and so does this check. The grid is restored at the end.
 std::vector<DefectRow> targetRows(Grid& grid, const std::vector<Target>& targets, const CheckUsage& usage,
-                                  const Interrupt& interrupt) {
+                                  const ItemLoop& loop) {
   std::vector<DefectRow> rows;
   if (targets.empty()) return rows;
   const GridFormat* const format = gridFormatOf(usage.mesh.path);
@@ -168,8 +170,7 @@ std::vector<DefectRow> targetRows(Grid& grid, const std::vector<Target>& targets
   std::optional<TurnedNodes> turned;
   if (format != nullptr && format->places != NodePlaces::OneTurn) turned.emplace(grid);
   for (const Target target : targets) {
-    interrupt.check();
-    for (const TargetDefect& defect : checkTarget(grid, target, check)) {
+    for (const TargetDefect& defect : checkTarget(grid, target, check, loop)) {
       DefectRow& row = rows.emplace_back(rowOf(defect, kTargetNames[static_cast<std::size_t>(target)]));
       if (turned) row.place = turned->putBack(row.place);
     }
@@ -205,13 +206,17 @@ int runCheck(const CheckUsage& usage, Run& run) {
       input.files.empty() ? checkGrid(grid, options) : checkGridAgainst(grid, JobInput(input), options);
   std::vector<DefectRow> rows;
   for (const GridDefect& defect : check.defects) rows.push_back(rowOf(defect));
-  for (DefectRow& row : meetingRows(grid, targets.empty())) rows.push_back(std::move(row));
-  for (DefectRow& row : targetRows(grid, targets, usage, interrupt)) rows.push_back(std::move(row));
-  if (!targets.empty())
-    for (const ApartWater& water : apartWaters(grid)) rows.push_back(rowOf(water, grid));
-  if (targets.empty() && usage.target_check.time_step_s > 0.0)
-    for (const TargetDefect& defect : checkTimeStep(grid, usage.target_check.time_step_s))
-      rows.push_back(rowOf(defect, {}));
+  withThreads({}, [&] {
+    Recorder recorder;
+    const ItemLoop loop = recorder.loop("check", {[&interrupt] { return interrupt.requested(); }, {}});
+    for (DefectRow& row : meetingRows(grid, targets.empty(), loop)) rows.push_back(std::move(row));
+    for (DefectRow& row : targetRows(grid, targets, usage, loop)) rows.push_back(std::move(row));
+    if (!targets.empty())
+      for (const ApartWater& water : apartWaters(grid, loop)) rows.push_back(rowOf(water, grid));
+    if (targets.empty() && usage.target_check.time_step_s > 0.0)
+      for (const TargetDefect& defect : checkTimeStep(grid, usage.target_check.time_step_s, loop))
+        rows.push_back(rowOf(defect, {}));
+  });
   // Advice for all models comes after all defects.
   std::ranges::stable_partition(rows, isDefect);
   if (layer != nullptr) {

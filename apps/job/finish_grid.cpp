@@ -88,12 +88,12 @@ FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunContr
   depth.keep_known = hasDepths(grid);
   if (!grid.triangles.empty()) report.depth = setDepths(grid, depth, of_depths, loop);
   if (!grid.triangles.empty()) report.boundaries = assignBoundaries(grid, options.boundaries);
-  if (options.drop_apart) report.dropped = dropApartWaters(grid, options.grazed);
+  if (options.drop_apart) report.dropped = dropApartWaters(grid, options.grazed, loop);
   // The report is of the water that is left.
   if (report.dropped.waters > 0 && !depth.files.empty()) report.depth = setDepths(grid, depth, of_depths, loop);
   RepairMemory memory;
   if (!grid.triangles.empty() && report.mended)
-    report.repairs = repairForTargets(grid, targets, options.repair, &memory, stageControl(control, kFirst));
+    report.repairs = repairForTargets(grid, targets, options.repair, &memory, stageControl(control, kFirst), loop);
   // Nodes that repairs made or moved get new depths, which may put openings above the water or make time steps too
   // short: hence further rounds.
   const auto ofDepths = [](const Repair& repair) { return repair.kind == TargetDefectKind::DryOpening; };
@@ -105,13 +105,13 @@ FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunContr
     report.depth.warnings = warnings;
     std::erase_if(report.repairs.repairs, ofDepths);
     RepairReport again =
-        repairForTargets(grid, targets, options.repair, &memory, stageControl(control, part.part(0.5, 1.0)));
+        repairForTargets(grid, targets, options.repair, &memory, stageControl(control, part.part(0.5, 1.0)), loop);
     changed = !std::ranges::all_of(again.repairs, ofDepths);
     std::ranges::move(again.repairs, std::back_inserter(report.repairs.repairs));
     report.repairs.left = std::move(again.left);
   }
   std::ranges::set_difference(asked, nodesAmong(grid, asked), std::back_inserter(report.lost_asked), lexLess);
-  if (!targets.empty() && !isOneWater(grid)) report.apart = apartWaters(grid).size();
+  if (!targets.empty() && !isOneWater(grid)) report.apart = apartWaters(grid, loop).size();
   return report;
 }
 

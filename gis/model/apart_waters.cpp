@@ -35,15 +35,16 @@ double largestOf(const WaterAreas& areas) {
   return largest;
 }
 
-Apart apartOf(const Grid& grid) {
+Apart apartOf(const Grid& grid, const ItemLoop& loop) {
+  // Edges in either direction, as clockwise triangles may be among them, with their triangles.
   using Edge = std::pair<std::uint32_t, std::uint32_t>;
-  std::vector<std::pair<Edge, std::uint32_t>> edges;
-  edges.reserve(3 * grid.triangles.size());
-  for (std::uint32_t t = 0; t < grid.triangles.size(); ++t) {
+  std::vector<std::pair<Edge, std::uint32_t>> edges(3 * grid.triangles.size());
+  forEachByStretches(loop, grid.triangles.size(), [&](std::size_t t) {
     const auto& v = grid.triangles[t];
-    for (std::size_t i = 0; i < 3; ++i) edges.push_back({std::minmax(v[i], v[(i + 1) % 3]), t});
-  }
-  std::ranges::sort(edges);
+    for (std::size_t i = 0; i < 3; ++i)
+      edges[3 * t + i] = {std::minmax(v[i], v[(i + 1) % 3]), static_cast<std::uint32_t>(t)};
+  });
+  sortOn(loop, edges);
   UnionFind waters(grid.triangles.size());
   for (std::size_t i = 0; i + 1 < edges.size(); ++i)
     if (edges[i].first == edges[i + 1].first) waters.unite(edges[i].second, edges[i + 1].second);
@@ -71,8 +72,8 @@ Apart apartOf(const Grid& grid) {
 
 }  // namespace
 
-std::vector<ApartWater> apartWaters(const Grid& grid) {
-  const Apart apart = apartOf(grid);
+std::vector<ApartWater> apartWaters(const Grid& grid, const ItemLoop& loop) {
+  const Apart apart = apartOf(grid, loop);
   std::map<std::uint32_t, std::size_t> counts;
   for (std::uint32_t t = 0; t < apart.water.size(); ++t)
     if (apart.is_apart[t]) ++counts[apart.water[t]];
@@ -100,10 +101,10 @@ bool isOneWater(const Grid& grid) {
                              [&](const auto& v) { return nodes.find(v[0]) == nodes.find(grid.triangles[0][0]); });
 }
 
-DroppedWaters dropApartWaters(Grid& grid, GrazedWaters grazed) {
+DroppedWaters dropApartWaters(Grid& grid, GrazedWaters grazed, const ItemLoop& loop) {
   constexpr double kLittle = 0.1;  // share of all water, or of the largest: less is hardly what the user means
   if (isOneWater(grid)) return {};
-  Apart apart = apartOf(grid);
+  Apart apart = apartOf(grid, loop);
   WaterAreas left_out, at_open;
   for (std::uint32_t t = 0; t < apart.water.size(); ++t)
     (apart.is_apart[t] ? left_out : at_open)[apart.water[t]] += grid.area_m2[t];

@@ -4,6 +4,7 @@
 #include <map>
 #include <vector>
 
+#include "core/item_loop.hpp"
 #include "gis/grid/grid.hpp"
 
 namespace coastmesh {
@@ -15,7 +16,7 @@ struct ApartWater {
 };
 
 // In the order of their first triangles. Water is connected through edges, not through single nodes.
-std::vector<ApartWater> apartWaters(const Grid& grid);
+std::vector<ApartWater> apartWaters(const Grid& grid, const ItemLoop& loop = inOrder);
 
 // A fast sufficient test: true only if all triangles are connected. REQUIRES: complete boundaries.
 bool isOneWater(const Grid& grid);
@@ -33,6 +34,6 @@ struct DroppedWaters {
 
 // Removes apart waters from the grid, but none if those with an opening are less than a tenth of all: the main water
 // may then be among them. REQUIRES: areas are known.
-DroppedWaters dropApartWaters(Grid& grid, GrazedWaters grazed = GrazedWaters::Drop);
+DroppedWaters dropApartWaters(Grid& grid, GrazedWaters grazed = GrazedWaters::Drop, const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

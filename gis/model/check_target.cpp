@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
-#include <map>
 #include <utility>
 
 #include "core/predicates.hpp"
@@ -52,9 +52,9 @@ bool mindsJumps(Target target) {
 bool isOpening(BoundaryRole role) { return role == BoundaryRole::Open || role == BoundaryRole::River; }
 
 // Triangles with Courant numbers above the limit of explicit schemes, or below that of SCHISM; the worst first.
-std::vector<TargetDefect> courantsBeyond(const Grid& grid, double time_step_s, bool from_below) {
+std::vector<TargetDefect> courantsBeyond(const Grid& grid, double time_step_s, bool from_below, const ItemLoop& loop) {
   std::vector<TargetDefect> found;
-  const std::vector<double> steps = timeSteps(grid);
+  const std::vector<double> steps = timeSteps(grid, loop);
   for (std::uint32_t t = 0; t < steps.size(); ++t) {
     if (!std::isfinite(steps[t])) continue;  // dry, or unknown
     const double courant = time_step_s / steps[t];
@@ -68,20 +68,21 @@ std::vector<TargetDefect> courantsBeyond(const Grid& grid, double time_step_s, b
 
 class TargetCheck {
  public:
-  TargetCheck(const Grid& grid, Target target, const TargetCheckOptions& options)
-      : grid_(grid), target_(target), options_(options) {}
+  TargetCheck(const Grid& grid, Target target, const TargetCheckOptions& options, const ItemLoop& loop)
+      : grid_(grid), target_(target), options_(options), loop_(loop) {}
 
   std::vector<TargetDefect> run() {
     for (const std::string& note : grid_.notes)
       defects_.push_back(
           {TargetDefectKind::WrongCount, grid_.nodes.empty() ? Point{} : grid_.nodes.front(), -1, -1, 0.0, note});
-    mesh_ = linkTriangles(grid_.nodes, grid_.triangles, conflicts_);
+    mesh_ = linkTriangles(grid_.nodes, grid_.triangles, conflicts_, loop_);
+    findBoundaryEdges();
     for (const EdgeConflict& conflict : conflicts_) add(TargetDefectKind::BrokenEdge, middle(conflict.a, conflict.b));
     if (mindsJumps(target_) && grid_.crs.geographic) checkJumps();
     if (target_ == Target::Mpas && isProjectedForMpas(grid_.crs)) on_earth_ = geographicNodes(grid_);
     checkTriangles();
     checkNodes();
-    for (const std::uint32_t node : hangingNodes(grid_, mesh_))
+    for (const std::uint32_t node : hangingNodes(grid_, mesh_, loop_))
       add(TargetDefectKind::HangingNode, grid_.nodes[node], -1, node);
     if (options_.overlaps) checkOverlaps();
     if (target_ == Target::Adcirc || target_ == Target::Schism) checkSegments();
@@ -99,6 +100,17 @@ class TargetCheck {
   void add(TargetDefectKind kind, const Point& place, std::int64_t triangle = -1, std::int64_t node = -1,
            double value = 0.0) {
     defects_.push_back({kind, place, triangle, node, value, {}});
+  }
+
+  // Adds what `find(i, found)` appends to `found`, for every i below `count`.
+  template <typename Find>
+  void addForEach(std::size_t count, const Find& find) {
+    for (std::vector<TargetDefect>&some : overStretches(loop_, count, [&](std::size_t first, std::size_t last) {
+           std::vector<TargetDefect> found;
+           for (std::size_t i = first; i < last; ++i) find(i, found);
+           return found;
+         }))
+      std::ranges::move(some, std::back_inserter(defects_));
   }
 
   // Degrees: the largest angle of a triangle if the model rejects it, else 0.
@@ -122,34 +134,42 @@ class TargetCheck {
 
   Point middle(std::size_t t) const { return middleOf(grid_, static_cast<std::uint32_t>(t)); }
 
-  std::vector<Point> cornersOf(std::size_t t) const { return localPlane(grid_, grid_.triangles[t]); }
+  // Some nodes in a plane of their own; see `flattenLocally`.
+  template <std::size_t count>
+  std::array<Point, count> inLocalPlane(const std::array<std::uint32_t, count>& nodes, EarthShape shape) const {
+    std::array<Point, count> places;
+    for (std::size_t i = 0; i < count; ++i) places[i] = grid_.nodes[nodes[i]];
+    flattenLocally(grid_.crs, places, shape);
+    return places;
+  }
 
   void checkTriangles() {
-    for (std::size_t t = 0; t < grid_.triangles.size(); ++t) {
-      const std::vector<Point> corners = cornersOf(t);
-      if (orient2d(corners[0], corners[1], corners[2]) <= 0) {
-        add(TargetDefectKind::Clockwise, middle(t), static_cast<std::int64_t>(t));
-        continue;
-      }
+    addForEach(grid_.triangles.size(), [&](std::size_t t, std::vector<TargetDefect>& found) {
+      const auto report = [&](TargetDefectKind kind, double value = 0.0) {
+        found.push_back({kind, middle(t), static_cast<std::int64_t>(t), -1, value, {}});
+      };
+      const auto [a, b, c] = inLocalPlane(grid_.triangles[t], EarthShape::Ellipsoid);
+      if (orient2d(a, b, c) <= 0) return report(TargetDefectKind::Clockwise);
       const auto& adj = mesh_.triangles[t].adj;
       const auto neighbours = 3 - std::ranges::count(adj, kNone);
       if (neighbours == 0) {
-        add(TargetDefectKind::OrphanCell, middle(t), static_cast<std::int64_t>(t));
+        report(TargetDefectKind::OrphanCell);
       } else if (target_ == Target::Fesom && neighbours < kFesomFewestNeighbours) {
-        add(TargetDefectKind::OneNeighbour, middle(t), static_cast<std::int64_t>(t));
+        report(TargetDefectKind::OneNeighbour);
       }
       // In a mesh around a pole, angles in degrees are meaningless, and no change of the mesh helps.
-      if (target_ == Target::Swan && goes_round_) continue;
+      if (target_ == Target::Swan && goes_round_) return;
       if (const double largest = angleBeyond(grid_.triangles[t]); largest > 0.0)
-        add(TargetDefectKind::LargeAngle, middle(t), static_cast<std::int64_t>(t), -1, largest);
-    }
+        report(TargetDefectKind::LargeAngle, largest);
+    });
   }
 
   // Around a pole or the globe some triangle must jump, and there are versions of ADCIRC that accept such meshes.
   void checkJumps() {
-    for (std::size_t t = 0; t < grid_.triangles.size(); ++t)
+    addForEach(grid_.triangles.size(), [&](std::size_t t, std::vector<TargetDefect>& found) {
       if (longitudesJump(grid_.nodes, grid_.triangles[t]))
-        add(TargetDefectKind::RoundTheGlobe, middle(t), static_cast<std::int64_t>(t));
+        found.push_back({TargetDefectKind::RoundTheGlobe, middle(t), static_cast<std::int64_t>(t), -1, 0.0, {}});
+    });
     goes_round_ = std::ranges::any_of(defects_, isJump) && !inOneTurn(grid_.nodes, grid_.triangles);
     if (!goes_round_ || target_ != Target::Adcirc) return;
     for (TargetDefect& defect : defects_)
@@ -159,12 +179,9 @@ class TargetCheck {
 
   void checkNodes() {
     std::vector<int> cells(grid_.nodes.size(), 0), boundary_starts(grid_.nodes.size(), 0);
-    for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
-      for (unsigned i = 0; i < 3; ++i) {
-        ++cells[mesh_.triangles[t].v[i]];
-        if (mesh_.triangles[t].adj[i] == kNone) ++boundary_starts[mesh_.origin(edgeRef(t, i))];
-      }
-    }
+    for (const GridCorners& corners : grid_.triangles)
+      for (const std::uint32_t node : corners) ++cells[node];
+    for (const EdgeRef e : boundary_edges_) ++boundary_starts[mesh_.origin(e)];
     for (std::uint32_t node = 0; node < grid_.nodes.size(); ++node) {
       const Point& place = grid_.nodes[node];
       if (cells[node] == 0) add(TargetDefectKind::UnusedNode, place, -1, node);
@@ -176,47 +193,58 @@ class TargetCheck {
           (target_ == Target::Fesom && cells[node] > kFesomMostCells);
       if (refused) add(TargetDefectKind::Valence, place, -1, node, cells[node]);
     }
-    for (const std::uint32_t again : repeatedNodes(grid_))
+    for (const std::uint32_t again : repeatedNodes(grid_, loop_))
       add(TargetDefectKind::RepeatedNode, grid_.nodes[again], -1, again);
   }
 
   void checkOverlaps() {
-    for (const TriangleOverlap& overlap : triangleOverlaps(grid_, mesh_)) {
+    for (const TriangleOverlap& overlap : triangleOverlaps(grid_, mesh_, loop_)) {
       add(TargetDefectKind::Overlap, middle(overlap.triangle), overlap.triangle);
       defects_.back().text = "with triangle " + std::to_string(overlap.other + 1);
     }
   }
 
-  std::vector<NodePair> boundaryEdges() const {
-    std::vector<NodePair> edges;
-    for (TriId t = 0; t < mesh_.triangles.size(); ++t)
-      for (unsigned i = 0; i < 3; ++i)
-        if (mesh_.triangles[t].adj[i] == kNone)
-          edges.push_back({mesh_.origin(edgeRef(t, i)), mesh_.target(edgeRef(t, i))});
-    return edges;
+  void findBoundaryEdges() {
+    boundary_edges_ = joined(overStretches(loop_, mesh_.triangles.size(), [&](std::size_t first, std::size_t last) {
+      std::vector<EdgeRef> found;
+      for (std::size_t t = first; t < last; ++t)
+        for (unsigned i = 0; i < 3; ++i)
+          if (mesh_.triangles[t].adj[i] == kNone) found.push_back(edgeRef(static_cast<TriId>(t), i));
+      return found;
+    }));
   }
+  NodePair nodesOf(EdgeRef e) const { return {mesh_.origin(e), mesh_.target(e)}; }
 
   // ADCIRC and SCHISM read segments of nodes.
   void checkSegments() {
-    std::map<NodePair, int> uses;
-    for (const NodePair& edge : boundaryEdges()) uses[edge] = 0;
+    std::vector<NodePair> of_mesh(boundary_edges_.size());
+    std::ranges::transform(boundary_edges_, of_mesh.begin(), [&](EdgeRef e) { return nodesOf(e); });
+    sortOn(loop_, of_mesh);
+    std::vector<int> uses(of_mesh.size(), 0);
+    // The uses of an edge; null if it is not one of the mesh's boundary.
+    const auto usesOf = [&](std::uint32_t from, std::uint32_t to) -> int* {
+      const auto place = std::ranges::lower_bound(of_mesh, NodePair{from, to});
+      return place != of_mesh.end() && *place == NodePair{from, to}
+                 ? &uses[static_cast<std::size_t>(place - of_mesh.begin())]
+                 : nullptr;
+    };
     for (const Boundary& boundary : grid_.boundaries) {
       std::vector<NodePair> edges = edgesOf(boundary);
       const Boundary back{boundary.role, boundary.closed, boundary.back_nodes};
       std::size_t turned = 0;
       for (const auto& [from, to] : edges) {
-        if (const auto along = uses.find({from, to}); along != uses.end()) {
-          if (++along->second == 2) add(TargetDefectKind::BoundaryTwice, middle(from, to), -1, from);
-        } else if (const auto against = uses.find({to, from}); against != uses.end()) {
+        if (int* const along = usesOf(from, to)) {
+          if (++*along == 2) add(TargetDefectKind::BoundaryTwice, middle(from, to), -1, from);
+        } else if (int* const against = usesOf(to, from)) {
           ++turned;
-          if (++against->second == 2) add(TargetDefectKind::BoundaryTwice, middle(from, to), -1, from);
+          if (++*against == 2) add(TargetDefectKind::BoundaryTwice, middle(from, to), -1, from);
         } else {
           add(TargetDefectKind::StrayBoundary, middle(from, to), -1, from);
         }
       }
       for (const auto& [from, to] : edgesOf(back)) {
-        const auto across = uses.find(uses.contains({from, to}) ? NodePair{from, to} : NodePair{to, from});
-        if (across != uses.end()) ++across->second;
+        int* const along = usesOf(from, to);
+        if (int* const across = along != nullptr ? along : usesOf(to, from)) ++*across;
       }
       if (boundary.nodes.empty()) continue;
       const std::uint32_t first = boundary.nodes.front();
@@ -224,8 +252,8 @@ class TargetCheck {
       if (boundary.nodes.size() == 1) add(TargetDefectKind::StrayBoundary, grid_.nodes[first], -1, first);
       checkLoop(boundary, turned > 0);
     }
-    for (const auto& [edge, count] : uses)
-      if (count == 0) add(TargetDefectKind::NoBoundary, middle(edge[0], edge[1]), -1, edge[0]);
+    for (std::size_t i = 0; i < uses.size(); ++i)
+      if (uses[i] == 0) add(TargetDefectKind::NoBoundary, middle(of_mesh[i][0], of_mesh[i][1]), -1, of_mesh[i][0]);
   }
 
   void checkLoop(const Boundary& boundary, bool turned) {
@@ -251,15 +279,13 @@ class TargetCheck {
 
   void checkOpenCells() {
     const EdgeKinds kinds(grid_);
-    for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
+    for (std::size_t first = 0, last = 0; first < boundary_edges_.size(); first = last) {
+      const TriId t = triOf(boundary_edges_[first]);
       int open = 0, solid = 0;
-      for (unsigned i = 0; i < 3; ++i) {
-        if (mesh_.triangles[t].adj[i] != kNone) continue;
-        const BoundaryKind* const kind = kinds.find(mesh_.origin(edgeRef(t, i)), mesh_.target(edgeRef(t, i)));
-        if (kind != nullptr && kind->role == BoundaryRole::Open)
-          ++open;
-        else
-          ++solid;
+      for (; last < boundary_edges_.size() && triOf(boundary_edges_[last]) == t; ++last) {
+        const auto [from, to] = nodesOf(boundary_edges_[last]);
+        const BoundaryKind* const kind = kinds.find(from, to);
+        ++(kind != nullptr && kind->role == BoundaryRole::Open ? open : solid);
       }
       if (open > 1) add(TargetDefectKind::TwoOpenEdges, middle(t), t, -1, open);
       if (open > 0 && solid > 0) add(TargetDefectKind::OpenAndSolid, middle(t), t);
@@ -274,11 +300,11 @@ class TargetCheck {
     for (const Boundary& boundary : grid_.boundaries)
       if (opens(boundary.role))
         for (const std::uint32_t node : boundary.nodes) on_opening[node] = true;
-    const std::vector<NodePair> edges = boundaryEdges();
     std::vector<std::uint32_t> after(grid_.nodes.size(), kNone);
-    for (const auto& [from, to] : edges) after[from] = to;
+    for (const EdgeRef e : boundary_edges_) after[mesh_.origin(e)] = mesh_.target(e);
     const EdgeKinds kinds(grid_);
-    for (const auto& [from, to] : edges) {
+    for (const EdgeRef e : boundary_edges_) {
+      const auto [from, to] = nodesOf(e);
       if (!on_opening[from]) continue;
       const bool ends_here = on_opening[to];
       const bool ends_next = of_telemac && after[to] != kNone && on_opening[after[to]] && after[to] != from;
@@ -289,24 +315,26 @@ class TargetCheck {
   }
 
   void checkFlowLinks() {
-    for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
+    addForEach(mesh_.triangles.size(), [&](std::size_t t, std::vector<TargetDefect>& found) {
       for (unsigned i = 0; i < 3; ++i) {
-        const EdgeRef e = edgeRef(t, i), twin = mesh_.twin(e);
+        const EdgeRef e = edgeRef(static_cast<TriId>(t), i), twin = mesh_.twin(e);
         if (twin == kNone || triOf(twin) < t) continue;
         const std::array<std::uint32_t, 4> nodes{mesh_.origin(e), mesh_.target(e), mesh_.apex(e), mesh_.apex(twin)};
-        const std::vector<Point> p = localPlane(grid_, nodes, EarthShape::Sphere);
-        const FlowLink link = flowLinkAcross(p[0], p[1], p[2], p[3]);
-        const Point place = middle(nodes[0], nodes[1]);
-        if (link.cosine > kDflowfmLargestCosine) add(TargetDefectKind::NotOrthogonal, place, t, nodes[0], link.cosine);
-        if (link.length < kDflowfmSmallestLink) add(TargetDefectKind::SmallFlowLink, place, t, nodes[0], link.length);
+        const auto [a, b, c, d] = inLocalPlane(nodes, EarthShape::Sphere);
+        const FlowLink link = flowLinkAcross(a, b, c, d);
+        const auto report = [&](TargetDefectKind kind, double value) {
+          found.push_back({kind, middle(nodes[0], nodes[1]), static_cast<std::int64_t>(t), nodes[0], value, {}});
+        };
+        if (link.cosine > kDflowfmLargestCosine) report(TargetDefectKind::NotOrthogonal, link.cosine);
+        if (link.length < kDflowfmSmallestLink) report(TargetDefectKind::SmallFlowLink, link.length);
       }
-    }
+    });
   }
 
   void checkCourant() {
     const bool from_below = target_ == Target::Schism;
     const bool advice = from_below || target_ == Target::Telemac || target_ == Target::Dflowfm;
-    for (TargetDefect& defect : courantsBeyond(grid_, options_.time_step_s, from_below)) {
+    for (TargetDefect& defect : courantsBeyond(grid_, options_.time_step_s, from_below, loop_)) {
       defect.advice = advice;
       defects_.push_back(std::move(defect));
     }
@@ -315,7 +343,9 @@ class TargetCheck {
   const Grid& grid_;
   const Target target_;
   const TargetCheckOptions& options_;
+  const ItemLoop& loop_;
   TriMesh mesh_;
+  std::vector<EdgeRef> boundary_edges_;  // ascending
   std::vector<EdgeConflict> conflicts_;
   std::vector<TargetDefect> defects_;
   std::vector<Point> on_earth_;  // longitudes and latitudes of the nodes, if the model uses these instead
@@ -334,12 +364,13 @@ bool isProjectedForMpas(const Crs& crs) { return !crs.geographic && !crs.isPlane
 
 double largestFileAngle(const Point& a, const Point& b, const Point& c) { return std::ranges::max(anglesDeg(a, b, c)); }
 
-std::vector<TargetDefect> checkTimeStep(const Grid& grid, double time_step_s) {
-  return courantsBeyond(grid, time_step_s, false);
+std::vector<TargetDefect> checkTimeStep(const Grid& grid, double time_step_s, const ItemLoop& loop) {
+  return courantsBeyond(grid, time_step_s, false, loop);
 }
 
-std::vector<TargetDefect> checkTarget(const Grid& grid, Target target, const TargetCheckOptions& options) {
-  return TargetCheck(grid, target, options).run();
+std::vector<TargetDefect> checkTarget(const Grid& grid, Target target, const TargetCheckOptions& options,
+                                      const ItemLoop& loop) {
+  return TargetCheck(grid, target, options, loop).run();
 }
 
 }  // namespace coastmesh

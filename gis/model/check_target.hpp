@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/item_loop.hpp"
 #include "gis/grid/grid.hpp"
 #include "gis/model/target.hpp"
 
@@ -65,10 +66,11 @@ bool isOfLongWaves(Target target);
 
 // All defects that make the model reject the grid, by kind, Courant numbers starting with the worst (measured as in
 // `timeSteps`); then advice. Boundaries are taken as they are. The limits are in target_limits.hpp.
-std::vector<TargetDefect> checkTarget(const Grid& grid, Target target, const TargetCheckOptions& options = {});
+std::vector<TargetDefect> checkTarget(const Grid& grid, Target target, const TargetCheckOptions& options = {},
+                                      const ItemLoop& loop = inOrder);
 
 // The same for the time step alone, for any model: triangles with a Courant number above 1, starting with the worst.
-std::vector<TargetDefect> checkTimeStep(const Grid& grid, double time_step_s);
+std::vector<TargetDefect> checkTimeStep(const Grid& grid, double time_step_s, const ItemLoop& loop = inOrder);
 
 // MPAS' measure: the largest angle in degrees of the flat triangle through three points of a sphere, from longitudes
 // and unchanged latitudes.

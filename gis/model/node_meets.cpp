@@ -2,28 +2,44 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <iterator>
+#include <span>
 
 #include "gis/geometry/box_tree.hpp"
 #include "gis/grid/boundary_kinds.hpp"
 
 namespace coastmesh {
 
-std::vector<std::uint32_t> repeatedNodes(const Grid& grid) {
-  std::vector<std::uint32_t> order(grid.nodes.size()), found;
-  std::iota(order.begin(), order.end(), 0u);
-  std::ranges::stable_sort(order,
-                           [&](std::uint32_t a, std::uint32_t b) { return lexLess(grid.nodes[a], grid.nodes[b]); });
-  for (std::size_t i = 1; i < order.size(); ++i)
-    if (grid.nodes[order[i]] == grid.nodes[order[i - 1]]) found.push_back(order[i]);
+namespace {
+
+struct PlacedNode {
+  Point place;
+  std::uint32_t node;
+
+  bool operator<(const PlacedNode& other) const {
+    return place == other.place ? node < other.node : lexLess(place, other.place);
+  }
+};
+
+}  // namespace
+
+std::vector<std::uint32_t> repeatedNodes(const Grid& grid, const ItemLoop& loop) {
+  std::vector<PlacedNode> nodes(grid.nodes.size());
+  forEachByStretches(loop, nodes.size(), [&](std::size_t i) {
+    nodes[i] = {grid.nodes[i], static_cast<std::uint32_t>(i)};
+  });
+  sortOn(loop, nodes);
+  std::vector<std::uint32_t> found;
+  for (std::size_t i = 1; i < nodes.size(); ++i)
+    if (nodes[i].place == nodes[i - 1].place) found.push_back(nodes[i].node);
   return found;
 }
 
-std::vector<std::uint32_t> hangingNodes(const Grid& grid, const TriMesh& mesh) {
+std::vector<std::uint32_t> hangingNodes(const Grid& grid, const TriMesh& mesh, const ItemLoop& loop) {
   constexpr double kOnEdge = 1e-7;  // share of the edge's length
   std::vector<NodePair> edges;
   std::vector<Box> boxes;
-  std::vector<std::uint32_t> nodes, found;
+  std::vector<std::uint32_t> nodes;
   for (TriId t = 0; t < mesh.triangles.size(); ++t) {
     for (unsigned i = 0; i < 3; ++i) {
       if (mesh.triangles[t].adj[i] != kNone) continue;
@@ -37,7 +53,7 @@ std::vector<std::uint32_t> hangingNodes(const Grid& grid, const TriMesh& mesh) {
   std::ranges::sort(nodes);
   const auto repeated = std::ranges::unique(nodes);
   nodes.erase(repeated.begin(), repeated.end());
-  for (const std::uint32_t node : nodes) {
+  const auto isHanging = [&](std::uint32_t node) {
     const Point& p = grid.nodes[node];
     bool hangs = false;
     tree.visit(Box::of(p, p), [&](std::uint32_t e) {
@@ -49,9 +65,16 @@ std::vector<std::uint32_t> hangingNodes(const Grid& grid, const TriMesh& mesh) {
       const double along = (dx * (p.x - a.x) + dy * (p.y - a.y)) / square;
       hangs = hangs || (off < kOnEdge && along > 0.0 && along < 1.0);
     });
-    if (hangs) found.push_back(node);
-  }
-  return found;
+    return hangs;
+  };
+  return joined(overStretches(
+      loop, nodes.size(),
+      [&](std::size_t first, std::size_t last) {
+        std::vector<std::uint32_t> found;
+        std::ranges::copy_if(std::span(nodes).subspan(first, last - first), std::back_inserter(found), isHanging);
+        return found;
+      },
+      1024));
 }
 
 }  // namespace coastmesh

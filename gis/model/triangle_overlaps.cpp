@@ -23,10 +23,12 @@ using Corners = std::array<SphereVector, 3>;
 // Places in space: on the unit sphere, or in the plane z = 0.
 class Places {
  public:
-  explicit Places(const Grid& grid) : grid_(grid), on_sphere_(grid.crs.geographic) {
-    places_.reserve(grid.nodes.size());
-    for (const Point& p : grid.nodes)
-      places_.push_back(on_sphere_ ? onSphere(asLonLat(p)) : SphereVector{p.x, p.y, 0.0});
+  Places(const Grid& grid, const ItemLoop& loop)
+      : grid_(grid), on_sphere_(grid.crs.geographic), places_(grid.nodes.size()) {
+    forEachByStretches(loop, places_.size(), [&](std::size_t node) {
+      const Point& p = grid.nodes[node];
+      places_[node] = on_sphere_ ? onSphere(asLonLat(p)) : SphereVector{p.x, p.y, 0.0};
+    });
     if (!grid.crs.isPlane()) bend_ = on_sphere_ ? kBend : kBend / kEarthRadius;
   }
 
@@ -118,11 +120,13 @@ Box shifted(const Box& box, double east) { return {box.xmin + east, box.ymin, bo
 
 }  // namespace
 
-std::vector<TriangleOverlap> triangleOverlaps(const Grid& grid, const TriMesh& mesh) {
+std::vector<TriangleOverlap> triangleOverlaps(const Grid& grid, const TriMesh& mesh, const ItemLoop& loop) {
   const auto count = static_cast<std::uint32_t>(grid.triangles.size());
-  const Places places(grid);
-  std::vector<bool> stands(count);
-  for (std::uint32_t t = 0; t < count; ++t) stands[t] = places.isCounterClockwise(places.of(t));
+  const Places places(grid, loop);
+  std::vector<std::uint8_t> stands(count);
+  forEachByStretches(loop, count, [&](std::size_t t) {
+    stands[t] = places.isCounterClockwise(places.of(static_cast<std::uint32_t>(t)));
+  });
   const auto isLoose = [&](EdgeRef twin) { return twin == kNone || !stands[triOf(twin)]; };
   std::vector<Box> boxes;
   std::vector<std::uint32_t> owner;
@@ -136,9 +140,8 @@ std::vector<TriangleOverlap> triangleOverlaps(const Grid& grid, const TriMesh& m
     }
   }
   const BoxTree tree(boxes, BoxTree::Order::Hilbert);
-  std::vector<TriangleOverlap> found;
-  for (std::uint32_t t = 0; t < count; ++t) {
-    if (!stands[t]) continue;
+  const auto findOverlap = [&](std::uint32_t t, std::vector<TriangleOverlap>& found) {
+    if (!stands[t]) return;
     const Box box = boxOf(grid, t);
     const Corners corners = places.of(t);
     bool overlaps = false;
@@ -148,8 +151,12 @@ std::vector<TriangleOverlap> triangleOverlaps(const Grid& grid, const TriMesh& m
                    overlaps = true;
                    found.push_back({t, owner[k]});
                  });
-  }
-  return found;
+  };
+  return joined(overStretches(loop, count, [&](std::size_t first, std::size_t last) {
+    std::vector<TriangleOverlap> found;
+    for (std::size_t t = first; t < last; ++t) findOverlap(static_cast<std::uint32_t>(t), found);
+    return found;
+  }));
 }
 
 }  // namespace coastmesh

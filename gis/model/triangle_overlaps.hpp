@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/item_loop.hpp"
 #include "core/tri_mesh.hpp"
 #include "gis/grid/grid.hpp"
 
@@ -19,6 +20,6 @@ struct TriangleOverlap {
 // If no triangle is inverted, as many lie on one side of an edge as on the other, unless the edge has no neighbour. An
 // area that is covered twice therefore ends at such edges, and one of their triangles is part of it. So each triangle
 // is tested only against these: O(n log n).
-std::vector<TriangleOverlap> triangleOverlaps(const Grid& grid, const TriMesh& mesh);
+std::vector<TriangleOverlap> triangleOverlaps(const Grid& grid, const TriMesh& mesh, const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

@@ -34,23 +34,25 @@ RunControl roundOf(const RunControl& control, int round) {
   return stageControl(control, {at(round), at(round + 1)});
 }
 
-std::vector<FoundDefect> findDefects(const Grid& grid, std::span<const Target> targets, const RepairOptions& options) {
+std::vector<FoundDefect> findDefects(const Grid& grid, std::span<const Target> targets, const RepairOptions& options,
+                                     const ItemLoop& loop) {
   std::vector<FoundDefect> found;
   for (const Target target : targets)
-    for (TargetDefect& defect : checkTarget(grid, target, {.overlaps = false}))
+    for (TargetDefect& defect : checkTarget(grid, target, {.overlaps = false}, loop))
       if (!defect.advice) found.push_back({target, std::move(defect)});
   if (options.time_step_s > 0.0 && !grid.z.empty())
-    for (TargetDefect& defect : checkTimeStep(grid, options.time_step_s)) found.push_back({{}, std::move(defect)});
+    for (TargetDefect& defect : checkTimeStep(grid, options.time_step_s, loop))
+      found.push_back({{}, std::move(defect)});
   return found;
 }
 
 // No repair removes overlaps, so they are searched for once, not in every round.
-std::vector<FoundDefect> findOverlaps(const Grid& grid, std::span<const Target> targets) {
+std::vector<FoundDefect> findOverlaps(const Grid& grid, std::span<const Target> targets, const ItemLoop& loop) {
   std::vector<FoundDefect> found;
   if (targets.empty()) return found;
   std::vector<EdgeConflict> conflicts;
-  const TriMesh mesh = linkTriangles(grid.nodes, grid.triangles, conflicts);
-  const std::vector<TriangleOverlap> overlaps = triangleOverlaps(grid, mesh);
+  const TriMesh mesh = linkTriangles(grid.nodes, grid.triangles, conflicts, loop);
+  const std::vector<TriangleOverlap> overlaps = triangleOverlaps(grid, mesh, loop);
   for (const Target target : targets)
     for (const auto& [t, other] : overlaps)
       found.push_back({target, {TargetDefectKind::Overlap, middleOf(grid, t), t, -1, 0.0, {}}});
@@ -262,31 +264,32 @@ std::vector<bool> nodesAt(const std::vector<Point>& nodes, std::vector<Point> pl
 
 // `asked` has a flag for each node, as in GridLinks.
 RepairReport repairInOneTurn(Grid& grid, std::span<const Target> targets, const RepairOptions& options,
-                             std::vector<bool> asked, RepairMemory* memory, const RunControl& control) {
+                             std::vector<bool> asked, RepairMemory* memory, const RunControl& control,
+                             const ItemLoop& loop) {
   RepairState state{grid, targets, options};
   state.links.asked = std::move(asked);
-  std::vector<FoundDefect> defects = findDefects(grid, targets, options);
+  std::vector<FoundDefect> defects = findDefects(grid, targets, options, loop);
   if (defects.empty()) {
-    reportLeft(findOverlaps(grid, targets), state.report);
+    reportLeft(findOverlaps(grid, targets, loop), state.report);
     return std::move(state.report);
   }
   if (hasWeirs(grid)) {
     refuseWeirs(defects);
     return std::move(state.report);
   }
-  if (dropCopies(state, defects)) defects = findDefects(grid, targets, options);
+  if (dropCopies(state, defects)) defects = findDefects(grid, targets, options, loop);
   startRepairs(state, memory);
   state.links.kinds = takeBoundaryKinds(grid);
   bool again = true, boundaries_done = false;
   for (int round = 0; round < kMostRounds && again && !defects.empty(); ++round) {
     again = mendRound(state, defects, boundaries_done, roundOf(control, round));
-    defects = findDefects(grid, targets, options);
+    defects = findDefects(grid, targets, options, loop);
   }
   requireTriangles(grid, targets);
   if (relax(state, stageControl(control, {kRelaxFrom, 1.0})) && !targets.empty())
-    defects = findDefects(grid, targets, options);
+    defects = findDefects(grid, targets, options, loop);
   reportLeft(std::move(defects), state.report);
-  reportLeft(findOverlaps(grid, targets), state.report);
+  reportLeft(findOverlaps(grid, targets, loop), state.report);
   if (keepsBoundaries(state) && std::ranges::count(state.changed, true) > 0) rebuildBoundaries(state);
   if (memory != nullptr) *memory = memoryOf(state);
   measureChanged(grid, state.changed, state.shape());
@@ -297,11 +300,11 @@ RepairReport repairInOneTurn(Grid& grid, std::span<const Target> targets, const 
 }  // namespace
 
 RepairReport repairForTargets(Grid& grid, std::span<const Target> targets, const RepairOptions& options,
-                              RepairMemory* memory, const RunControl& control) {
+                              RepairMemory* memory, const RunControl& control, const ItemLoop& loop) {
   // Longitudes are unwrapped as in the files that models read: across a jump of 360°, shapes in degrees would be wrong.
   std::vector<bool> asked = nodesAt(grid.nodes, options.asked);
   const TurnedNodes turned(grid);
-  RepairReport report = repairInOneTurn(grid, targets, options, std::move(asked), memory, control);
+  RepairReport report = repairInOneTurn(grid, targets, options, std::move(asked), memory, control, loop);
   turned.putBack(grid);
   for (Repair& repair : report.repairs) repair.place = turned.putBack(repair.place);
   for (auto& [target, defect] : report.left) defect.place = turned.putBack(defect.place);

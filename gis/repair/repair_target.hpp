@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/item_loop.hpp"
 #include "core/run_control.hpp"
 #include "gis/grid/grid.hpp"
 #include "gis/model/check_target.hpp"
@@ -25,6 +26,7 @@ namespace coastmesh {
 // options, on the grid that it left, whose depths may have changed since. It is updated. A round that repairs less
 // than a thousandth of the defects is the last. Throws Cancelled.
 RepairReport repairForTargets(Grid& grid, std::span<const Target> targets, const RepairOptions& options = {},
-                              RepairMemory* memory = nullptr, const RunControl& control = {});
+                              RepairMemory* memory = nullptr, const RunControl& control = {},
+                              const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh
