@@ -202,13 +202,14 @@ int runCheck(const CheckUsage& usage, Run& run) {
   InputOptions input = usage.input;
   chooseSurface(usage.targets, input.surface);
   options.surface = input.surface;
-  const GridCheck check =
-      input.files.empty() ? checkGrid(grid, options) : checkGridAgainst(grid, JobInput(input), options);
+  GridCheck check;
   std::vector<DefectRow> rows;
-  for (const GridDefect& defect : check.defects) rows.push_back(rowOf(defect));
   withThreads({}, [&] {
     Recorder recorder;
     const ItemLoop loop = recorder.loop("check", {[&interrupt] { return interrupt.requested(); }, {}});
+    check = input.files.empty() ? checkGrid(grid, options, loop)
+                                : checkGridAgainst(grid, JobInput(input, loop), options, loop);
+    for (const GridDefect& defect : check.defects) rows.push_back(rowOf(defect));
     for (DefectRow& row : meetingRows(grid, targets.empty(), loop)) rows.push_back(std::move(row));
     for (DefectRow& row : targetRows(grid, targets, usage, loop)) rows.push_back(std::move(row));
     if (!targets.empty())

@@ -113,7 +113,8 @@ bool isClearlyNotDelaunay(const TriMesh& mesh, const MeshDefect& defect) {
   return mesh.twin(e) != kNone && delaunayExcess(mesh, e) > kAngleSlackDeg;
 }
 
-void checkPiece(const GridPiece& piece, const Pslg* pslg, const GridCheckOptions& options, GridCheck& result) {
+void checkPiece(const GridPiece& piece, const Pslg* pslg, const GridCheckOptions& options, const ItemLoop& loop,
+                GridCheck& result) {
   std::vector<GridDefect>& defects = result.defects;
   const auto inverse = [&piece](const Point& place) { return piece.projection.inverse(place); };
   for (const EdgeConflict& conflict : piece.conflicts) {
@@ -129,7 +130,7 @@ void checkPiece(const GridPiece& piece, const Pslg* pslg, const GridCheckOptions
   check.places = piece.places;
   check.closed = !piece.places.empty() && isClosed(piece.mesh);
   BoundCounts bounds;
-  const std::vector<MeshDefect> found = checkMesh(piece.mesh, pslg, check, inOrder, &bounds);
+  const std::vector<MeshDefect> found = checkMesh(piece.mesh, pslg, check, loop, &bounds);
   result.bounds.add(bounds);
   for (const MeshDefect& defect : found) {
     if (defect.kind == DefectKind::NotDelaunay && !isClearlyNotDelaunay(piece.mesh, defect)) continue;
@@ -140,8 +141,8 @@ void checkPiece(const GridPiece& piece, const Pslg* pslg, const GridCheckOptions
 }
 
 // On the ground, as `mesh` does: the plane of a piece may differ from the one that the mesh was made in.
-void checkOrientation(const Grid& grid, std::vector<GridDefect>& defects) {
-  for (const std::uint32_t t : turnedTriangles(grid, triangleAreas(grid.nodes, grid.triangles, grid.crs)))
+void checkOrientation(const Grid& grid, const ItemLoop& loop, std::vector<GridDefect>& defects) {
+  for (const std::uint32_t t : turnedTriangles(grid, triangleAreas(grid.nodes, grid.triangles, grid.crs, loop), loop))
     defects.push_back({DefectKind::NotCounterClockwise, middleOf(grid, t), std::int64_t{t}});
 }
 
@@ -172,16 +173,17 @@ SurfaceKind surfaceFor(const Grid& grid, const SurfaceChoice& choice) {
                     ": the mesh has no CRS, and no place on Earth; name it with --assume-crs");
 }
 
-GridCheck checkGrid(const Grid& grid, const GridCheckOptions& options) {
+GridCheck checkGrid(const Grid& grid, const GridCheckOptions& options, const ItemLoop& loop) {
   GridCheck result;
-  for (const GridPiece& piece : splitGrid(grid, surfaceFor(grid, options.surface)))
-    checkPiece(piece, nullptr, options, result);
-  checkOrientation(grid, result.defects);
+  for (const GridPiece& piece : splitGrid(grid, surfaceFor(grid, options.surface), loop))
+    checkPiece(piece, nullptr, options, loop, result);
+  checkOrientation(grid, loop, result.defects);
   sortByKind(result.defects);
   return result;
 }
 
-GridCheck checkGridAgainst(const Grid& grid, const JobInput& input, const GridCheckOptions& options) {
+GridCheck checkGridAgainst(const Grid& grid, const JobInput& input, const GridCheckOptions& options,
+                           const ItemLoop& loop) {
   std::vector<std::optional<Domain>> domains(input.groups());
   InputVertices vertices;
   for (std::size_t g = 0; g < domains.size(); ++g) {
@@ -220,7 +222,7 @@ GridCheck checkGridAgainst(const Grid& grid, const JobInput& input, const GridCh
       continue;
     }
     std::ranges::sort(triangles_of[g]);
-    GridPiece piece = makePiece(grid, std::move(triangles_of[g]), domains[g]->projection, lines);
+    GridPiece piece = makePiece(grid, std::move(triangles_of[g]), domains[g]->projection, lines, loop);
     std::optional<FrameSides> sides;
     if (box) sides.emplace(*box, *domains[g]);
     // Vertices that cleaning made have exact places only in the plane: projecting their rounded coordinates does not
@@ -233,9 +235,9 @@ GridCheck checkGridAgainst(const Grid& grid, const JobInput& input, const GridCh
         piece.mesh.points[v] = sides->placeOf(grid.nodes[piece.nodes[v]], piece.mesh.points[v]);
       }
     }
-    checkPiece(piece, &domains[g]->pslg, options, result);
+    checkPiece(piece, &domains[g]->pslg, options, loop, result);
   }
-  checkOrientation(grid, defects);
+  checkOrientation(grid, loop, defects);
   sortByKind(defects);
   return result;
 }

@@ -36,10 +36,11 @@ struct GridCheck {
 };
 
 // Every defect of the grid, each connected piece in its own plane; a border between features counts as a constraint.
-GridCheck checkGrid(const Grid& grid, const GridCheckOptions& options);
+GridCheck checkGrid(const Grid& grid, const GridCheckOptions& options, const ItemLoop& loop = inOrder);
 
 // The same against the grid's input, in the input's own planes: vertices and segments must exist, and small angles of
 // the input excuse those of the mesh. Nodes are matched with vertices bit for bit.
-GridCheck checkGridAgainst(const Grid& grid, const JobInput& input, const GridCheckOptions& options);
+GridCheck checkGridAgainst(const Grid& grid, const JobInput& input, const GridCheckOptions& options,
+                           const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

@@ -1,6 +1,7 @@
 #include "apps/job/grid_pieces.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "core/metric.hpp"
@@ -16,27 +17,61 @@ namespace coastmesh {
 
 namespace {
 
-std::vector<std::uint32_t> nodesOf(const Grid& grid, const std::vector<std::uint32_t>& triangles) {
-  std::vector<std::uint32_t> nodes;
-  nodes.reserve(3 * triangles.size());
-  for (std::uint32_t t : triangles) nodes.insert(nodes.end(), grid.triangles[t].begin(), grid.triangles[t].end());
-  std::ranges::sort(nodes);
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  return nodes;
+// Some triangles with the numbers of their own nodes.
+struct OwnNumbers {
+  std::vector<std::uint32_t> nodes;                     // the grid's, ascending
+  std::vector<std::array<std::uint32_t, 3>> triangles;  // corners by their place in `nodes`
+};
+
+// By a table of all the grid's nodes. Pieces are often many, so that is for large ones.
+OwnNumbers numbersByTable(const Grid& grid, const std::vector<std::uint32_t>& triangles, const ItemLoop& loop) {
+  OwnNumbers own;
+  std::vector<std::uint32_t> number(grid.nodes.size(), kNone);
+  for (const std::uint32_t t : triangles)
+    for (const std::uint32_t node : grid.triangles[t]) number[node] = 0;
+  for (std::uint32_t node = 0; node < number.size(); ++node) {
+    if (number[node] == kNone) continue;
+    number[node] = static_cast<std::uint32_t>(own.nodes.size());
+    own.nodes.push_back(node);
+  }
+  own.triangles.resize(triangles.size());
+  forEachByStretches(loop, triangles.size(), [&](std::size_t i) {
+    const auto& [a, b, c] = grid.triangles[triangles[i]];
+    own.triangles[i] = {number[a], number[b], number[c]};
+  });
+  return own;
 }
 
-// The piece as a grid of its own, its nodes numbered by their place in `nodes`.
-Grid partOf(const Grid& grid, const std::vector<std::uint32_t>& nodes, const std::vector<std::uint32_t>& triangles) {
+OwnNumbers numbersBySearch(const Grid& grid, const std::vector<std::uint32_t>& triangles) {
+  OwnNumbers own;
+  own.nodes.reserve(3 * triangles.size());
+  for (const std::uint32_t t : triangles)
+    own.nodes.insert(own.nodes.end(), grid.triangles[t].begin(), grid.triangles[t].end());
+  std::ranges::sort(own.nodes);
+  own.nodes.erase(std::unique(own.nodes.begin(), own.nodes.end()), own.nodes.end());
+  const auto numberOf = [&own](std::uint32_t node) {
+    return static_cast<std::uint32_t>(std::ranges::lower_bound(own.nodes, node) - own.nodes.begin());
+  };
+  for (const std::uint32_t t : triangles) {
+    const auto& [a, b, c] = grid.triangles[t];
+    own.triangles.push_back({numberOf(a), numberOf(b), numberOf(c)});
+  }
+  return own;
+}
+
+OwnNumbers ownNumbers(const Grid& grid, const std::vector<std::uint32_t>& triangles, const ItemLoop& loop) {
+  constexpr std::size_t kWorthTable = 8;  // nodes of the grid for each triangle
+  return triangles.size() < grid.nodes.size() / kWorthTable ? numbersBySearch(grid, triangles)
+                                                            : numbersByTable(grid, triangles, loop);
+}
+
+// The piece as a grid of its own.
+Grid partOf(const Grid& grid, OwnNumbers&& own) {
   Grid part;
   part.crs = grid.crs;
-  for (std::uint32_t node : nodes) part.nodes.push_back(grid.nodes[node]);
-  const auto numberOf = [&nodes](std::uint32_t node) {
-    return static_cast<std::uint32_t>(std::ranges::lower_bound(nodes, node) - nodes.begin());
-  };
-  for (std::uint32_t t : triangles) {
-    const auto& corners = grid.triangles[t];
-    part.triangles.push_back({numberOf(corners[0]), numberOf(corners[1]), numberOf(corners[2])});
-  }
+  part.nodes.reserve(own.nodes.size());
+  for (const std::uint32_t node : own.nodes) part.nodes.push_back(grid.nodes[node]);
+  part.triangles = std::move(own.triangles);
   return part;
 }
 
@@ -95,18 +130,18 @@ std::vector<std::vector<std::uint32_t>> connectedTriangles(const Grid& grid) {
   return pieces;
 }
 
-Projection fitProjection(const Grid& grid, const std::vector<std::uint32_t>& triangles, SurfaceKind kind) {
+Projection fitProjection(const Grid& grid, const std::vector<std::uint32_t>& triangles, SurfaceKind kind,
+                         const ItemLoop& loop) {
   if (grid.crs.isPlane()) return Projection::plane();
-  const std::vector<std::uint32_t> nodes = nodesOf(grid, triangles);
-  Grid part = partOf(grid, nodes, triangles);
+  Grid part = partOf(grid, ownNumbers(grid, triangles, loop));
   std::vector<EdgeConflict> conflicts;
-  const TriMesh linked = linkTriangles(part.nodes, part.triangles, conflicts);
+  const TriMesh linked = linkTriangles(part.nodes, part.triangles, conflicts, loop);
   Coastline outline;
   outline.crs = grid.crs;
   outline.features.emplace_back().source = "the mesh";
-  for (const auto& loop : boundaryLoops(linked)) {
+  for (const auto& of_boundary : boundaryLoops(linked, loop)) {
     Polygon& polygon = outline.features[0].polygons.emplace_back();
-    for (VertexId v : loop) polygon.outer.push_back(part.nodes[v]);
+    for (VertexId v : of_boundary) polygon.outer.push_back(part.nodes[v]);
   }
   if (conflicts.empty() && isClosed(linked)) {
     // What is opposite to this place lies beyond the plane: a point of the first triangle, off its axes of symmetry.
@@ -121,12 +156,13 @@ Projection fitProjection(const Grid& grid, const std::vector<std::uint32_t>& tri
 }
 
 GridPiece makePiece(const Grid& grid, std::vector<std::uint32_t> triangles, const Projection& projection,
-                    const LineEdges& lines) {
+                    const LineEdges& lines, const ItemLoop& loop) {
   GridPiece piece;
   piece.projection = projection;
-  piece.nodes = nodesOf(grid, triangles);
+  OwnNumbers own = ownNumbers(grid, triangles, loop);
+  piece.nodes = own.nodes;
   piece.triangles = std::move(triangles);
-  piece.mesh = toTriMesh(partOf(grid, piece.nodes, piece.triangles), projection, piece.conflicts);
+  piece.mesh = toTriMesh(partOf(grid, std::move(own)), projection, piece.conflicts, loop);
   if (!grid.feature_of.empty()) {
     for (std::size_t t = 0; t < piece.triangles.size(); ++t) {
       piece.mesh.regions[t] = static_cast<RegionId>(grid.feature_of[piece.triangles[t]]);
@@ -148,16 +184,16 @@ GridPiece makePiece(const Grid& grid, std::vector<std::uint32_t> triangles, cons
     throw InputError("the node at " + placeInWords(grid.nodes[piece.nodes[i]]) +
                      " lies beyond every plane that shows the mesh: its triangles overlap, or hold the whole Earth");
   }
-  piece.places = projection.groundPlaces(piece.mesh.points).space;
+  piece.places = projection.groundPlaces(piece.mesh.points, loop).space;
   return piece;
 }
 
-std::vector<GridPiece> splitGrid(const Grid& grid, SurfaceKind kind) {
+std::vector<GridPiece> splitGrid(const Grid& grid, SurfaceKind kind, const ItemLoop& loop) {
   std::vector<GridPiece> pieces;
   const LineEdges lines(grid);
   for (std::vector<std::uint32_t>& triangles : connectedTriangles(grid)) {
-    const Projection projection = fitProjection(grid, triangles, kind);
-    pieces.push_back(makePiece(grid, std::move(triangles), projection, lines));
+    const Projection projection = fitProjection(grid, triangles, kind, loop);
+    pieces.push_back(makePiece(grid, std::move(triangles), projection, lines, loop));
   }
   return pieces;
 }

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/item_loop.hpp"
 #include "core/tri_mesh.hpp"
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/grid/grid.hpp"
@@ -39,13 +40,14 @@ std::vector<std::vector<std::uint32_t>> connectedTriangles(const Grid& grid);
 
 // A conformal projection fitted to the given triangles, or the identity for a grid without a place on Earth.
 Projection fitProjection(const Grid& grid, const std::vector<std::uint32_t>& triangles,
-                         SurfaceKind kind = SurfaceKind::Auto);
+                         SurfaceKind kind = SurfaceKind::Auto, const ItemLoop& loop = inOrder);
 
 // `lines` are those of the grid, for all its pieces.
 GridPiece makePiece(const Grid& grid, std::vector<std::uint32_t> triangles, const Projection& projection,
-                    const LineEdges& lines);
+                    const LineEdges& lines, const ItemLoop& loop = inOrder);
 
 // Every connected piece in its own projection, as `mesh` would have chosen it.
-std::vector<GridPiece> splitGrid(const Grid& grid, SurfaceKind kind = SurfaceKind::Auto);
+std::vector<GridPiece> splitGrid(const Grid& grid, SurfaceKind kind = SurfaceKind::Auto,
+                                 const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

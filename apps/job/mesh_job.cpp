@@ -361,7 +361,7 @@ std::vector<MergedGroup> meshGroups(const MeshJob& job, const JobInput& input, c
 // Measures the present grid, each group in the plane that it was made in. Unless the grid is repaired, only nodes at
 // the frame have moved, and the digest stays that of the mesh.
 void measureAgain(const MeshJob& job, const JobInput& input, const std::vector<MergedGroup>& groups, bool is_repaired,
-                  MeshJobResult& result) {
+                  const ItemLoop& loop, MeshJobResult& result) {
   result.quality = {};
   result.short_of = {};
   bool first = true;
@@ -370,21 +370,21 @@ void measureAgain(const MeshJob& job, const JobInput& input, const std::vector<M
   for (std::size_t g = 0; g < groups.size(); ++g) {
     if (triangles[g].empty()) continue;
     const WorkingPlane plane{input.projectionOf(groups[g].group), groups[g].size_max};
-    const GridPiece piece = makePiece(result.grid, triangles[g], plane.projection, lines);
-    MeshJudgement judgement = judgeMesh(piece.mesh, plane, job.mesh.refine, kAngleSlackDeg, piece.places);
+    const GridPiece piece = makePiece(result.grid, triangles[g], plane.projection, lines, loop);
+    MeshJudgement judgement = judgeMesh(piece.mesh, plane, job.mesh.refine, kAngleSlackDeg, piece.places, loop);
     result.quality.add(judgement.quality);
     result.short_of.add(std::move(judgement.short_of));
     if (is_repaired) {
-      const std::uint64_t digest = digestOf(piece.mesh);
+      const std::uint64_t digest = digestOf(piece.mesh, 0, loop);
       result.digest = first ? digest : combineDigests(result.digest, digest);
     }
     first = false;
     if (piece.places.empty() || result.grid.min_angle_deg.empty()) continue;
-    for (std::size_t t = 0; t < piece.triangles.size(); ++t) {
+    forEachByStretches(loop, piece.triangles.size(), [&](std::size_t t) {
       const auto& [a, b, c] = piece.mesh.triangles[t].v;
       result.grid.min_angle_deg[piece.triangles[t]] =
           std::ranges::min(spaceAnglesDeg(piece.places[a], piece.places[b], piece.places[c]));
-    }
+    });
   }
 }
 
@@ -401,7 +401,7 @@ void keepInBox(const MeshJob& job, const JobInput& input, const std::vector<Merg
   // In the plane, few triangles have changed: measuring all would take as long as making a mesh with large sizes.
   if (isMeasuredOnEarth(result) ||
       !replaceAngles(moves.angles_before, moves.angles_after, kAngleSlackDeg, result.quality))
-    measureAgain(job, input, groups, false, result);
+    measureAgain(job, input, groups, false, loop, result);
 }
 
 // True if waters of groups without an open boundary are left out of the finished grid.
@@ -543,11 +543,12 @@ MeshJobResult runOnThreads(const MeshJob& given, const JobControl& control) {
     RunControl inner{control.cancelled, {}};
     if (control.progress) inner.progress = [&control](double share) { control.progress("finish", share); };
     InputVertices vertices = finish.mayEdit() ? InputVertices(result.grid, merged) : InputVertices();
-    result.finish = finishGrid(result.grid, finish, inner, recorder.loop("finish", RunControl{control.cancelled, {}}));
+    const ItemLoop finish_loop = recorder.loop("finish", RunControl{control.cancelled, {}});
+    result.finish = finishGrid(result.grid, finish, inner, finish_loop);
     std::ranges::move(result.finish.notes(), std::back_inserter(result.read.notes));
     if (!result.finish.repairs.repairs.empty() || result.finish.dropped.waters > 0) {
       result.short_before_repairs = result.short_of.count;
-      measureAgain(job, input, merged, true, result);
+      measureAgain(job, input, merged, true, finish_loop, result);
       result.mesh_area_m2 = std::accumulate(result.grid.area_m2.begin(), result.grid.area_m2.end(), 0.0);
       result.refine.steiner_points = std::move(vertices).othersIn(result.grid);
       if (result.input_area_m2)

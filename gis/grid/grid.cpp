@@ -34,10 +34,12 @@ void requireZ(const Grid& grid, const std::string& path) {
                     " is unknown, and the format cannot say that; choose .nc or .gpkg");
 }
 
-TriMesh toTriMesh(const Grid& grid, const Projection& projection, std::vector<EdgeConflict>& conflicts) {
+TriMesh toTriMesh(const Grid& grid, const Projection& projection, std::vector<EdgeConflict>& conflicts,
+                  const ItemLoop& loop) {
   std::vector<Point> points(grid.nodes.size());
-  std::ranges::transform(grid.nodes, points.begin(), [&](const Point& p) { return projection.forward(p); });
-  TriMesh mesh = linkTriangles(std::move(points), grid.triangles, conflicts);
+  forEachByStretches(loop, points.size(),
+                     [&](std::size_t node) { points[node] = projection.forward(grid.nodes[node]); });
+  TriMesh mesh = linkTriangles(std::move(points), grid.triangles, conflicts, loop);
   if (!grid.feature_of.empty()) std::ranges::copy(grid.feature_of, mesh.regions.begin());
   return mesh;
 }

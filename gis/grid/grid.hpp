@@ -91,6 +91,7 @@ auto triangleArrays(AnyGrid& grid) {
 void requireZ(const Grid& grid, const std::string& path);
 
 // The grid as a mesh in the plane of `projection` (for checks, figures and plots).
-TriMesh toTriMesh(const Grid& grid, const Projection& projection, std::vector<EdgeConflict>& conflicts);
+TriMesh toTriMesh(const Grid& grid, const Projection& projection, std::vector<EdgeConflict>& conflicts,
+                  const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh
