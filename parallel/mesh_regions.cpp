@@ -363,9 +363,11 @@ MeshedRegion meshRegion(const Pslg& pslg, MeshOptions options, const RunControl&
   const bool done = takeLattice(region, options, recorder.loop("lattice", control));
   if (!done) region.mesh = closed ? triangulateInRing(pslg, options, {}) : constrainedDelaunay(pslg);
   if (!done && !closed && !labelsTellAll(pslg)) region.cover = coverOf(region.mesh, pslg);
+  const bool cut =
+      !done && !options.one_piece &&
+      expectedTriangles(region.mesh, options.refine, recorder.loop("triangulate", control)) >= kWorthCutting;
   region.seconds.triangulate = watch.lap();
   region.log.append(recorder.finish("triangulate"));
-  const bool cut = !done && !options.one_piece && expectedTriangles(region.mesh, options.refine) >= kWorthCutting;
   if (!done) (cut ? meshInPieces : meshWhole)(region, pslg, options, control);
   if (options.mark_pieces && !cut) region.piece_of.assign(region.mesh.triangles.size(), 0);
   if (done) {

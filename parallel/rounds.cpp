@@ -266,32 +266,38 @@ class Rounds {
   ProgressPart part_;  // of the next round
 };
 
+// The longest edges that a first step may leave: those of the mesh, and those with which it makes little work.
+double longestFirst(const TriMesh& mesh, const Surface& surface) {
+  double area = 0.0, longest = 0.0;
+  for (const Triangle& t : mesh.triangles) {
+    const Point &a = mesh.point(t.v[0]), &b = mesh.point(t.v[1]), &c = mesh.point(t.v[2]);
+    const TriangleShape shape(a, b, c, surface);
+    area += areaOn(surface, a, b, c);
+    longest = std::max(longest, shape.squared[shape.longest]);
+  }
+  return std::min(std::sqrt(longest), std::sqrt(kExcess * area / (kEquilateral * kLittleWork)));
+}
+
 // The options of each step; those of the last are `options`. The first step works on the uncut mesh: it removes very
 // small angles, because the long thin triangles of a triangulation without Steiner points, from shore to shore, leave
 // no place for cuts, and makes edges as short as little work allows. Each further step requests shorter edges, so that
 // pieces never consist of few large triangles. If requested lengths need few triangles, the first step makes them all:
 // coarser steps would disturb the rows.
-std::vector<RefineOptions> stepsTo(const RefineOptions& options, const TriMesh& mesh) {
+std::vector<RefineOptions> stepsTo(const RefineOptions& options, const TriMesh& mesh, const ItemLoop& loop) {
   std::vector<RefineOptions> steps{options};
-  double area = 0.0, longest = 0.0;
-  for (const Triangle& t : mesh.triangles) {
-    const Point &a = mesh.point(t.v[0]), &b = mesh.point(t.v[1]), &c = mesh.point(t.v[2]);
-    const TriangleShape shape(a, b, c, options.surface);
-    area += areaOn(options.surface, a, b, c);
-    longest = std::max(longest, shape.squared[shape.longest]);
-  }
   if (options.size != nullptr) {
-    const double all = expectedTriangles(mesh, options);
+    const double all = expectedTriangles(mesh, options, loop);
     for (double scale = kLastStep; all > kLittleWork * scale * scale; scale *= kSizeStep) {
       steps.push_back(options);
       steps.back().size_scale = scale;
     }
-  }
-  const double large_enough = std::min(std::sqrt(longest), std::sqrt(kExcess * area / (kEquilateral * kLittleWork)));
-  for (double size = options.size_max; options.size == nullptr && size * kSizeStep < large_enough;) {
-    size *= kSizeStep;
-    steps.push_back(options);
-    steps.back().size_max = size;
+  } else {
+    const double large_enough = longestFirst(mesh, options.surface);
+    for (double size = options.size_max; size * kSizeStep < large_enough;) {
+      size *= kSizeStep;
+      steps.push_back(options);
+      steps.back().size_max = size;
+    }
   }
   steps.push_back(steps.back());
   steps.back().max_angle_deg = 180.0;
@@ -333,11 +339,18 @@ void refineRound(Rounds& run, const Pslg& pslg, const RefineOptions& options, co
 
 }  // namespace
 
-double expectedTriangles(const TriMesh& mesh, const RefineOptions& options) {
+double expectedTriangles(const TriMesh& mesh, const RefineOptions& options, const ItemLoop& loop) {
+  constexpr std::size_t kLeastTriangles = 512;  // few of a coarse mesh are most of the work
   const TriangleBound bound = boundOf(options);
-  double sum = 0.0;
-  for (TriId t = 0; t < mesh.triangles.size(); ++t) sum += expectedOf(mesh, t, bound);
-  return sum;
+  const std::vector<double> sums = overStretches(
+      loop, mesh.triangles.size(),
+      [&](std::size_t first, std::size_t last) {
+        double sum = 0.0;
+        for (std::size_t t = first; t < last; ++t) sum += expectedOf(mesh, static_cast<TriId>(t), bound);
+        return sum;
+      },
+      kLeastTriangles);
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
 namespace {
@@ -404,13 +417,13 @@ void refineStep(Rounds& run, const Pslg& pslg, const RefineOptions& options, int
 
 RoundsReport refineInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, VertexNotes notes,
                             const RunControl& control, RoundsWorkspace& workspace) {
-  const std::vector<RefineOptions> steps = stepsTo(options, mesh);
   Rounds run(std::move(mesh), control, workspace);
   MeshState& whole = run.whole();
+  const std::vector<RefineOptions> steps = stepsTo(options, whole.mesh, run.recorder().loop("cut"));
   whole.notes = std::move(notes);
   const std::optional<RoundPlace> before = run.goOn();
   if (!before && wantsSplitSegments(whole.mesh, options))
-    run.stats().segment_splits += splitSegments(whole.mesh, pslg, whole.notes, options);
+    run.stats().segment_splits += splitSegments(whole.mesh, pslg, whole.notes, options, run.recorder().loop("cut"));
   const RoundPlace from = before.value_or(RoundPlace{});
   for (std::uint32_t step = from.step; step < steps.size(); ++step) {
     refineStep(run, pslg, steps[step], step == from.step ? static_cast<int>(from.round) : 0, step == 0,

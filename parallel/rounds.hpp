@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/item_loop.hpp"
 #include "core/pslg.hpp"
 #include "core/refine/refine.hpp"
 #include "core/run_control.hpp"
@@ -14,7 +15,7 @@ namespace coastmesh {
 class RoundKeeper;
 
 // The approximate number of triangles that refinement will make of a mesh.
-double expectedTriangles(const TriMesh& mesh, const RefineOptions& options);
+double expectedTriangles(const TriMesh& mesh, const RefineOptions& options, const ItemLoop& loop = inOrder);
 
 // State shared by rounds, and by refinement, coarsening and optimisation.
 struct RoundsWorkspace {

@@ -7,6 +7,7 @@
 
 #include "core/edit_mesh.hpp"
 #include "core/metric.hpp"
+#include "core/size_function.hpp"
 
 namespace coastmesh {
 
@@ -27,8 +28,8 @@ constexpr double kSameLength = 1e-9;
 enum class Fit { Nearest, AtMost };
 
 // Shares of the way from a to b that are one requested length apart, stretched to fit: to the nearest number of pieces,
-// or so that none is longer. Stops early if there are clearly more than `most`.
-void evenShares(const Point& a, const Point& b, const SizeFunction& size, Fit fit, const Surface& surface,
+// or so that none is longer. Stops early, and returns false, if there are clearly more than `most`.
+bool evenShares(const Point& a, const Point& b, const SizeFunction& size, Fit fit, const Surface& surface,
                 std::uint64_t most, std::vector<double>& shares) {
   const auto wantedAt = [&](const Point& x) { return size.at(x) / surface.shrinkAt(x); };  // in the plane
   shares.clear();
@@ -47,6 +48,7 @@ void evenShares(const Point& a, const Point& b, const SizeFunction& size, Fit fi
     here = there;
     marks.push_back({along, count});
   }
+  const bool is_whole = static_cast<double>(marks.size()) < most_steps;
   double pieces = std::max(1.0, std::floor(count));
   // Nearest: the number of pieces that makes their ratio to the requested length closest to 1, either way.
   const double one_more_from = fit == Fit::Nearest ? std::sqrt(pieces * (pieces + 1.0)) : pieces * (1.0 + kSameLength);
@@ -59,7 +61,43 @@ void evenShares(const Point& a, const Point& b, const SizeFunction& size, Fit fi
     const auto [to, after] = marks[i + 1];
     shares.push_back((from + (to - from) * (target - before) / (after - before)) / length);
   }
+  return is_whole;
 }
+
+// A point that divides a subsegment, and the length requested there.
+struct Division {
+  Point at;
+  double size;
+};
+
+// Divides subsegments by the requested lengths.
+class Divider {
+ public:
+  Divider(const Pslg& pslg, const RefineOptions& options)
+      : pslg_(pslg), options_(options), longest_(options.size_max) {}
+
+  // Divides part of a segment, from a to b. `is_whole` becomes false as `evenShares` does.
+  std::vector<Division> divide(const Point& a, const Point& b, SegmentId seg, std::uint64_t most,
+                               bool& is_whole) const {
+    const SizeFunction& size = options_.size != nullptr ? *options_.size : longest_;
+    const Fit fit = options_.size != nullptr ? Fit::Nearest : Fit::AtMost;
+    const Segment& segment = pslg_.segments[seg];
+    std::vector<double> shares;
+    is_whole = evenShares(a, b, size, fit, options_.surface, most, shares);
+    std::vector<Division> divisions;
+    divisions.reserve(shares.size());
+    for (const double share : shares) {
+      const Point at = projectedOnLine(a + share * (b - a), pslg_.points[segment.a], pslg_.points[segment.b]);
+      divisions.push_back({at, size.at(at)});
+    }
+    return divisions;
+  }
+
+ private:
+  const Pslg& pslg_;
+  const RefineOptions& options_;
+  const ConstantSize longest_;
+};
 
 EdgeRef findEdge(const EditMesh& mesh, const std::vector<TriId>& among, VertexId a, VertexId b) {
   for (const TriId t : among) {
@@ -79,10 +117,8 @@ bool wantsSplitSegments(const TriMesh& mesh, const RefineOptions& options) {
   return options.size != nullptr || (has_lattice && std::isfinite(options.size_max));
 }
 
-std::uint64_t splitSegments(TriMesh& mesh, const Pslg& pslg, VertexNotes& notes, const RefineOptions& options) {
-  const ConstantSize longest(options.size_max);
-  const SizeFunction& size = options.size != nullptr ? *options.size : longest;
-  const Fit fit = options.size != nullptr ? Fit::Nearest : Fit::AtMost;
+std::uint64_t splitSegments(TriMesh& mesh, const Pslg& pslg, VertexNotes& notes, const RefineOptions& options,
+                            const ItemLoop& loop) {
   std::vector<Cut> cuts;
   for (TriId t = 0; t < mesh.triangles.size(); ++t) {
     for (unsigned i = 0; i < 3; ++i) {
@@ -95,31 +131,50 @@ std::uint64_t splitSegments(TriMesh& mesh, const Pslg& pslg, VertexNotes& notes,
   const VertexId before = static_cast<VertexId>(mesh.points.size());
   const std::uint64_t most = std::min<std::uint64_t>(options.max_vertices, kNone);
   EditMesh edit(std::move(mesh));
-  std::vector<double> shares;
+  const Divider divider(pslg, options);
   std::vector<TriId> touched, star;
   std::vector<EdgeRef> opposite;
-  for (const Cut& cut : cuts) {
-    if (edit.vertexCount() >= most) break;
+  const auto apply = [&](const Cut& cut, const std::vector<Division>& divisions) {
     const Point a = edit.point(cut.a), b = edit.point(cut.b);
-    evenShares(a, b, size, fit, options.surface, most - edit.vertexCount(), shares);
     VertexId from = cut.a;
-    for (const double share : shares) {
+    for (const auto& [on, size] : divisions) {
       if (edit.vertexCount() >= most) break;
       edit.star(from, opposite);
       star.clear();
       for (const EdgeRef e : opposite) star.push_back(triOf(e));
       const EdgeRef edge = findEdge(edit, star, from, cut.b);
       if (edge == kNone) break;
-      const Segment& seg = pslg.segments[cut.seg];
-      const Point &sa = pslg.points[seg.a], &sb = pslg.points[seg.b];
-      const Point on = projectedOnLine(a + share * (b - a), sa, sb);
       touched.clear();
       const VertexId v = edit.splitSegment(edge, on, touched);
       if (v == kNone) break;
       notes.spacing.resize(edit.vertexSlots());
       notes.spacing[v] = std::min({options.surface.chord(on, a) + notes.spacing[cut.a],
-                                   options.surface.chord(on, b) + notes.spacing[cut.b], size.at(on)});
+                                   options.surface.chord(on, b) + notes.spacing[cut.b], size});
       from = v;
+    }
+  };
+  // Divided in batches, the few subsegments with very many divisions one by one: otherwise all would be divided when
+  // there is no more room.
+  constexpr std::size_t kBatch = 4096, kStretch = 64;
+  constexpr std::uint64_t kMany = 250;
+  std::vector<std::vector<Division>> divisions(std::min(cuts.size(), kBatch));
+  std::vector<std::uint8_t> is_whole(divisions.size());
+  const auto divideAt = [&](std::size_t c, std::uint64_t at_most, std::size_t slot) {
+    bool whole = true;
+    divisions[slot] = divider.divide(edit.point(cuts[c].a), edit.point(cuts[c].b), cuts[c].seg, at_most, whole);
+    is_whole[slot] = whole;
+  };
+  for (std::size_t begin = 0; begin < cuts.size() && edit.vertexCount() < most; begin += kBatch) {
+    const std::size_t count = std::min(kBatch, cuts.size() - begin);
+    forStretches(
+        loop, count,
+        [&](std::size_t first, std::size_t last) {
+          for (std::size_t i = first; i < last; ++i) divideAt(begin + i, kMany, i);
+        },
+        kStretch);
+    for (std::size_t i = 0; i < count && edit.vertexCount() < most; ++i) {
+      if (is_whole[i] == 0) divideAt(begin + i, most - edit.vertexCount(), i);
+      apply(cuts[begin + i], divisions[i]);
     }
   }
   Renumbering by;

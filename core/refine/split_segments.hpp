@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/item_loop.hpp"
 #include "core/pslg.hpp"
 #include "core/refine/refine_options.hpp"
 #include "core/refine/vertex_notes.hpp"
@@ -12,7 +13,8 @@ namespace coastmesh {
 // than the requested length are kept. REQUIRES: lengths are given; `mesh` has no Steiner points except those of a
 // lattice. The mesh stays constrained Delaunay; `notes`, of `noteInput`, are extended. At most `options.max_vertices`
 // vertices. Returns how many were inserted.
-std::uint64_t splitSegments(TriMesh& mesh, const Pslg& pslg, VertexNotes& notes, const RefineOptions& options);
+std::uint64_t splitSegments(TriMesh& mesh, const Pslg& pslg, VertexNotes& notes, const RefineOptions& options,
+                            const ItemLoop& loop = inOrder);
 
 // True if segments should be divided first: if lengths are requested, and beside a lattice, whose points the circle of
 // a long side would exclude. Without a lattice, a maximum edge is as well reached step by step.

@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "core/delaunay.hpp"
 #include "core/label_regions.hpp"
 #include "core/refine/refine.hpp"
+#include "tests/support/item_loops.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/size_cases.hpp"
 
@@ -42,7 +44,7 @@ TEST(SplitSegments, PiecesHoldALongestEdge) {
   Pslg square;
   square.points = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}};
   for (std::uint32_t i = 0; i < 4; ++i) square.segments.push_back({i, (i + 1) % 4});
-  const std::pair<double, std::size_t> cases[] = {{0.3, 4}, {0.25, 4}, {0.24, 5}, {1.0, 1}, {3.0, 1}};
+  const std::pair<double, std::size_t> cases[] = {{0.3, 4}, {0.25, 4}, {0.24, 5}, {1.0, 1}, {3.0, 1}, {0.0004, 2500}};
   for (const auto& [longest, pieces] : cases) {
     SCOPED_TRACE(longest);
     const RefineOptions options{.size_max = longest};
@@ -79,6 +81,44 @@ TEST(SplitSegments, KeepsToTheBudget) {
   EXPECT_TRUE(stats.budget_reached);
   EXPECT_LE(mesh.points.size(), 100u);
   expectValidMesh(mesh, pslg);
+}
+
+// A long band between two saws: many segments.
+Pslg band(std::uint32_t teeth) {
+  Pslg pslg;
+  for (std::uint32_t i = 0; i <= teeth; ++i) pslg.points.push_back({1.0 * i, i % 2 == 0 ? 0.0 : 0.3});
+  for (std::uint32_t i = teeth + 1; i-- > 0;) pslg.points.push_back({1.0 * i, i % 2 == 0 ? 3.0 : 3.3});
+  const auto count = static_cast<std::uint32_t>(pslg.points.size());
+  for (std::uint32_t i = 0; i < count; ++i) pslg.segments.push_back({i, (i + 1) % count});
+  return pslg;
+}
+
+TEST(SplitSegments, OrderOfWorkDoesNotMatter) {
+  const Pslg pslg = band(10'000);
+  // The left side has more divisions than are made at once.
+  const SizeOf size(0.001, 1.0, [](const Point& x) { return std::min(0.001 + x.x, 0.4 + 0.3 * std::sin(0.01 * x.x)); });
+  for (const std::uint64_t most : {kMostVertices, std::uint64_t{40'000}}) {
+    const RefineOptions options{.max_vertices = most, .size = &size};
+    TriMesh first = constrainedDelaunay(pslg), second = first;
+    VertexNotes notes = noteInput(first, boundOf(options)), same = notes;
+    const std::uint64_t added = splitSegments(first, pslg, notes, options);
+    EXPECT_EQ(splitSegments(second, pslg, same, options, testing::backwards), added);
+    EXPECT_GT(added, 15'000u);
+    EXPECT_LE(first.points.size(), most);
+    EXPECT_EQ(digestOf(first), digestOf(second));
+    EXPECT_EQ(notes.spacing, same.spacing);
+  }
+}
+
+// Where there is room for hardly any, not all are divided: that would take weeks here.
+TEST(SplitSegments, FarTooManyAreNotDividedInVain) {
+  const Pslg pslg = band(10'000);
+  const ConstantSize size(1e-9);
+  const RefineOptions options{.max_vertices = 30'000, .size = &size};
+  TriMesh mesh = constrainedDelaunay(pslg);
+  VertexNotes notes = noteInput(mesh, boundOf(options));
+  splitSegments(mesh, pslg, notes, options);
+  EXPECT_EQ(mesh.points.size(), options.max_vertices);
 }
 
 }  // namespace
