@@ -55,13 +55,13 @@ TriMesh linkTriangles(std::vector<Point> points, std::span<const std::array<Vert
       }
     }
   };
-  for (const std::vector<EdgeConflict>&some :
-       overStretches(loop, corners.size(), [&](std::size_t begin, std::size_t end) {
-         std::vector<EdgeConflict> found;
-         for (std::size_t t = begin; t < end; ++t) findTwins(static_cast<TriId>(t), found);
-         return found;
-       }))
-    conflicts.insert(conflicts.end(), some.begin(), some.end());
+  const std::vector<EdgeConflict> found =
+      joined(overStretches(loop, corners.size(), [&](std::size_t begin, std::size_t end) {
+        std::vector<EdgeConflict> here;
+        for (std::size_t t = begin; t < end; ++t) findTwins(static_cast<TriId>(t), here);
+        return here;
+      }));
+  conflicts.insert(conflicts.end(), found.begin(), found.end());
   // If one side of an edge was rejected, the other is on the boundary too.
   forEachByStretches(loop, corners.size(), [&](std::size_t t) {
     for (unsigned i = 0; i < 3; ++i) {

@@ -130,7 +130,8 @@ void checkPiece(const GridPiece& piece, const Pslg* pslg, const GridCheckOptions
   check.places = piece.places;
   check.closed = !piece.places.empty() && isClosed(piece.mesh);
   BoundCounts bounds;
-  const std::vector<MeshDefect> found = checkMesh(piece.mesh, pslg, check, loop, &bounds);
+  const std::vector<MeshDefect> found =
+      checkMesh(piece.mesh, pslg, check, loopOfPiece(piece.triangles.size(), loop), &bounds);
   result.bounds.add(bounds);
   for (const MeshDefect& defect : found) {
     if (defect.kind == DefectKind::NotDelaunay && !isClearlyNotDelaunay(piece.mesh, defect)) continue;
@@ -222,7 +223,8 @@ GridCheck checkGridAgainst(const Grid& grid, const JobInput& input, const GridCh
       continue;
     }
     std::ranges::sort(triangles_of[g]);
-    GridPiece piece = makePiece(grid, std::move(triangles_of[g]), domains[g]->projection, lines, loop);
+    const ItemLoop& of_piece = loopOfPiece(triangles_of[g].size(), loop);
+    GridPiece piece = makePiece(grid, std::move(triangles_of[g]), domains[g]->projection, lines, of_piece);
     std::optional<FrameSides> sides;
     if (box) sides.emplace(*box, *domains[g]);
     // Vertices that cleaning made have exact places only in the plane: projecting their rounded coordinates does not

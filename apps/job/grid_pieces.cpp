@@ -155,6 +155,12 @@ Projection fitProjection(const Grid& grid, const std::vector<std::uint32_t>& tri
   return Projection::fitted(outline, {0}, kind);
 }
 
+const ItemLoop& loopOfPiece(std::size_t triangles, const ItemLoop& loop) {
+  constexpr std::size_t kWorthThreads = 20'000;
+  static const ItemLoop in_order = inOrder;
+  return triangles < kWorthThreads ? in_order : loop;
+}
+
 GridPiece makePiece(const Grid& grid, std::vector<std::uint32_t> triangles, const Projection& projection,
                     const LineEdges& lines, const ItemLoop& loop) {
   GridPiece piece;
@@ -192,8 +198,9 @@ std::vector<GridPiece> splitGrid(const Grid& grid, SurfaceKind kind, const ItemL
   std::vector<GridPiece> pieces;
   const LineEdges lines(grid);
   for (std::vector<std::uint32_t>& triangles : connectedTriangles(grid)) {
-    const Projection projection = fitProjection(grid, triangles, kind, loop);
-    pieces.push_back(makePiece(grid, std::move(triangles), projection, lines, loop));
+    const ItemLoop& of_piece = loopOfPiece(triangles.size(), loop);
+    const Projection projection = fitProjection(grid, triangles, kind, of_piece);
+    pieces.push_back(makePiece(grid, std::move(triangles), projection, lines, of_piece));
   }
   return pieces;
 }

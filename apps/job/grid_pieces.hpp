@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -41,6 +42,9 @@ std::vector<std::vector<std::uint32_t>> connectedTriangles(const Grid& grid);
 // A conformal projection fitted to the given triangles, or the identity for a grid without a place on Earth.
 Projection fitProjection(const Grid& grid, const std::vector<std::uint32_t>& triangles,
                          SurfaceKind kind = SurfaceKind::Auto, const ItemLoop& loop = inOrder);
+
+// The loop for a piece with so many triangles: small ones, of which there may be a million, are not worth threads.
+const ItemLoop& loopOfPiece(std::size_t triangles, const ItemLoop& loop);
 
 // `lines` are those of the grid, for all its pieces.
 GridPiece makePiece(const Grid& grid, std::vector<std::uint32_t> triangles, const Projection& projection,

@@ -370,17 +370,18 @@ void measureAgain(const MeshJob& job, const JobInput& input, const std::vector<M
   for (std::size_t g = 0; g < groups.size(); ++g) {
     if (triangles[g].empty()) continue;
     const WorkingPlane plane{input.projectionOf(groups[g].group), groups[g].size_max};
-    const GridPiece piece = makePiece(result.grid, triangles[g], plane.projection, lines, loop);
-    MeshJudgement judgement = judgeMesh(piece.mesh, plane, job.mesh.refine, kAngleSlackDeg, piece.places, loop);
+    const ItemLoop& of_piece = loopOfPiece(triangles[g].size(), loop);
+    const GridPiece piece = makePiece(result.grid, triangles[g], plane.projection, lines, of_piece);
+    MeshJudgement judgement = judgeMesh(piece.mesh, plane, job.mesh.refine, kAngleSlackDeg, piece.places, of_piece);
     result.quality.add(judgement.quality);
     result.short_of.add(std::move(judgement.short_of));
     if (is_repaired) {
-      const std::uint64_t digest = digestOf(piece.mesh, 0, loop);
+      const std::uint64_t digest = digestOf(piece.mesh, 0, of_piece);
       result.digest = first ? digest : combineDigests(result.digest, digest);
     }
     first = false;
     if (piece.places.empty() || result.grid.min_angle_deg.empty()) continue;
-    forEachByStretches(loop, piece.triangles.size(), [&](std::size_t t) {
+    forEachByStretches(of_piece, piece.triangles.size(), [&](std::size_t t) {
       const auto& [a, b, c] = piece.mesh.triangles[t].v;
       result.grid.min_angle_deg[piece.triangles[t]] =
           std::ranges::min(spaceAnglesDeg(piece.places[a], piece.places[b], piece.places[c]));

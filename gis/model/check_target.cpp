@@ -105,12 +105,12 @@ class TargetCheck {
   // Adds what `find(i, found)` appends to `found`, for every i below `count`.
   template <typename Find>
   void addForEach(std::size_t count, const Find& find) {
-    for (std::vector<TargetDefect>&some : overStretches(loop_, count, [&](std::size_t first, std::size_t last) {
-           std::vector<TargetDefect> found;
-           for (std::size_t i = first; i < last; ++i) find(i, found);
-           return found;
-         }))
-      std::ranges::move(some, std::back_inserter(defects_));
+    std::vector<TargetDefect> all = joined(overStretches(loop_, count, [&](std::size_t first, std::size_t last) {
+      std::vector<TargetDefect> found;
+      for (std::size_t i = first; i < last; ++i) find(i, found);
+      return found;
+    }));
+    std::ranges::move(all, std::back_inserter(defects_));
   }
 
   // Degrees: the largest angle of a triangle if the model rejects it, else 0.
