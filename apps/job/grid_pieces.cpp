@@ -65,13 +65,14 @@ OwnNumbers ownNumbers(const Grid& grid, const std::vector<std::uint32_t>& triang
                                                             : numbersByTable(grid, triangles, loop);
 }
 
-// The piece as a grid of its own.
-Grid partOf(const Grid& grid, OwnNumbers&& own) {
+// The piece as a grid of its own, from its `OwnNumbers`.
+Grid partOf(const Grid& grid, const std::vector<std::uint32_t>& nodes,
+            std::vector<std::array<std::uint32_t, 3>>&& triangles) {
   Grid part;
   part.crs = grid.crs;
-  part.nodes.reserve(own.nodes.size());
-  for (const std::uint32_t node : own.nodes) part.nodes.push_back(grid.nodes[node]);
-  part.triangles = std::move(own.triangles);
+  part.nodes.reserve(nodes.size());
+  for (const std::uint32_t node : nodes) part.nodes.push_back(grid.nodes[node]);
+  part.triangles = std::move(triangles);
   return part;
 }
 
@@ -133,7 +134,8 @@ std::vector<std::vector<std::uint32_t>> connectedTriangles(const Grid& grid) {
 Projection fitProjection(const Grid& grid, const std::vector<std::uint32_t>& triangles, SurfaceKind kind,
                          const ItemLoop& loop) {
   if (grid.crs.isPlane()) return Projection::plane();
-  Grid part = partOf(grid, ownNumbers(grid, triangles, loop));
+  OwnNumbers own = ownNumbers(grid, triangles, loop);
+  Grid part = partOf(grid, own.nodes, std::move(own.triangles));
   std::vector<EdgeConflict> conflicts;
   const TriMesh linked = linkTriangles(part.nodes, part.triangles, conflicts, loop);
   Coastline outline;
@@ -166,9 +168,9 @@ GridPiece makePiece(const Grid& grid, std::vector<std::uint32_t> triangles, cons
   GridPiece piece;
   piece.projection = projection;
   OwnNumbers own = ownNumbers(grid, triangles, loop);
-  piece.nodes = own.nodes;
+  piece.nodes = std::move(own.nodes);
   piece.triangles = std::move(triangles);
-  piece.mesh = toTriMesh(partOf(grid, std::move(own)), projection, piece.conflicts, loop);
+  piece.mesh = toTriMesh(partOf(grid, piece.nodes, std::move(own.triangles)), projection, piece.conflicts, loop);
   if (!grid.feature_of.empty()) {
     for (std::size_t t = 0; t < piece.triangles.size(); ++t) {
       piece.mesh.regions[t] = static_cast<RegionId>(grid.feature_of[piece.triangles[t]]);

@@ -70,27 +70,31 @@ struct Division {
   double size;
 };
 
+struct Divided {
+  std::vector<Division> divisions;
+  bool is_whole = true;  // false if it ends early, as `evenShares` does
+};
+
 // Divides subsegments by the requested lengths.
 class Divider {
  public:
   Divider(const Pslg& pslg, const RefineOptions& options)
       : pslg_(pslg), options_(options), longest_(options.size_max) {}
 
-  // Divides part of a segment, from a to b. `is_whole` becomes false as `evenShares` does.
-  std::vector<Division> divide(const Point& a, const Point& b, SegmentId seg, std::uint64_t most,
-                               bool& is_whole) const {
+  // Divides part of a segment, from a to b.
+  Divided divide(const Point& a, const Point& b, SegmentId seg, std::uint64_t most) const {
     const SizeFunction& size = options_.size != nullptr ? *options_.size : longest_;
     const Fit fit = options_.size != nullptr ? Fit::Nearest : Fit::AtMost;
     const Segment& segment = pslg_.segments[seg];
     std::vector<double> shares;
-    is_whole = evenShares(a, b, size, fit, options_.surface, most, shares);
-    std::vector<Division> divisions;
-    divisions.reserve(shares.size());
+    Divided divided;
+    divided.is_whole = evenShares(a, b, size, fit, options_.surface, most, shares);
+    divided.divisions.reserve(shares.size());
     for (const double share : shares) {
       const Point at = projectedOnLine(a + share * (b - a), pslg_.points[segment.a], pslg_.points[segment.b]);
-      divisions.push_back({at, size.at(at)});
+      divided.divisions.push_back({at, size.at(at)});
     }
-    return divisions;
+    return divided;
   }
 
  private:
@@ -157,24 +161,21 @@ std::uint64_t splitSegments(TriMesh& mesh, const Pslg& pslg, VertexNotes& notes,
   // there is no more room.
   constexpr std::size_t kBatch = 4096, kStretch = 64;
   constexpr std::uint64_t kMany = 250;
-  std::vector<std::vector<Division>> divisions(std::min(cuts.size(), kBatch));
-  std::vector<std::uint8_t> is_whole(divisions.size());
-  const auto divideAt = [&](std::size_t c, std::uint64_t at_most, std::size_t slot) {
-    bool whole = true;
-    divisions[slot] = divider.divide(edit.point(cuts[c].a), edit.point(cuts[c].b), cuts[c].seg, at_most, whole);
-    is_whole[slot] = whole;
+  std::vector<Divided> batch(std::min(cuts.size(), kBatch));
+  const auto divide = [&](const Cut& cut, std::uint64_t at_most) {
+    return divider.divide(edit.point(cut.a), edit.point(cut.b), cut.seg, at_most);
   };
   for (std::size_t begin = 0; begin < cuts.size() && edit.vertexCount() < most; begin += kBatch) {
     const std::size_t count = std::min(kBatch, cuts.size() - begin);
     forStretches(
         loop, count,
         [&](std::size_t first, std::size_t last) {
-          for (std::size_t i = first; i < last; ++i) divideAt(begin + i, kMany, i);
+          for (std::size_t i = first; i < last; ++i) batch[i] = divide(cuts[begin + i], kMany);
         },
         kStretch);
     for (std::size_t i = 0; i < count && edit.vertexCount() < most; ++i) {
-      if (is_whole[i] == 0) divideAt(begin + i, most - edit.vertexCount(), i);
-      apply(cuts[begin + i], divisions[i]);
+      if (!batch[i].is_whole) batch[i] = divide(cuts[begin + i], most - edit.vertexCount());
+      apply(cuts[begin + i], batch[i].divisions);
     }
   }
   Renumbering by;

@@ -40,7 +40,7 @@ std::vector<std::uint32_t> indicesOf(std::size_t count, const ItemLoop& loop, Is
 }
 
 std::array<double, 3> anglesOf(const Grid& grid, std::uint32_t triangle) {
-  const std::vector<Point> p = localPlane(grid, grid.triangles[triangle]);
+  const auto p = localPlane(grid, grid.triangles[triangle]);
   return anglesDeg(p[0], p[1], p[2]);
 }
 

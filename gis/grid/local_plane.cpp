@@ -36,10 +36,4 @@ std::vector<Point> localPlane(const Crs& crs, std::span<const Point> places, Ear
   return plane;
 }
 
-std::vector<Point> localPlane(const Grid& grid, std::span<const std::uint32_t> nodes, EarthShape shape) {
-  std::vector<Point> places;
-  for (const std::uint32_t node : nodes) places.push_back(grid.nodes[node]);
-  return localPlane(grid.crs, places, shape);
-}
-
 }  // namespace coastmesh

@@ -13,6 +13,8 @@ namespace coastmesh {
 struct ApartWater {
   std::uint32_t triangle = 0;  // its first triangle
   std::size_t triangles = 0;
+
+  friend bool operator==(const ApartWater&, const ApartWater&) = default;
 };
 
 // In the order of their first triangles. Water is connected through edges, not through single nodes.

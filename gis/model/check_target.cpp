@@ -134,21 +134,12 @@ class TargetCheck {
 
   Point middle(std::size_t t) const { return middleOf(grid_, static_cast<std::uint32_t>(t)); }
 
-  // Some nodes in a plane of their own; see `flattenLocally`.
-  template <std::size_t count>
-  std::array<Point, count> inLocalPlane(const std::array<std::uint32_t, count>& nodes, EarthShape shape) const {
-    std::array<Point, count> places;
-    for (std::size_t i = 0; i < count; ++i) places[i] = grid_.nodes[nodes[i]];
-    flattenLocally(grid_.crs, places, shape);
-    return places;
-  }
-
   void checkTriangles() {
     addForEach(grid_.triangles.size(), [&](std::size_t t, std::vector<TargetDefect>& found) {
       const auto report = [&](TargetDefectKind kind, double value = 0.0) {
         found.push_back({kind, middle(t), static_cast<std::int64_t>(t), -1, value, {}});
       };
-      const auto [a, b, c] = inLocalPlane(grid_.triangles[t], EarthShape::Ellipsoid);
+      const auto [a, b, c] = localPlane(grid_, grid_.triangles[t]);
       if (orient2d(a, b, c) <= 0) return report(TargetDefectKind::Clockwise);
       const auto& adj = mesh_.triangles[t].adj;
       const auto neighbours = 3 - std::ranges::count(adj, kNone);
@@ -320,7 +311,7 @@ class TargetCheck {
         const EdgeRef e = edgeRef(static_cast<TriId>(t), i), twin = mesh_.twin(e);
         if (twin == kNone || triOf(twin) < t) continue;
         const std::array<std::uint32_t, 4> nodes{mesh_.origin(e), mesh_.target(e), mesh_.apex(e), mesh_.apex(twin)};
-        const auto [a, b, c, d] = inLocalPlane(nodes, EarthShape::Sphere);
+        const auto [a, b, c, d] = localPlane(grid_, nodes, EarthShape::Sphere);
         const FlowLink link = flowLinkAcross(a, b, c, d);
         const auto report = [&](TargetDefectKind kind, double value) {
           found.push_back({kind, middle(nodes[0], nodes[1]), static_cast<std::int64_t>(t), nodes[0], value, {}});

@@ -53,6 +53,8 @@ struct TargetDefect {
   double value = 0.0;
   std::string text;     // of WrongCount, and of Overlap
   bool advice = false;  // the model runs, but not as well as it could
+
+  friend bool operator==(const TargetDefect&, const TargetDefect&) = default;
 };
 
 struct TargetCheckOptions {

@@ -333,7 +333,7 @@ bool shareSmallAngle(RepairState& state, std::uint32_t t) {
   const std::vector<std::uint32_t> affected = patchRound(view, around).triangles;
   const auto countSmall = [&] {
     return std::ranges::count_if(affected, [&](std::uint32_t of) {
-      const std::vector<Point> p = localPlane(state.grid, state.grid.triangles[of], state.shape());
+      const auto p = localPlane(state.grid, state.grid.triangles[of], state.shape());
       return leastAngleDeg(p[0], p[1], p[2]) < bound;
     });
   };

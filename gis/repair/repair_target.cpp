@@ -194,7 +194,7 @@ bool mendRound(RepairState& state, const std::vector<FoundDefect>& defects, bool
 }
 
 double smallestAngle(const Grid& grid, std::size_t t, EarthShape shape) {
-  const std::vector<Point> p = localPlane(grid, grid.triangles[t], shape);
+  const auto p = localPlane(grid, grid.triangles[t], shape);
   return leastAngleDeg(p[0], p[1], p[2]);
 }
 

@@ -14,7 +14,7 @@ namespace coastmesh {
 namespace {
 
 int orientationOf(const Grid& grid, const GridCorners& corners) {
-  const std::vector<Point> p = localPlane(grid, corners);
+  const auto p = localPlane(grid, corners);
   return orient2d(p[0], p[1], p[2]);
 }
 
@@ -34,7 +34,7 @@ bool liesOver(const Grid& grid, std::uint32_t t, std::uint32_t other, std::uint3
     if (node != a && node != b) nodes[2] = node;
   for (const std::uint32_t node : grid.triangles[other])
     if (node != a && node != b) nodes[3] = node;
-  const std::vector<Point> p = localPlane(grid, nodes);
+  const auto p = localPlane(grid, nodes);
   return orient2d(p[0], p[1], p[2]) * orient2d(p[0], p[1], p[3]) > 0;
 }
 

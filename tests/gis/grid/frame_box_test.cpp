@@ -65,7 +65,7 @@ TEST(KeepInFrame, OtherNodesOfATriangleMayMove) {
   keepInFrame(grid, boxAt60North(), {23.0, 180.0});
   EXPECT_EQ(grid.nodes[2], beyond);
   for (const auto& triangle : grid.triangles) {
-    const std::vector<Point> p = localPlane(grid, triangle);
+    const auto p = localPlane(grid, triangle);
     EXPECT_GE(leastAngleDeg(p[0], p[1], p[2]), 23.0);
   }
 }

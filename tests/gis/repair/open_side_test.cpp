@@ -133,7 +133,7 @@ TEST(OpenSide, CornersWidenForASecondTriangle) {
     repairForTargets(grid, targets, {.shore_moves = true, .min_angle_deg = kBoundDeg});
     EXPECT_TRUE(checkTarget(grid, Target::Fesom).empty());
     for (const auto& [a, b, c] : grid.triangles) {
-      const std::vector<Point> p = localPlane(grid, std::array{a, b, c});
+      const auto p = localPlane(grid, std::array{a, b, c});
       EXPECT_GE(leastAngleDeg(p[0], p[1], p[2]), kBoundDeg - 0.02);
     }
     const auto open = std::ranges::find(grid.boundaries, BoundaryRole::Open, &Boundary::role);
