@@ -235,7 +235,7 @@ std::vector<std::array<double, 3>> edgeLengths(std::span<const Point> nodes,
   return lengths;
 }
 
-std::vector<double> chainLengths(const std::vector<std::vector<Point>>& chains, const Crs& crs) {
+std::vector<double> chainLengths(const std::vector<std::vector<Point>>& chains, const Crs& crs, const ItemLoop& loop) {
   std::vector<double> lengths(chains.size(), 0.0);
   if (crs.isPlane()) {
     for (std::size_t c = 0; c < chains.size(); ++c)
@@ -247,14 +247,24 @@ std::vector<double> chainLengths(const std::vector<std::vector<Point>>& chains, 
   for (const std::vector<Point>& chain : chains) points.insert(points.end(), chain.begin(), chain.end());
   const Geodetic geodetic = toGeodetic(points, crs);
   const GeographicLib::Geodesic geodesic(geodetic.a, geodetic.f);
+  std::vector<std::uint8_t> is_last(points.size(), 0);  // of its chain
+  for (std::size_t c = 0, end = 0; c < chains.size(); ++c)
+    if (end += chains[c].size(); !chains[c].empty()) is_last[end - 1] = 1;
+  std::vector<double> pieces(points.size(), 0.0);  // from each point to the next one
+  constexpr std::size_t kWorthAStretch = 256;
+  forStretches(
+      loop, points.size(),
+      [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+          if (is_last[i]) continue;
+          const LonLat p = geodetic.at(i), q = geodetic.at(i + 1);
+          geodesic.Inverse(p.lat, p.lon, q.lat, q.lon, pieces[i]);
+        }
+      },
+      kWorthAStretch);
   std::size_t at = 0;
   for (std::size_t c = 0; c < chains.size(); ++c) {
-    for (std::size_t i = 1; i < chains[c].size(); ++i) {
-      const LonLat p = geodetic.at(at + i - 1), q = geodetic.at(at + i);
-      double piece = 0.0;
-      geodesic.Inverse(p.lat, p.lon, q.lat, q.lon, piece);
-      lengths[c] += piece;
-    }
+    for (std::size_t i = 1; i < chains[c].size(); ++i) lengths[c] += pieces[at + i - 1];
     at += chains[c].size();
   }
   return lengths;

@@ -56,6 +56,7 @@ std::vector<std::array<double, 3>> edgeLengths(std::span<const Point> nodes,
                                                std::span<const std::array<std::uint32_t, 3>> triangles, const Crs& crs);
 
 // Length of each chain of points in metres along geodesics (in a plane: in its units).
-std::vector<double> chainLengths(const std::vector<std::vector<Point>>& chains, const Crs& crs);
+std::vector<double> chainLengths(const std::vector<std::vector<Point>>& chains, const Crs& crs,
+                                 const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

@@ -28,25 +28,33 @@ float roundedUp(double value) {
 
 }  // namespace
 
-GeoPackageIndex::GeoPackageIndex(std::uint32_t rows, std::function<IndexBox(std::uint32_t)> box, const ItemLoop& loop)
-    : box_(std::move(box)) {
+void GeoPackageIndex::Box::unite(const Box& other) {
+  low_x = std::min(low_x, other.low_x);
+  high_x = std::max(high_x, other.high_x);
+  low_y = std::min(low_y, other.low_y);
+  high_y = std::max(high_y, other.high_y);
+}
+
+GeoPackageIndex::Box GeoPackageIndex::outwards(const IndexBox& box) {
+  return {roundedDown(box.low.x), roundedUp(box.high.x), roundedDown(box.low.y), roundedUp(box.high.y)};
+}
+
+GeoPackageIndex::GeoPackageIndex(std::uint32_t rows, const std::function<IndexBox(std::uint32_t)>& box,
+                                 const ItemLoop& loop) {
   if (rows == 0) return;
-  TileOrder tiles = tileOrder(rows, kCells, box_, loop);
+  TileOrder tiles = tileOrder(rows, kCells, box, loop);
   order_ = std::move(tiles.rows);
   bounds_ = tiles.bounds;
   resizeAnew(loop, leaf_, rows);
-  forEachByStretches(loop, rows, [&](std::size_t i) { leaf_[order_[i]] = static_cast<std::uint32_t>(i / kCells); });
-  const auto unite = [](std::int64_t id, const std::vector<Cell>& cells) {
-    Cell all{id, cells.front().box};
-    for (const Cell& cell : cells)
-      for (std::size_t i = 0; i < 4; ++i)
-        all.box[i] = i % 2 == 0 ? std::min(all.box[i], cell.box[i]) : std::max(all.box[i], cell.box[i]);
-    return all;
-  };
+  boxes_ = std::make_unique_for_overwrite<Box[]>(rows);
+  forEachByStretches(loop, rows, [&](std::size_t i) {
+    leaf_[order_[i]] = static_cast<std::uint32_t>(i / kCells);
+    boxes_[i] = outwards(box(order_[i]));
+  });
   // Node 1 is the root; the others are numbered from the leaves up.
   std::uint64_t next = kRoot + 1;
-  for (std::size_t below = rows;;) {
-    const std::size_t count = (below + kCells - 1) / kCells, level = levels_.size();
+  for (;;) {
+    const std::size_t level = levels_.size(), below = cellsBelow(level), count = (below + kCells - 1) / kCells;
     levels_.push_back({count == 1 ? kRoot : next, std::vector<Cell>(count)});
     if (count == 1) break;
     Level& made = levels_.back();
@@ -54,12 +62,15 @@ GeoPackageIndex::GeoPackageIndex(std::uint32_t rows, std::function<IndexBox(std:
     forStretches(
         loop, count,
         [&](std::size_t first, std::size_t last) {
-          for (std::size_t i = first; i < last; ++i)
-            made.nodes[i] = unite(static_cast<std::int64_t>(made.first + i), cellsOf(level, i));
+          for (std::size_t i = first; i < last; ++i) {
+            Box all = cellAt(level, i * kCells).box;
+            for (std::size_t k = i * kCells + 1; k < std::min(below, (i + 1) * kCells); ++k)
+              all.unite(cellAt(level, k).box);
+            made.nodes[i] = {static_cast<std::int64_t>(made.first + i), all};
+          }
         },
         kWorthAStretch);
     next += count;
-    below = count;
   }
 }
 
@@ -76,33 +87,24 @@ std::size_t GeoPackageIndex::levelOf(std::uint64_t node) const {
   return level;
 }
 
-GeoPackageIndex::Cell GeoPackageIndex::cellOf(std::uint32_t row) const {
-  const IndexBox box = box_(row);
-  return {std::int64_t{row} + 1,
-          {roundedDown(box.low.x), roundedUp(box.high.x), roundedDown(box.low.y), roundedUp(box.high.y)}};
+// The k-th of the cells of a level's nodes.
+GeoPackageIndex::Cell GeoPackageIndex::cellAt(std::size_t level, std::size_t k) const {
+  if (level > 0) return levels_[level - 1].nodes[k];
+  return {std::int64_t{order_[k]} + 1, boxes_[k]};
 }
 
-// The cells of the i-th node of a level.
-std::vector<GeoPackageIndex::Cell> GeoPackageIndex::cellsOf(std::size_t level, std::uint64_t i) const {
-  std::vector<Cell> cells;
-  cells.reserve(kCells);
-  const std::size_t below = level == 0 ? order_.size() : levels_[level - 1].nodes.size();
-  for (std::size_t k = i * kCells; k < std::min<std::size_t>(below, (i + 1) * kCells); ++k)
-    cells.push_back(level == 0 ? cellOf(order_[k]) : levels_[level - 1].nodes[k]);
-  return cells;
-}
-
-std::array<std::byte, GeoPackageIndex::kNodeBytes> GeoPackageIndex::bytesOf(std::uint64_t node) const {
-  const std::size_t level = levelOf(node);
-  const std::vector<Cell> cells = cellsOf(level, node - levels_[level].first);
-  std::array<std::byte, kNodeBytes> bytes{};
+void GeoPackageIndex::putNode(std::uint64_t node, std::span<std::byte> bytes) const {
+  const std::size_t level = levelOf(node), first = (node - levels_[level].first) * kCells;
+  const std::size_t end = std::min(cellsBelow(level), first + kCells);
   std::byte* at = putBigEndian(bytes.data(), node == kRoot ? level : 0, 2);
-  at = putBigEndian(at, cells.size(), 2);
-  for (const Cell& cell : cells) {
-    at = putBigEndian(at, std::bit_cast<std::uint64_t>(cell.id), 8);
-    for (const float side : cell.box) at = putBigEndian(at, std::bit_cast<std::uint32_t>(side), 4);
+  at = putBigEndian(at, end - first, 2);
+  for (std::size_t k = first; k < end; ++k) {
+    const auto& [id, box] = cellAt(level, k);
+    at = putBigEndian(at, std::bit_cast<std::uint64_t>(id), 8);
+    for (const float side : {box.low_x, box.high_x, box.low_y, box.high_y})
+      at = putBigEndian(at, std::bit_cast<std::uint32_t>(side), 4);
   }
-  return bytes;
+  std::fill(at, bytes.data() + bytes.size(), std::byte{});
 }
 
 std::uint64_t GeoPackageIndex::parentOf(std::uint64_t node) const {
@@ -114,8 +116,7 @@ void GeoPackageIndex::addTables(const Roots& roots, std::vector<SqliteTable>& ta
   if (order_.empty()) return;
   tables.push_back({roots.nodes, countOfNodes(), 1, [this](std::uint64_t i, SqliteRow& row) {
                       row.null();
-                      if (const std::span<std::byte> to = row.blob(kNodeBytes); !to.empty())
-                        std::ranges::copy(bytesOf(i + 1), to.begin());
+                      if (const std::span<std::byte> to = row.blob(kNodeBytes); !to.empty()) putNode(i + 1, to);
                     }});
   tables.push_back({roots.rows, order_.size(), 1, [this](std::uint64_t i, SqliteRow& row) {
                       row.null();

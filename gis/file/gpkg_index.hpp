@@ -1,9 +1,10 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "core/item_loop.hpp"
@@ -24,7 +25,7 @@ class GeoPackageIndex {
   static constexpr std::size_t kNodeBytes = 1228;
 
   // `box(row)`, for row < `rows`, is the box of fid row + 1; called from several threads at the same time.
-  GeoPackageIndex(std::uint32_t rows, std::function<IndexBox(std::uint32_t row)> box, const ItemLoop& loop);
+  GeoPackageIndex(std::uint32_t rows, const std::function<IndexBox(std::uint32_t row)>& box, const ItemLoop& loop);
 
   // The box of all rows. REQUIRES: there is a row.
   const IndexBox& bounds() const { return bounds_; }
@@ -33,25 +34,34 @@ class GeoPackageIndex {
   void addTables(const Roots& roots, std::vector<SqliteTable>& tables) const;
 
  private:
+  // In the precision and order of the R*Tree's cells, rounded outwards.
+  struct Box {
+    float low_x, high_x, low_y, high_y;
+
+    void unite(const Box& other);
+  };
   struct Cell {
-    std::int64_t id = 0;
-    std::array<float, 4> box{};
+    std::int64_t id;
+    Box box;
   };
   struct Level {
     std::uint64_t first = 0;  // the number of its first node; others follow it
     std::vector<Cell> nodes;  // children of one parent are consecutive
   };
 
+  static Box outwards(const IndexBox& box);
   std::size_t levelOf(std::uint64_t node) const;
   std::uint64_t countOfNodes() const;
-  Cell cellOf(std::uint32_t row) const;
-  std::vector<Cell> cellsOf(std::size_t level, std::uint64_t i) const;
-  std::array<std::byte, kNodeBytes> bytesOf(std::uint64_t node) const;
+  std::size_t cellsBelow(std::size_t level) const {
+    return level == 0 ? order_.size() : levels_[level - 1].nodes.size();
+  }
+  Cell cellAt(std::size_t level, std::size_t k) const;
+  void putNode(std::uint64_t node, std::span<std::byte> bytes) const;
   std::uint64_t parentOf(std::uint64_t node) const;
 
-  std::function<IndexBox(std::uint32_t)> box_;
   IndexBox bounds_;
   std::vector<std::uint32_t> order_, leaf_;  // rows in the order of the leaves; the leaf of each row
+  std::unique_ptr<Box[]> boxes_;             // of the rows in the order of the leaves
   std::vector<Level> levels_;                // from the leaves to the root
 };
 

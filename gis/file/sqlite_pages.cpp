@@ -80,7 +80,7 @@ class PageNumbers {
 class PageFiller {
  public:
   PageFiller(std::byte* page, std::byte kind, std::size_t header) : page_(page), header_(header) {
-    std::fill_n(page, kPage, std::byte{});
+    std::fill_n(page, header, std::byte{});
     page_[0] = kind;
   }
   std::byte* cell(std::size_t size) {
@@ -91,6 +91,8 @@ class PageFiller {
   void finish() {
     putBigEndian(page_ + 3, cells_, 2);
     putBigEndian(page_ + 5, end_, 2);
+    const std::size_t used = header_ + kPointer * cells_;
+    std::fill_n(page_ + used, end_ - used, std::byte{});
   }
 
  private:
@@ -106,10 +108,11 @@ struct Leaves {
   std::uint64_t count() const { return first_row.size() - 1; }
 };
 
+// Each range of rows begins a leaf, so that all ranges are laid out at the same time.
 Leaves layOut(const SqliteTable& table, const std::string& path, const ItemLoop& loop) {
-  static_assert(kLargestSqliteRow <= std::numeric_limits<std::uint16_t>::max());
-  std::vector<std::uint16_t> sizes(table.rows);
-  forStretches(loop, table.rows, [&](std::size_t first, std::size_t last) {
+  const auto layOutRange = [&](std::size_t first, std::size_t last) {
+    std::vector<std::uint64_t> first_rows{first};
+    std::size_t used = kLeafHeader;
     SqliteRow row(SqliteRow::Keeps::Size);
     for (std::size_t i = first; i < last; ++i) {
       row.clear();
@@ -118,19 +121,16 @@ Leaves layOut(const SqliteTable& table, const std::string& path, const ItemLoop&
       if (size > kLargestSqliteRow)
         throw OutputError("cannot write '" + path + "': a row of " + std::to_string(size) + " bytes");
       const auto number = static_cast<std::uint64_t>(table.first) + i;
-      sizes[i] = static_cast<std::uint16_t>(size + varintSize(size) + varintSize(number) + kPointer);
+      const std::size_t cell = size + varintSize(size) + varintSize(number) + kPointer;
+      if (used + cell > kPage) {
+        first_rows.push_back(i);
+        used = kLeafHeader;
+      }
+      used += cell;
     }
-  });
-  Leaves leaves;
-  leaves.first_row.push_back(0);
-  std::size_t used = kLeafHeader;
-  for (std::uint64_t i = 0; i < table.rows; ++i) {
-    if (used + sizes[i] > kPage) {
-      leaves.first_row.push_back(i);
-      used = kLeafHeader;
-    }
-    used += sizes[i];
-  }
+    return first_rows;
+  };
+  Leaves leaves{joined(overStretches(loop, table.rows, layOutRange)), 0};
   leaves.first_row.push_back(table.rows);
   return leaves;
 }
@@ -259,24 +259,9 @@ struct DatabaseHeader {
 
 }  // namespace
 
-void SqliteRow::type(std::uint64_t serial) {
-  const std::span<std::byte> to = room(header_, header_size_, varintSize(serial));
-  if (!to.empty()) putVarint(to.data(), serial);
-}
-
-void SqliteRow::bigEndian(std::uint64_t value, unsigned bytes) {
-  const std::span<std::byte> to = room(body_, body_size_, bytes);
-  if (!to.empty()) putBigEndian(to.data(), value, bytes);
-}
-
-void SqliteRow::whole(std::int64_t value) {
-  if (value == 0 || value == 1) return type(value == 0 ? 8 : 9);
-  const auto bits = static_cast<std::uint64_t>(value);
-  const auto width = static_cast<unsigned>(std::bit_width(value < 0 ? ~bits : bits)) + 1;  // with the sign
-  constexpr std::array<unsigned, 6> kSizes{1, 2, 3, 4, 6, 8};
-  const auto size = std::ranges::find_if(kSizes, [&](unsigned bytes) { return width <= 8 * bytes; });
-  type(static_cast<std::uint64_t>(size - kSizes.begin()) + 1);
-  bigEndian(bits, *size);
+void SqliteRow::longType(std::uint64_t serial) {
+  if (header_size_ < kLargestSqliteRow) putVarint(header_.data() + header_size_, serial);
+  header_size_ += varintSize(serial);
 }
 
 // The header's length includes its own bytes: one, or two for headers of more than 127 bytes.

@@ -29,7 +29,7 @@ inline std::byte* putBigEndian(std::byte* to, std::uint64_t value, unsigned byte
 inline constexpr std::size_t kLargestSqliteRow = 4000;
 
 // A row of a table in SQLite's format ("Database File Format", 2.1): one value after another, in the table's order of
-// columns. A column that is the row's number is null. If only the size is requested, no value is stored.
+// columns. A column that is the row's number is null. If only the size is requested, texts and blobs are not stored.
 class SqliteRow {
  public:
   enum class Keeps { Values, Size };
@@ -37,7 +37,15 @@ class SqliteRow {
   explicit SqliteRow(Keeps keeps) : keeps_values_(keeps == Keeps::Values) {}
 
   void null() { type(0); }
-  void whole(std::int64_t value);
+  void whole(std::int64_t value) {
+    if (value == 0 || value == 1) return type(value == 0 ? 8 : 9);
+    // By the number of bytes, with the sign: the serial type, and the bytes stored.
+    constexpr std::array<std::uint8_t, 9> kSerial{0, 1, 2, 3, 4, 5, 5, 6, 6}, kStored{0, 1, 2, 3, 4, 6, 6, 8, 8};
+    const auto bits = static_cast<std::uint64_t>(value < 0 ? ~value : value);
+    const auto bytes = static_cast<std::size_t>(std::bit_width(bits)) / 8 + 1;
+    type(kSerial[bytes]);
+    bigEndian(static_cast<std::uint64_t>(value), kStored[bytes]);
+  }
   void real(double value) {
     type(7);
     bigEndian(std::bit_cast<std::uint64_t>(value), 8);
@@ -54,21 +62,30 @@ class SqliteRow {
   void copyTo(std::byte* bytes) const;
 
  private:
-  void type(std::uint64_t serial);
-  void bigEndian(std::uint64_t value, unsigned bytes);
+  static constexpr std::size_t kNumber = 8;  // numbers are stored as a whole, whatever their length
+
+  void type(std::uint64_t serial) {
+    if (serial >= 128) return longType(serial);
+    if (header_size_ < kLargestSqliteRow) header_[header_size_] = static_cast<std::byte>(serial);
+    ++header_size_;
+  }
+  void longType(std::uint64_t serial);
+  void bigEndian(std::uint64_t value, unsigned bytes) {
+    const std::uint64_t turned = __builtin_bswap64(value) >> (64 - 8 * bytes);
+    if (body_size_ < kLargestSqliteRow) std::memcpy(body_.data() + body_size_, &turned, kNumber);
+    body_size_ += bytes;
+  }
+  // The next bytes; empty if the row would be too large, or only the size is requested.
   std::span<std::byte> bytes(std::uint64_t serial, std::size_t size) {
     type(serial);
-    return room(body_, body_size_, size);
-  }
-  // The next bytes of a part; empty if the row would be too large, or only the size is requested.
-  std::span<std::byte> room(std::array<std::byte, kLargestSqliteRow>& part, std::size_t& used, std::size_t size) const {
-    const std::size_t at = std::exchange(used, used + size);
-    return keeps_values_ && used <= part.size() ? std::span(part).subspan(at, size) : std::span<std::byte>();
+    const std::size_t at = std::exchange(body_size_, body_size_ + size);
+    return keeps_values_ && body_size_ <= kLargestSqliteRow ? std::span(body_).subspan(at, size)
+                                                            : std::span<std::byte>();
   }
 
   bool keeps_values_;
   std::size_t header_size_ = 0, body_size_ = 0;
-  std::array<std::byte, kLargestSqliteRow> header_, body_;  // set as far as used
+  std::array<std::byte, kLargestSqliteRow + kNumber> header_, body_;  // set as far as used
 };
 
 // All rows of a table, numbered from `first`.

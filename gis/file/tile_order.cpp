@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <span>
 #include <utility>
 
@@ -12,7 +13,7 @@ namespace {
 
 // A row, and the middle of its box in units of 2^-32 of the bounds.
 struct Place {
-  std::uint32_t x = 0, y = 0, row = 0;
+  std::uint32_t x, y, row;
 };
 
 // Keys of 32 bits have three digits.
@@ -126,9 +127,9 @@ TileOrder tileOrder(std::uint32_t rows, std::size_t together, const std::functio
   TileOrder order{{}, boundsOf(rows, box, loop)};
   const auto& [low, high] = order.bounds;
   const Scale x(low.x, high.x), y(low.y, high.y);
-  std::vector<Place> places, dealt;
-  resizeAnew(loop, places, rows);
-  resizeAnew(loop, dealt, rows);
+  const auto memory = std::make_unique_for_overwrite<Place[]>(rows);
+  const auto spare = std::make_unique_for_overwrite<Place[]>(rows);
+  const std::span<Place> places(memory.get(), rows), dealt(spare.get(), rows);
   forEachByStretches(loop, rows, [&](std::size_t i) {
     const auto row = static_cast<std::uint32_t>(i);
     const IndexBox of = box(row);
@@ -141,8 +142,7 @@ TileOrder tileOrder(std::uint32_t rows, std::size_t together, const std::functio
   loop((rows + slice - 1) / slice, [&](std::size_t s) {
     const std::size_t from = s * slice, to = std::min<std::size_t>(rows, from + slice);
     const std::span<Place> sorted = sortByDigits(
-        std::span(dealt).subspan(from, to - from), std::span(places).subspan(from, to - from),
-        [](const Place& p) { return p.y; }, 3);
+        dealt.subspan(from, to - from), places.subspan(from, to - from), [](const Place& p) { return p.y; }, 3);
     for (std::size_t i = from; i < to; ++i) order.rows[i] = sorted[i - from].row;
   });
   return order;

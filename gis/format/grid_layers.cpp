@@ -12,9 +12,7 @@
 namespace coastmesh {
 namespace {
 
-LayerColumn idColumn() {
-  return {"id", LayerColumn::Whole([](std::size_t row) { return static_cast<std::int64_t>(row) + 1; })};
-}
+LayerColumn idColumn() { return {"id", LayerColumn::Whole()}; }
 
 // Adds a column with a text of the triangle's feature, unless all texts are empty.
 void addFeatureText(const Grid& grid, const std::string& name, std::vector<std::string_view> texts,
@@ -34,15 +32,10 @@ GridLayer triangleLayer(const Grid& grid) {
     const auto& [a, b, c] = grid.triangles[row];
     nodes.assign({a, b, c, a});
   };
-  for (std::size_t i = 0; i < 3; ++i)
-    layer.columns.push_back({std::string(kCornerColumns[i]), LayerColumn::Whole([&grid, i](std::size_t row) {
-                               return std::int64_t{grid.triangles[row][i]} + 1;
-                             })});
-  if (!grid.min_angle_deg.empty())
-    layer.columns.push_back(
-        {"min_angle", LayerColumn::Real([&grid](std::size_t row) { return grid.min_angle_deg[row]; })});
-  if (!grid.area_m2.empty())
-    layer.columns.push_back({"area_m2", LayerColumn::Real([&grid](std::size_t row) { return grid.area_m2[row]; })});
+  for (unsigned i = 0; i < 3; ++i)
+    layer.columns.push_back({std::string(kCornerColumns[i]), LayerColumn::Whole(grid.triangles, i)});
+  if (!grid.min_angle_deg.empty()) layer.columns.push_back({"min_angle", LayerColumn::Real(grid.min_angle_deg)});
+  if (!grid.area_m2.empty()) layer.columns.push_back({"area_m2", LayerColumn::Real(grid.area_m2)});
   if (grid.feature_of.empty()) return layer;
   layer.columns.push_back(
       {"src_fid", LayerColumn::Whole([&grid](std::size_t row) { return grid.features[grid.feature_of[row]].fid; })});
@@ -67,23 +60,21 @@ GridLayer nodeLayer(const Grid& grid) {
   layer.shapeOf = [](std::size_t row, std::vector<std::uint32_t>& nodes) {
     nodes.assign({static_cast<std::uint32_t>(row)});
   };
-  if (!grid.z.empty())
-    layer.columns.push_back({"z", LayerColumn::Real([&grid](std::size_t row) { return grid.z[row]; })});
-  if (!grid.size_m.empty())
-    layer.columns.push_back({"size", LayerColumn::Real([&grid](std::size_t row) { return grid.size_m[row]; })});
+  if (!grid.z.empty()) layer.columns.push_back({"z", LayerColumn::Real(grid.z)});
+  if (!grid.size_m.empty()) layer.columns.push_back({"size", LayerColumn::Real(grid.size_m)});
   return layer;
 }
 
 // Lengths of boundaries or lines in metres.
 template <typename Chain>
-std::vector<double> lengthsOf(const std::vector<Chain>& chains, const Grid& grid) {
+std::vector<double> lengthsOf(const std::vector<Chain>& chains, const Grid& grid, const ItemLoop& loop) {
   std::vector<std::vector<Point>> places;
   for (const Chain& chain : chains) {
     std::vector<Point>& made = places.emplace_back();
     for (const std::uint32_t node : chain.nodes) made.push_back(grid.nodes[node]);
     if (chain.closed && !made.empty()) made.push_back(made.front());
   }
-  return chainLengths(places, grid.crs);
+  return chainLengths(places, grid.crs, loop);
 }
 
 // A layer of boundaries or lines, with the id as its column. REQUIRES: `chains` outlive it.
@@ -98,28 +89,26 @@ GridLayer chainLayer(std::string_view name, const std::vector<Chain>& chains) {
 }
 
 template <typename Chain>
-void addClosedAndLength(const std::vector<Chain>& chains, const Grid& grid, GridLayer& layer) {
+void addClosedAndLength(const std::vector<Chain>& chains, const Grid& grid, const ItemLoop& loop, GridLayer& layer) {
   layer.columns.push_back({"closed", LayerColumn::Flag([&chains](std::size_t row) { return chains[row].closed; })});
-  layer.columns.push_back(
-      {"length_m", LayerColumn::Real([lengths = lengthsOf(chains, grid)](std::size_t row) { return lengths[row]; })});
+  layer.columns.push_back({"length_m", LayerColumn::Real(lengthsOf(chains, grid, loop))});
 }
 
-GridLayer boundaryLayer(const Grid& grid) {
+GridLayer boundaryLayer(const Grid& grid, const ItemLoop& loop) {
   GridLayer layer = chainLayer(kBoundaryLayer, grid.boundaries);
   constexpr std::size_t kLongestRole = std::string_view("island").size();
   layer.columns.push_back({"role",
                            LayerColumn::Text([&grid](std::size_t row) { return toString(grid.boundaries[row].role); }),
                            kLongestRole});
   if (std::ranges::any_of(grid.boundaries, [](const Boundary& boundary) { return boundary.ibtype >= 0; }))
-    layer.columns.push_back({"ibtype", LayerColumn::Whole([&grid](std::size_t row) -> std::optional<std::int64_t> {
-                               const int type = grid.boundaries[row].ibtype;
-                               return type >= 0 ? std::optional<std::int64_t>(type) : std::nullopt;
-                             })});
-  addClosedAndLength(grid.boundaries, grid, layer);
+    layer.columns.push_back(
+        {"ibtype", LayerColumn::Whole([&grid](std::size_t row) { return grid.boundaries[row].ibtype; },
+                                      [&grid](std::size_t row) { return grid.boundaries[row].ibtype < 0; })});
+  addClosedAndLength(grid.boundaries, grid, loop, layer);
   return layer;
 }
 
-GridLayer lineLayer(const Grid& grid) {
+GridLayer lineLayer(const Grid& grid, const ItemLoop& loop) {
   GridLayer layer = chainLayer(kLineLayer, grid.lines);
   constexpr std::size_t kLongestKind = std::string_view("region border").size();
   layer.columns.push_back(
@@ -130,15 +119,15 @@ GridLayer lineLayer(const Grid& grid) {
     layer.columns.push_back(
         {"name", LayerColumn::Text([&grid](std::size_t row) { return std::string_view(grid.lines[row].name); }),
          longest});
-  addClosedAndLength(grid.lines, grid, layer);
+  addClosedAndLength(grid.lines, grid, loop, layer);
   return layer;
 }
 
 }  // namespace
 
-std::vector<GridLayer> layersOf(const Grid& grid) {
-  std::vector<GridLayer> layers{triangleLayer(grid), nodeLayer(grid), boundaryLayer(grid)};
-  if (!grid.lines.empty()) layers.push_back(lineLayer(grid));
+std::vector<GridLayer> layersOf(const Grid& grid, const ItemLoop& loop) {
+  std::vector<GridLayer> layers{triangleLayer(grid), nodeLayer(grid), boundaryLayer(grid, loop)};
+  if (!grid.lines.empty()) layers.push_back(lineLayer(grid, loop));
   return layers;
 }
 

@@ -3,9 +3,11 @@
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <optional>
+#include <memory>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -16,10 +18,46 @@ namespace coastmesh {
 
 // The contents of a grid's GIS layers, for any file format. Columns and shapes refer to the grid they were made from.
 
+// Values that are in the grid's arrays are read from there, without a call for each.
 struct LayerColumn {
   using Flag = std::function<bool(std::size_t row)>;
-  using Whole = std::function<std::optional<std::int64_t>(std::size_t row)>;  // nullopt is null
-  using Real = std::function<double(std::size_t row)>;
+  class Whole {
+   public:
+    // Numbers of the rows, from 1.
+    Whole() = default;
+    // Ids of a corner of the triangles. REQUIRES: they outlive it.
+    Whole(const std::vector<std::array<std::uint32_t, 3>>& triangles, unsigned corner)
+        : triangles_(&triangles), corner_(corner) {}
+    explicit Whole(std::function<std::int64_t(std::size_t row)> value,
+                   std::function<bool(std::size_t row)> is_null = {})
+        : value_(std::move(value)), is_null_(std::move(is_null)) {}
+
+    bool isNull(std::size_t row) const { return is_null_ && is_null_(row); }
+    // REQUIRES: not null.
+    std::int64_t operator()(std::size_t row) const {
+      if (triangles_ != nullptr) return std::int64_t{(*triangles_)[row][corner_]} + 1;
+      return value_ ? value_(row) : static_cast<std::int64_t>(row) + 1;
+    }
+
+   private:
+    const std::vector<std::array<std::uint32_t, 3>>* triangles_ = nullptr;
+    unsigned corner_ = 0;
+    std::function<std::int64_t(std::size_t row)> value_;
+    std::function<bool(std::size_t row)> is_null_;
+  };
+  class Real {
+   public:
+    // REQUIRES: `values` outlive it.
+    explicit Real(std::span<const double> values) : values_(values) {}
+    explicit Real(std::vector<double>&& own)
+        : own_(std::make_shared<const std::vector<double>>(std::move(own))), values_(*own_) {}
+
+    double operator()(std::size_t row) const { return values_[row]; }
+
+   private:
+    std::shared_ptr<const std::vector<double>> own_;
+    std::span<const double> values_;
+  };
   using Text = std::function<std::string_view(std::size_t row)>;  // empty is null
 
   std::string name;  // at most ten characters, for the .dbf of a shapefile
@@ -49,7 +87,7 @@ inline constexpr std::array<std::string_view, 3> kCornerColumns = {"node1", "nod
 // region), nodes (id, z, size), boundaries (id, role, ibtype, closed, length_m) and, if there are any, lines (id, kind,
 // name, closed, length_m), ids from 1. Columns without values in the grid are left out; a triangle's `name` is the
 // first attribute of its feature that is called so, or else contains "name". REQUIRES: `grid` outlives the result.
-std::vector<GridLayer> layersOf(const Grid& grid);
+std::vector<GridLayer> layersOf(const Grid& grid, const ItemLoop& loop = inOrder);
 
 // The parts of a grid that layers hold.
 inline constexpr GridParts kLayerParts{

@@ -34,11 +34,10 @@ void writeValue(TextBlock& file, const LayerColumn& column, std::size_t row) {
   if (const auto* flag = std::get_if<LayerColumn::Flag>(&column.value)) {
     file << ((*flag)(row) ? "true" : "false");
   } else if (const auto* whole = std::get_if<LayerColumn::Whole>(&column.value)) {
-    const std::optional<std::int64_t> value = (*whole)(row);
-    if (value)
-      file << *value;
-    else
+    if (whole->isNull(row))
       file << "null";
+    else
+      file << (*whole)(row);
   } else if (const auto* real = std::get_if<LayerColumn::Real>(&column.value)) {
     const double value = (*real)(row);
     if (std::isfinite(value))
@@ -153,7 +152,7 @@ void writeLayer(const Grid& grid, const GridLayer& layer, const std::string& crs
 void writeGeoJson(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   const std::string crs_member = crsMember(grid.crs, path);
   const MapCutter cutter(grid);
-  for (const GridLayer& layer : layersOf(grid))
+  for (const GridLayer& layer : layersOf(grid, loop))
     writeLayer(grid, layer, crs_member, pathOfLayer(path, layer.name), cutter, loop);
 }
 

@@ -77,8 +77,10 @@ class LayerRows {
   IndexBox box(std::size_t row) const {
     if (layer_.shape == GridLayer::Shape::Point) return boxOf({&grid_.nodes[row], 1});
     const std::array<std::uint32_t, 3>& corners = grid_.triangles[row];
-    if (!map_.has_parts || !map_.cutter.cuts(corners)) return boxOf(cornersOf(row));
-    return boxOfParts(map_.cutter.partsOf(corners));
+    if (map_.has_parts && map_.cutter.cuts(corners)) return boxOfParts(map_.cutter.partsOf(corners));
+    const auto& [a, b, c] = cornersOf(row);
+    return {{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y})},
+            {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y})}};
   }
 
   // True if all rows are within `kLargestSqliteRow`.
@@ -154,10 +156,10 @@ class LayerRows {
     if (const auto* flag = std::get_if<LayerColumn::Flag>(&column.value)) {
       to.whole((*flag)(row) ? 1 : 0);
     } else if (const auto* whole = std::get_if<LayerColumn::Whole>(&column.value)) {
-      if (const std::optional<std::int64_t> value = (*whole)(row))
-        to.whole(*value);
-      else
+      if (whole->isNull(row))
         to.null();
+      else
+        to.whole((*whole)(row));
     } else if (const auto* real = std::get_if<LayerColumn::Real>(&column.value)) {
       if (const double value = (*real)(row); std::isnan(value))
         to.null();
@@ -253,6 +255,51 @@ void noteRows(Sql& sql, const GridLayer& layer, const IndexBox& box) {
           blob + "), max_y = ST_MaxY(" + blob + ") WHERE table_name = " + name);
 }
 
+// The box on the map of a row that OGR wrote.
+IndexBox boxOfShape(const Grid& grid, const MapCutter& cutter, const GridLayer& layer, std::uint32_t row) {
+  std::vector<std::uint32_t> nodes;
+  layer.shapeOf(row, nodes);
+  std::vector<Point> places;
+  const auto add = [&places](const auto& parts) {
+    for (const auto& part : parts) places.insert(places.end(), part.begin(), part.end());
+  };
+  if (layer.shape == GridLayer::Shape::Polygon && cutter.cuts({nodes[0], nodes[1], nodes[2]})) {
+    add(cutter.partsOf({nodes[0], nodes[1], nodes[2]}));
+  } else if (layer.shape == GridLayer::Shape::Line && cutter.cutsLine(nodes)) {
+    add(cutter.partsOfLine(nodes));
+  } else {
+    for (const std::uint32_t node : nodes) places.push_back(grid.nodes[node]);
+  }
+  return boxOf(places);
+}
+
+// Appends a layer's index and, unless OGR wrote them, its rows. `rows` is null if it did. A layer at a time, because the
+// indices of all need much memory.
+void appendLayer(const Grid& grid, const std::string& path, const MapCutter& cutter, const GridLayer& layer,
+                 const LayerRows* rows, const OgrErrors& errors, const ItemLoop& loop) {
+  DatasetPtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_UPDATE));
+  if (!dataset) failToWrite(path, errors);
+  Sql sql(*dataset, path, errors);
+  const std::string table = indexOf(layer);
+  if (sql.askNumber("SELECT length(data) FROM \"" + table + "_node\" WHERE nodeno = 1") != GeoPackageIndex::kNodeBytes)
+    throw OutputError("cannot write '" + path + "': SQLite made an index of another kind than was expected");
+  const auto box = [&](std::uint32_t row) {
+    return rows != nullptr ? rows->box(row) : boxOfShape(grid, cutter, layer, row);
+  };
+  const GeoPackageIndex index(static_cast<std::uint32_t>(layer.rows), box, loop);
+  std::vector<SqliteTable> tables;
+  if (rows != nullptr) {
+    const auto srs_id = static_cast<std::int32_t>(
+        std::stoll(sql.ask("SELECT srs_id FROM gpkg_geometry_columns WHERE table_name = '" + layer.name + "'")));
+    tables.push_back({sql.rootOf(layer.name), layer.rows, 1,
+                      [rows, srs_id](std::uint64_t row, SqliteRow& to) { rows->make(row, srs_id, to); }});
+    noteRows(sql, layer, index.bounds());
+  }
+  index.addTables({sql.rootOf(table + "_node"), sql.rootOf(table + "_rowid"), sql.rootOf(table + "_parent")}, tables);
+  closeDataset(std::move(dataset), path, errors);
+  writeSqliteTables(path, tables, loop);
+}
+
 }  // namespace
 
 // OGR makes the file, its tables and the short layers; rows of triangles and nodes, and the indices of all layers, are
@@ -265,7 +312,7 @@ void writeGeoPackage(const Grid& grid, const std::string& path, const ItemLoop& 
   const OgrOption synchronous("OGR_SQLITE_SYNCHRONOUS", "OFF");
   // Without this name OGR calls a plane an undefined geographic CRS.
   const OgrWriter writer{"GPKG", {"SPATIAL_INDEX=NO"}, false, "LOCAL_CS[\"Undefined Cartesian SRS\"]"};
-  const std::vector<GridLayer> layers = layersOf(grid);
+  const std::vector<GridLayer> layers = layersOf(grid, loop);
   std::vector<std::unique_ptr<LayerRows>> rows_of;  // null: OGR writes them
   for (const GridLayer& layer : layers) {
     const bool many = layer.shape != GridLayer::Shape::Line && layer.rows > 0;
@@ -279,49 +326,9 @@ void writeGeoPackage(const Grid& grid, const std::string& path, const ItemLoop& 
     createLayerWithIndex(*dataset, path, writer, grid, layers[i], rows_of[i] == nullptr, errors);
   if (dataset->CommitTransaction() != OGRERR_NONE) failToWrite(path, errors);
   closeDataset(std::move(dataset), path, errors);
-
-  dataset.reset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_UPDATE));
-  if (!dataset) failToWrite(path, errors);
-  Sql sql(*dataset, path, errors);
-  std::vector<SqliteTable> tables;
-  std::vector<std::unique_ptr<GeoPackageIndex>> indices;
   const MapCutter cutter(grid);
-  for (std::size_t i = 0; i < layers.size(); ++i) {
-    const GridLayer& layer = layers[i];
-    std::function<IndexBox(std::uint32_t)> box = [&grid, &cutter, &layer](std::uint32_t row) {
-      std::vector<std::uint32_t> nodes;
-      layer.shapeOf(row, nodes);
-      std::vector<Point> places;
-      const auto add = [&places](const auto& parts) {
-        for (const auto& part : parts) places.insert(places.end(), part.begin(), part.end());
-      };
-      if (layer.shape == GridLayer::Shape::Polygon && cutter.cuts({nodes[0], nodes[1], nodes[2]})) {
-        add(cutter.partsOf({nodes[0], nodes[1], nodes[2]}));
-      } else if (layer.shape == GridLayer::Shape::Line && cutter.cutsLine(nodes)) {
-        add(cutter.partsOfLine(nodes));
-      } else {
-        for (const std::uint32_t node : nodes) places.push_back(grid.nodes[node]);
-      }
-      return boxOf(places);
-    };
-    if (const LayerRows* const rows = rows_of[i].get()) {
-      box = [rows](std::uint32_t row) { return rows->box(row); };
-      const auto srs_id = static_cast<std::int32_t>(
-          std::stoll(sql.ask("SELECT srs_id FROM gpkg_geometry_columns WHERE table_name = '" + layer.name + "'")));
-      tables.push_back({sql.rootOf(layer.name), layer.rows, 1,
-                        [rows, srs_id](std::uint64_t row, SqliteRow& to) { rows->make(row, srs_id, to); }});
-    }
-    const std::string index = indexOf(layer);
-    if (sql.askNumber("SELECT length(data) FROM \"" + index + "_node\" WHERE nodeno = 1") !=
-        GeoPackageIndex::kNodeBytes)
-      throw OutputError("cannot write '" + path + "': SQLite made an index of another kind than was expected");
-    indices.push_back(std::make_unique<GeoPackageIndex>(static_cast<std::uint32_t>(layer.rows), std::move(box), loop));
-    if (rows_of[i]) noteRows(sql, layer, indices.back()->bounds());
-    indices.back()->addTables(
-        {sql.rootOf(index + "_node"), sql.rootOf(index + "_rowid"), sql.rootOf(index + "_parent")}, tables);
-  }
-  closeDataset(std::move(dataset), path, errors);
-  writeSqliteTables(path, tables, loop);
+  for (std::size_t i = 0; i < layers.size(); ++i)
+    appendLayer(grid, path, cutter, layers[i], rows_of[i].get(), errors, loop);
 }
 
 namespace {

@@ -41,11 +41,10 @@ void setField(OGRFeature& feature, int index, const LayerColumn& column, std::si
   if (const auto* flag = std::get_if<LayerColumn::Flag>(&column.value)) {
     feature.SetField(index, (*flag)(row) ? 1 : 0);
   } else if (const auto* whole = std::get_if<LayerColumn::Whole>(&column.value)) {
-    const std::optional<std::int64_t> value = (*whole)(row);
-    if (value)
-      feature.SetField(index, static_cast<GIntBig>(*value));
-    else
+    if (whole->isNull(row))
       feature.SetFieldNull(index);
+    else
+      feature.SetField(index, static_cast<GIntBig>((*whole)(row)));
   } else if (const auto* real = std::get_if<LayerColumn::Real>(&column.value)) {
     const double value = (*real)(row);
     if (std::isnan(value))

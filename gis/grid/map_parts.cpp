@@ -160,12 +160,17 @@ bool hasArea(const Way& way) {
 MapCutter::MapCutter(const Grid& grid) : grid_(grid) {
   if (!grid.crs.geographic || grid.nodes.empty()) return;
   double low = grid.nodes[0].x, high = low;
+  bool has_pole = false;
   for (const Point& p : grid.nodes) {
-    if (isPole(p)) continue;  // has any longitude
+    if (isPole(p)) {  // has any longitude
+      has_pole = true;
+      continue;
+    }
     low = std::min(low, p.x);
     high = std::max(high, p.x);
   }
-  if (high - low > kTurn) return;
+  const bool can_cut = has_pole || high - low >= kTurn / 2;
+  if (!can_cut || high - low > kTurn) return;
   // `lon`, by whole turns, between the eastern end of the nodes and their western end a turn later, if it is there.
   const auto within = [&](double lon) {
     const double end = lon + kTurn * std::ceil((high - lon) / kTurn);

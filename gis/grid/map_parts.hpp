@@ -16,7 +16,8 @@ namespace coastmesh {
 class MapCutter {
  public:
   // REQUIRES: `grid` outlives it. Longitudes end outside the range of the nodes: at 180, else at 0 degrees if possible,
-  // else in the middle of the gap. If the nodes span more than a turn, nothing is cut.
+  // else in the middle of the gap. If the nodes span more than a turn, or less than half a turn without a pole, nothing
+  // is cut.
   explicit MapCutter(const Grid& grid);
 
   // True if the triangle on the map is not its corners joined by straight lines.
