@@ -18,7 +18,9 @@
 #include "gis/crs/handedness.hpp"
 #include "gis/error.hpp"
 #include "gis/for_count.hpp"
+#include "gis/format/grid_io.hpp"
 #include "gis/format/poly_io.hpp"
+#include "gis/read/open_source.hpp"
 #include "gis/read/raw_layer.hpp"
 
 namespace coastmesh {
@@ -85,6 +87,14 @@ void forgetImpossibleCrs(Coastline& coastline, ReadReport& report) {
   coastline.crs = {};
 }
 
+bool isMesh(const std::string& path) {
+  try {
+    return !readGrid(path).triangles.empty();
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 SnapDistance snapDistanceOf(const InputOptions& options, const Crs& crs) {
   const bool in_plane = options.crs == "plane" || crs.isPlane();
   return {in_plane && !options.snap_in_plane ? 0.0 : options.snap_m, in_plane};
@@ -97,10 +107,16 @@ bool isPlaneGraph(const InputOptions& options) {
 }
 
 Coastline readInput(const InputOptions& options, ReadReport& report, BoundaryRules& boundaries) {
-  Coastline coastline = readCoastline(
-      sourcesOf(options), options.filter, report,
-      [&](const std::vector<RawLayer>& layers) { boundaries.addInput(layers, options.boundary_column); },
-      [&](const Crs& crs) { return snapDistanceOf(options, crs); });
+  Coastline coastline;
+  try {
+    coastline = readCoastline(
+        sourcesOf(options), options.filter, report,
+        [&](const std::vector<RawLayer>& layers) { boundaries.addInput(layers, options.boundary_column); },
+        [&](const Crs& crs) { return snapDistanceOf(options, crs); });
+  } catch (const NotVectorError& error) {
+    if (!isMesh(error.file)) throw;
+    throw InputError(error.file + ": a mesh, not a coastline; convert, check, info and plot read meshes");
+  }
   if (!options.boundary_column.empty() && !options.may_lack_column)
     boundaries.requireInputColumn(options.boundary_column);
   if (options.crs == "plane") forgetImpossibleCrs(coastline, report);

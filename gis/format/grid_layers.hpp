@@ -13,6 +13,7 @@
 
 #include "gis/grid/grid.hpp"
 #include "gis/grid/grid_parts.hpp"
+#include "gis/mesh_layers.hpp"
 
 namespace coastmesh {
 
@@ -75,13 +76,6 @@ struct GridLayer {
   // Stores the nodes of the row's shape in `nodes`; closed shapes repeat their first node.
   std::function<void(std::size_t row, std::vector<std::uint32_t>& nodes)> shapeOf;
 };
-
-inline constexpr std::string_view kTriangleLayer = "triangles", kNodeLayer = "nodes", kBoundaryLayer = "boundaries",
-                                  kLineLayer = "lines";
-
-// Columns of the triangles' layer: the ids of a triangle's nodes, counter-clockwise. Polygons do not determine which of
-// several nodes at a place is meant, nor the winding, since shapefiles reverse it.
-inline constexpr std::array<std::string_view, 3> kCornerColumns = {"node1", "node2", "node3"};
 
 // The layers in this order: triangles (id, node1, node2, node3, min_angle in degrees, area_m2, src_fid, source, name,
 // region), nodes (id, z, size), boundaries (id, role, ibtype, closed, length_m) and, if there are any, lines (id, kind,

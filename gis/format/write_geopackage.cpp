@@ -273,8 +273,8 @@ IndexBox boxOfShape(const Grid& grid, const MapCutter& cutter, const GridLayer& 
   return boxOf(places);
 }
 
-// Appends a layer's index and, unless OGR wrote them, its rows. `rows` is null if it did. A layer at a time, because the
-// indices of all need much memory.
+// Appends a layer's index and its rows; `rows` is null if OGR wrote those. One layer at a time: the indices of all need
+// much memory.
 void appendLayer(const Grid& grid, const std::string& path, const MapCutter& cutter, const GridLayer& layer,
                  const LayerRows* rows, const OgrErrors& errors, const ItemLoop& loop) {
   DatasetPtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_UPDATE));

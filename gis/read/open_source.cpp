@@ -174,7 +174,7 @@ std::string pathForOgr(const std::string& path, const std::vector<std::string>& 
   // GDAL does not open a file that is one odd geometry, and does not report where it is odd.
   if (const std::optional<std::string> odd = why.empty() ? std::nullopt : oddGeojson(path))
     throw InputError(name + ", " + *odd + ": repair or remove this feature");
-  throw InputError(name + ": not a vector file that GDAL can read" + why);
+  throw NotVectorError(name, name + ": not a vector file that GDAL can read" + why);
 }
 
 // Splits "file|layer" into file and layer, unless a file has the whole name.
@@ -196,6 +196,7 @@ OpenSource openSource(const std::string& given, const std::vector<std::string>& 
   source.name = isStandardInput(file) ? "standard input" : file;
   std::vector<std::string> names = wanted;
   if (!layer_of_file.empty()) names = {layer_of_file};
+  source.names_layers = !names.empty();
   const std::string path = pathForOgr(file, names);
   source.dataset.reset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
   if (!source.dataset) refuse(source.name, path, errors);

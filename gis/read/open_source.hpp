@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gis/crs/ogr_support.hpp"
+#include "gis/error.hpp"
 
 namespace coastmesh {
 
@@ -17,6 +18,14 @@ struct OpenSource {
   std::string name;  // as errors name it
   std::unique_ptr<GDALDataset> dataset;
   std::vector<OGRLayer*> layers;
+  bool names_layers = false;  // they were named; otherwise they are all of the source
+};
+
+// OGR does not open `file` as a vector source.
+struct NotVectorError : InputError {
+  NotVectorError(const std::string& of_file, const std::string& text) : InputError(text), file(of_file) {}
+
+  std::string file;
 };
 
 // Opens whatever OGR can open: files, folders, URLs and its own "/vsi…" paths. Also opens "-" (standard input), other

@@ -11,6 +11,7 @@
 #include "gis/crs/crs_from_ogr.hpp"
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
+#include "gis/mesh_layers.hpp"
 #include "gis/read/bare_geojson.hpp"
 #include "gis/read/cleaned_file.hpp"
 #include "gis/read/ogr_geometry.hpp"
@@ -199,6 +200,22 @@ std::vector<RawLayer> finishAll(std::vector<LayerReader>& readers, const std::st
   return raw;
 }
 
+// A mesh given as a coastline by mistake would make a feature of each triangle. Throws InputError, unless the layer was
+// named.
+void refuseMesh(const OpenSource& source) {
+  if (source.names_layers) return;
+  for (OGRLayer* layer : source.layers) {
+    const auto has = [row = layer->GetLayerDefn()](std::string_view column) {
+      return row->GetFieldIndex(std::string(column).c_str()) >= 0;
+    };
+    if (!std::ranges::all_of(kCornerColumns, has)) continue;
+    const std::string name = layer->GetName();
+    throw InputError(source.name + ": layer '" + name +
+                     "' has the triangles of a mesh, which convert, check, info and " + "plot read; --layer " + name +
+                     " takes each as a polygon");
+  }
+}
+
 }  // namespace
 
 std::vector<RawLayer> readLayers(const Source& given, const ReadFilter& filter, ReadReport& report) {
@@ -219,6 +236,7 @@ std::vector<RawLayer> readLayers(const Source& given, const ReadFilter& filter, 
   const OgrOption what_is_left_out("CPL_DEBUG", "GeoJSON");
   const OpenSource source = openSource(given.path, filter.layers, errors);
   refuseOddGeojson(source, errors);
+  if (given.use == FeatureUse::Area) refuseMesh(source);
   if (!filtered) {
     if (std::optional<std::vector<RawLayer>> cleaned = readCleaned(source, given.use, errors, report))
       return std::move(*cleaned);
