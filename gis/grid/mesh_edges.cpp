@@ -72,32 +72,33 @@ void halve(std::vector<Block>& blocks, Stretches& stretches) {
   stretches.count /= 2;
 }
 
-// Edges of a stretch, some of them twice.
-using EdgeLists = std::vector<std::vector<Edge>>;
-
 // The edges of each stretch that far more blocks have an edge in than in others, as in that of the shore's nodes if
 // rows of triangles end there; none for other stretches. One thread would go through nearly all triangles for them.
-std::vector<EdgeLists> widespreadEdges(const std::vector<Block>& blocks, const Stretches& stretches,
-                                       const ItemLoop& loop) {
-  constexpr std::size_t kFarMore = 4, kBlocksAtOnce = 64;
-  std::vector<EdgeLists> edges(stretches.count);
+// Some are there twice. Counted first: one list for each range of blocks would keep more memory.
+std::vector<std::vector<Edge>> widespreadEdges(const std::vector<Block>& blocks, const Stretches& stretches,
+                                               const ItemLoop& loop) {
+  constexpr std::size_t kFarMore = 4, kRanges = 256;
+  std::vector<std::vector<Edge>> edges(stretches.count);
   const std::uint64_t visits = visitsOf(blocks);
   for (std::size_t s = 0; s < stretches.count; ++s) {
     const auto own = std::ranges::count_if(blocks, [&](const Block& block) { return block.has(s); });
     if (static_cast<std::uint64_t>(own) * stretches.count <= kFarMore * visits) continue;
-    edges[s] = overStretches(
-        loop, blocks.size(),
-        [&](std::size_t first, std::size_t last) {
-          std::vector<Edge> some;
-          for (std::size_t b = first; b < last; ++b) {
-            if (!blocks[b].has(s)) continue;
-            forEachEdge(blocks[b].triangles, [&](std::uint32_t low, std::uint32_t high) {
-              if (low >= stretches.begin(s) && low < stretches.begin(s + 1)) some.push_back({low, high});
-            });
-          }
-          return some;
-        },
-        kBlocksAtOnce);
+    const auto forEachOwn = [&](std::size_t range, const auto& use) {
+      for (std::size_t b = blocks.size() * range / kRanges; b < blocks.size() * (range + 1) / kRanges; ++b) {
+        if (!blocks[b].has(s)) continue;
+        forEachEdge(blocks[b].triangles, [&](std::uint32_t low, std::uint32_t high) {
+          if (low >= stretches.begin(s) && low < stretches.begin(s + 1)) use(Edge{low, high});
+        });
+      }
+    };
+    std::vector<std::size_t> next(kRanges + 1, 0);
+    loop(kRanges, [&](std::size_t r) { forEachOwn(r, [&](const Edge&) { ++next[r + 1]; }); });
+    std::inclusive_scan(next.begin(), next.end(), next.begin());
+    edges[s].resize(next.back());
+    loop(kRanges, [&](std::size_t r) {
+      std::size_t at = next[r];
+      forEachOwn(r, [&](const Edge& edge) { edges[s][at++] = edge; });
+    });
   }
   return edges;
 }
@@ -110,11 +111,10 @@ struct NodeEdges {
 
 // `known`: its edges, if they have been listed.
 NodeEdges edgesOfStretch(const std::vector<Block>& blocks, const Stretches& stretches, std::size_t stretch,
-                         const EdgeLists& known) {
+                         std::span<const Edge> known) {
   const std::size_t first = stretches.begin(stretch), nodes = stretches.begin(stretch + 1) - first;
   const auto forEachOwn = [&](const auto& use) {
-    for (const std::vector<Edge>& some : known)
-      for (const auto& [low, high] : some) use(low - first, high);
+    for (const auto& [low, high] : known) use(low - first, high);
     if (!known.empty()) return;
     for (const Block& block : blocks) {
       if (!block.has(stretch)) continue;
@@ -154,11 +154,11 @@ std::vector<Edge> uniqueEdges(std::size_t nodes, Triangles triangles, const Item
   std::vector<Block> blocks = blocksOf(triangles, stretches, loop);
   while (stretches.count > 1 && visitsOf(blocks) > kMostVisits * blocks.size()) halve(blocks, stretches);
 
-  std::vector<EdgeLists> known = widespreadEdges(blocks, stretches, loop);
+  std::vector<std::vector<Edge>> known = widespreadEdges(blocks, stretches, loop);
   std::vector<NodeEdges> parts(stretches.count);
   loop(parts.size(), [&](std::size_t s) {
     parts[s] = edgesOfStretch(blocks, stretches, s, known[s]);
-    known[s] = {};
+    freeMemoryOf(known[s]);
   });
   std::vector<std::size_t> before(parts.size() + 1, 0);
   for (std::size_t s = 0; s < parts.size(); ++s) before[s + 1] = before[s] + parts[s].begin.back();
