@@ -13,6 +13,16 @@
 
 namespace coastmesh {
 
+namespace {
+
+// Most triangles that are copied into their new order. That takes a third of the time; moving in place takes no memory,
+// which matters for large meshes.
+constexpr std::size_t kMostCopied = 2'000'000;
+
+VertexId lastCorner(const Triangle& t) { return std::max({t.v[0], t.v[1], t.v[2]}); }
+
+}  // namespace
+
 EditMesh::EditMesh(TriMesh&& mesh)
     : LinkedTriangles{std::move(mesh.triangles)},
       points_(std::move(mesh.points)),
@@ -33,7 +43,8 @@ EditMesh::EditMesh(TriMesh&& mesh)
   }
 }
 
-TriMesh EditMesh::release(Renumbering& by, bool along_curve) {
+// Numbers the vertices, and moves the points to their numbers.
+void EditMesh::numberVertices(std::vector<VertexId>& number, bool along_curve) {
   // Along Hilbert's curve, neighbours in the plane are close in memory.
   std::vector<VertexId> order;
   if (along_curve) {
@@ -42,7 +53,6 @@ TriMesh EditMesh::release(Renumbering& by, bool along_curve) {
     order.resize(points_.size());
     std::iota(order.begin(), order.end(), VertexId{0});
   }
-  std::vector<VertexId>& number = by.vertex;
   number.assign(points_.size(), kNone);
   std::iota(number.begin(), number.begin() + input_vertices_, VertexId{0});
   std::vector<Point> steiner;
@@ -54,30 +64,69 @@ TriMesh EditMesh::release(Renumbering& by, bool along_curve) {
   }
   points_.resize(input_vertices_ + steiner.size());
   std::ranges::copy(steiner, points_.begin() + input_vertices_);
+}
 
-  // Triangles are ordered by their last vertex.
-  std::vector<TriId> first(points_.size() + 1, 0);
-  for (Triangle& t : triangles) {
-    if (t.v[0] == kNone) continue;
-    for (VertexId& v : t.v) v = number[v];
-    ++first[std::max({t.v[0], t.v[1], t.v[2]}) + 1];
-  }
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  const std::size_t count = first.back();
-  std::vector<TriId>& slot = by.triangle;
-  slot.assign(triangles.size(), kNone);
-  for (TriId t = 0; t < triangles.size(); ++t) {
-    const auto& v = triangles[t].v;
-    if (v[0] != kNone) slot[t] = first[std::max({v[0], v[1], v[2]})]++;
-  }
-  moveTriangles(slot, count);
+TriMesh EditMesh::released() {
   assert(findBrokenLink(triangles) == kNone);
-
   TriMesh mesh;
   mesh.input_vertices = input_vertices_;
   mesh.points = std::move(points_);
   mesh.triangles = std::move(triangles);
   return mesh;
+}
+
+TriMesh EditMesh::release(Renumbering& by, bool along_curve) {
+  numberVertices(by.vertex, along_curve);
+  // Triangles are ordered by their last vertex.
+  std::vector<TriId> first(points_.size() + 1, 0);
+  for (Triangle& t : triangles) {
+    if (t.v[0] == kNone) continue;
+    for (VertexId& v : t.v) v = by.vertex[v];
+    ++first[lastCorner(t) + 1];
+  }
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  const std::size_t count = first.back();
+  std::vector<TriId>& slot = by.triangle;
+  slot.assign(triangles.size(), kNone);
+  for (TriId t = 0; t < triangles.size(); ++t)
+    if (isLive(t)) slot[t] = first[lastCorner(triangles[t])]++;
+  moveTriangles(slot, count);
+  return released();
+}
+
+TriMesh EditMesh::releaseOn(const ItemLoop& loop, Renumbering& by) {
+  numberVertices(by.vertex, false);
+  std::vector<TriId> first(points_.size() + 1, 0);
+  forEachByStretches(loop, triangles.size(), [&](std::size_t t) {
+    if (triangles[t].v[0] == kNone) return;
+    for (VertexId& v : triangles[t].v) v = by.vertex[v];
+    __atomic_fetch_add(&first[lastCorner(triangles[t]) + 1], 1, __ATOMIC_RELAXED);
+  });
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  // Threads reach the triangles of a vertex in any order: they are sorted afterwards.
+  std::vector<TriId> next(first.begin(), first.end() - 1), in_order;
+  resizeAnew(loop, in_order, first.back());
+  forEachByStretches(loop, triangles.size(), [&](std::size_t t) {
+    if (triangles[t].v[0] == kNone) return;
+    in_order[__atomic_fetch_add(&next[lastCorner(triangles[t])], 1, __ATOMIC_RELAXED)] = static_cast<TriId>(t);
+  });
+  by.triangle.assign(triangles.size(), kNone);
+  forEachByStretches(loop, points_.size(), [&](std::size_t v) {
+    std::sort(in_order.begin() + first[v], in_order.begin() + first[v + 1]);
+    for (TriId slot = first[v]; slot < first[v + 1]; ++slot) by.triangle[in_order[slot]] = slot;
+  });
+  if (first.back() > kMostCopied) {
+    moveTriangles(by.triangle, first.back());
+    return released();
+  }
+  std::vector<Triangle> moved;
+  resizeAnew(loop, moved, first.back());
+  forEachByStretches(loop, moved.size(), [&](std::size_t slot) {
+    moved[slot] = renumbered(
+        triangles[in_order[slot]], [&](TriId t) { return by.triangle[t]; }, std::identity());
+  });
+  triangles = std::move(moved);
+  return released();
 }
 
 // Moves every live triangle to its slot; there are `count` slots.
@@ -86,8 +135,6 @@ void EditMesh::moveTriangles(const std::vector<TriId>& slot, std::size_t count) 
     return renumbered(
         t, [&](TriId n) { return slot[n]; }, std::identity());
   };
-  // Copying takes a third of the time; moving in place takes no memory, which matters for large meshes.
-  constexpr std::size_t kMostCopied = 2'000'000;
   if (count <= kMostCopied) {
     std::vector<Triangle> in_order(count);
     for (TriId t = 0; t < triangles.size(); ++t)

@@ -62,6 +62,8 @@ class EditMesh : private LinkedTriangles {
   }
   // The same, and the new numbers; without `along_curve` Steiner points keep their order.
   TriMesh release(Renumbering& by, bool along_curve);  // the mesh is empty afterwards
+  // The same for a large mesh, by all threads: without `along_curve`.
+  TriMesh releaseOn(const ItemLoop& loop, Renumbering& by);
 
   const Point& point(VertexId v) const { return points_[v]; }
   const Point& corner(TriId t, unsigned i) const { return points_[triangles[t].v[i]]; }
@@ -159,7 +161,9 @@ class EditMesh : private LinkedTriangles {
   void kill(TriId t);
   void noteCorners(TriId t);
   void forgetCorners(TriId t);
+  void numberVertices(std::vector<VertexId>& number, bool along_curve);
   void moveTriangles(const std::vector<TriId>& slot, std::size_t count);
+  TriMesh released();
   void flipStack(std::vector<TriId>& touched);
   void collectConflicts(const Point& x, std::span<const EdgeRef> across, Patch& cavity) const;
   bool appendSide(EdgeRef side, const Point& x, Patch& cavity) const;

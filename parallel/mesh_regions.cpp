@@ -274,6 +274,7 @@ void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opt
   RoundsWorkspace workspace;
   workspace.helpers = helpers;
   workspace.keeper = keeper ? &*keeper : nullptr;
+  workspace.has_cores = !seeds.cores.empty();
   // Begins a stage, with the results of those before it; false if an earlier run has completed it.
   const auto begins = [&](RoundsStage stage) {
     if (!keeper) return true;

@@ -1,10 +1,12 @@
 #include "parallel/partition.hpp"
 
 #include <oneapi/tbb/parallel_invoke.h>
+#include <oneapi/tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 
 #include "core/metric.hpp"
 
@@ -17,6 +19,19 @@ struct Sample {
   std::array<double, 2> at;
   double weight;
 };
+
+// The weight comes last, so that the order does not depend on how the sort divides its work.
+void sortAlong(unsigned axis, std::span<Sample> samples) {
+  constexpr std::size_t kWorthThreads = 4096;
+  const auto isBefore = [axis](const Sample& s, const Sample& t) {
+    return std::tuple(s.at[axis], s.at[1 - axis], s.weight) < std::tuple(t.at[axis], t.at[1 - axis], t.weight);
+  };
+  if (samples.size() < kWorthThreads) {
+    std::ranges::sort(samples, isBefore);
+  } else {
+    tbb::parallel_sort(samples.begin(), samples.end(), isBefore);
+  }
+}
 
 // Builds the tree of cuts, splitting samples.
 class CutTreeBuilder {
@@ -38,7 +53,7 @@ class CutTreeBuilder {
       }
     }
     const unsigned axis = high[0] - low[0] >= high[1] - low[1] ? 0 : 1;
-    std::ranges::sort(samples, {}, [axis](const Sample& s) { return std::pair(s.at[axis], s.at[1 - axis]); });
+    sortAlong(axis, samples);
     const PieceId lower = pieces / 2;
     const double share = whole * lower / pieces;
     std::size_t middle = 0;

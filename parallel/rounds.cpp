@@ -49,6 +49,12 @@ constexpr int kMostRounds = 8;
 // Bad triangles that a step may leave to the next. A larger number leaves single-threaded work, a smaller one takes
 // rounds that do hardly anything.
 constexpr double kFewDue = 200.0;
+// In a mesh of more triangles, bad ones this close to a core, in edges, wait for its insertion: its frozen edges stay
+// in every round, and keep nearly all of them from being mended. With fewer, further rounds take next to no time.
+constexpr std::size_t kWorthWaiting = 300'000;
+constexpr unsigned kEdgesBesideCores = 3;
+// Other bad triangles that then wait too, as a share of all triangles: fewer are not worth a round.
+constexpr double kFewWithCores = 1e-4;
 // In a mesh of fewer triangles, what pieces of the last rounds could not repair is tried again uncut.
 constexpr std::size_t kSmallMesh = 1'000'000;
 // Rounds after the first work within this many edges of due triangles and vertices, and leave the rest of the mesh in
@@ -144,6 +150,7 @@ class Rounds {
   MeshState& whole() { return whole_; }
   Recorder& recorder() { return recorder_; }
   RefineStats& stats() { return tally_.stats; }
+  bool hasCores() const { return workspace_.has_cores; }
 
   // Restores the state that an earlier run saved, and returns its next round; nullopt if there is none.
   std::optional<RoundPlace> goOn() {
@@ -378,9 +385,19 @@ bool isNearlyFull(Rounds& run, const RefineOptions& options) {
   return run.stats().budget_reached && options.max_vertices - std::min(options.max_vertices, vertices) < kFewVertices;
 }
 
+// True if there is a frozen edge within this many edges of a triangle.
+bool isBesideFrozen(const TriMesh& mesh, TriId t, unsigned edges) {
+  const Triangle& tri = mesh.triangle(t);
+  return std::ranges::find(tri.seg, kFrozen) != tri.seg.end() ||
+         (edges > 0 && std::ranges::any_of(tri.adj, [&](EdgeRef twin) {
+            return twin != kNone && isBesideFrozen(mesh, triOf(twin), edges - 1);
+          }));
+}
+
 // The rounds of one step, from round `first` on. `whole_first`: the step is a single uncut round. `mends`: the step
-// must leave nothing due, and its last round is uncut. The step is this part of the stage; `keep(round)` saves the
-// state before that round. What ends the step depends on that state alone, so that a resumed run makes the same mesh.
+// must leave nothing due but what waits for cores, and its last round is uncut. The step is this part of the stage;
+// `keep(round)` saves the state before that round. What ends the step depends on that state alone, so that a resumed
+// run makes the same mesh.
 template <typename Keep>
 void refineStep(Rounds& run, const Pslg& pslg, const RefineOptions& options, int first, bool whole_first, bool mends,
                 const ProgressPart& part, const Keep& keep) {
@@ -389,11 +406,15 @@ void refineStep(Rounds& run, const Pslg& pslg, const RefineOptions& options, int
   // Later rounds continue with the triangles that earlier ones left due.
   if (first == 0) markBad(run, bound);
   for (int round = first; round <= kMostRounds; ++round) {
-    const double left =
-        run.total(whole.mesh.triangles.size(), [&](TriId t) { return static_cast<double>(whole.due_triangles[t]); });
+    const bool awaits_cores = mends && round > 0 && run.hasCores() && whole.mesh.triangles.size() > kWorthWaiting;
+    const double left = run.total(whole.mesh.triangles.size(), [&](TriId t) {
+      const bool waits = awaits_cores && whole.due_triangles[t] && isBesideFrozen(whole.mesh, t, kEdgesBesideCores);
+      return waits ? 0.0 : static_cast<double>(whole.due_triangles[t]);
+    });
     // Steps other than the last may leave some triangles due.
     if (left == 0.0 || (whole_first && round > 0)) break;
     if (!mends && (left < kFewDue || round == kMostRounds)) break;
+    if (awaits_cores && left < kFewWithCores * static_cast<double>(whole.mesh.triangles.size())) break;
     if (round > 0 && isFull(run, options)) break;
     const ProgressPart of_round = whole_first ? ProgressPart{} : partOfRound(round);
     run.begin(part.part(of_round.from, of_round.to));

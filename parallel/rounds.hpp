@@ -21,6 +21,8 @@ double expectedTriangles(const TriMesh& mesh, const RefineOptions& options, cons
 struct RoundsWorkspace {
   Partition parts;                        // reused for its memory: fresh memory costs more than writing to it
   const HelpedRegion* helpers = nullptr;  // helpers that process pieces
+  // Cores are kept out of the mesh, and what refinement leaves bad beside them is repaired after their insertion.
+  bool has_cores = false;
   // Where the mesh is saved after each round, and resumed from; null: nowhere. Repairs are not saved.
   RoundKeeper* keeper = nullptr;
 };

@@ -108,14 +108,23 @@ std::vector<EdgeRef> joinSides(const std::vector<std::vector<CutSide>>& sides_of
 }
 
 // Restores the Delaunay property by flips, starting from these edges.
-void restoreAcross(std::vector<EdgeRef>&& edges, MeshState& whole) {
-  std::erase_if(edges, [&](EdgeRef e) {
-    if (whole.mesh.segment(e) != kNone) return true;
+void restoreAcross(std::span<const EdgeRef> edges, MeshState& whole, const ItemLoop& loop) {
+  const auto isToFlip = [&](EdgeRef e) {
+    if (whole.mesh.segment(e) != kNone) return false;
     const auto& v = whole.mesh.triangle(triOf(e)).v;
     return inCircle(whole.mesh.point(v[0]), whole.mesh.point(v[1]), whole.mesh.point(v[2]),
-                    whole.mesh.point(whole.mesh.apex(whole.mesh.twin(e)))) <= 0;
-  });
-  for (const TriId t : restoreDelaunay(whole.mesh, std::move(edges)))
+                    whole.mesh.point(whole.mesh.apex(whole.mesh.twin(e)))) > 0;
+  };
+  constexpr std::size_t kEdgesAtOnce = 1024;
+  std::vector<EdgeRef> waiting = joined(overStretches(
+      loop, edges.size(),
+      [&](std::size_t first, std::size_t last) {
+        std::vector<EdgeRef> some;
+        std::copy_if(edges.begin() + first, edges.begin() + last, std::back_inserter(some), isToFlip);
+        return some;
+      },
+      kEdgesAtOnce));
+  for (const TriId t : restoreDelaunay(whole.mesh, std::move(waiting)))
     if (!whole.due_triangles.empty()) whole.due_triangles[t] = 1;
 }
 
@@ -247,7 +256,7 @@ void stitch(std::vector<CutSubmesh>&& pieces, Recorder& recorder, MeshState& who
         pieces[p], vertex, [&](TriId t) { return layout.triangle[p] + t; }, whole);
     pieces[p] = {};
   });
-  restoreAcross(joinSides(sides, whole.mesh, recorder), whole);
+  restoreAcross(joinSides(sides, whole.mesh, recorder), whole, loop);
   assert(checkMesh(whole.mesh, nullptr, {}).empty());
 }
 
@@ -276,7 +285,7 @@ void stitchInPlace(std::vector<CutSubmesh>&& pieces, const Partition& parts, Rec
         pieces[p], vertex, [&](TriId t) { return triangles(p, oldTriangles(p), t); }, whole);
     pieces[p] = {};
   });
-  restoreAcross(joinSides(sides, mesh, recorder), whole);
+  restoreAcross(joinSides(sides, mesh, recorder), whole, loop);
   closeHoles(triangles.holes(), vertices.holes(), whole, recorder);
   assert(checkMesh(mesh, nullptr, {}).empty());
 }

@@ -103,15 +103,42 @@ class Divider {
   const ConstantSize longest_;
 };
 
-EdgeRef findEdge(const EditMesh& mesh, const std::vector<TriId>& among, VertexId a, VertexId b) {
-  for (const TriId t : among) {
-    if (!mesh.isLive(t)) continue;
-    for (unsigned i = 0; i < 3; ++i) {
-      const VertexId from = mesh.origin(edgeRef(t, i)), to = mesh.target(edgeRef(t, i));
-      if ((from == a && to == b) || (from == b && to == a)) return edgeRef(t, i);
-    }
+// An edge from a to b or back, kNone if there is none: of its two sides the first around a, counter-clockwise from
+// `triangleOf(a)`, or from the boundary. Other triangles around a are not visited if that can be avoided.
+EdgeRef findEdge(const EditMesh& mesh, VertexId a, VertexId b, std::vector<EdgeRef>& star) {
+  const TriId home = mesh.triangleOf(a);
+  for (TriId t = home;;) {
+    const unsigned i = mesh.cornerOf(t, a);
+    const auto& v = mesh.triangle(t).v;
+    if (v[prev3(i)] == b) return edgeRef(t, next3(i));
+    const EdgeRef before = edgeRef(t, prev3(i)), after = edgeRef(t, next3(i));
+    if (v[next3(i)] == b && mesh.twin(before) == kNone) return before;
+    if (v[next3(i)] == b || mesh.twin(after) == kNone) break;
+    t = triOf(mesh.twin(after));
+    if (t == home) return kNone;
+  }
+  mesh.star(a, star);
+  for (const EdgeRef opposite : star) {
+    if (mesh.origin(opposite) == b) return edgeRef(triOf(opposite), prev3(indexOf(opposite)));
+    if (mesh.target(opposite) == b) return edgeRef(triOf(opposite), next3(indexOf(opposite)));
   }
   return kNone;
+}
+
+// The subsegments of a mesh, by triangle.
+std::vector<Cut> subsegmentsOf(const TriMesh& mesh, const Pslg& pslg, const ItemLoop& loop) {
+  return joined(overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
+    std::vector<Cut> cuts;
+    for (auto t = static_cast<TriId>(first); t < last; ++t) {
+      for (unsigned i = 0; i < 3; ++i) {
+        const EdgeRef e = edgeRef(t, i);
+        if (mesh.segment(e) >= pslg.segments.size()) continue;
+        if (mesh.twin(e) != kNone && mesh.twin(e) < e) continue;
+        cuts.push_back({mesh.origin(e), mesh.target(e), mesh.segment(e)});
+      }
+    }
+    return cuts;
+  }));
 }
 
 }  // namespace
@@ -123,30 +150,19 @@ bool wantsSplitSegments(const TriMesh& mesh, const RefineOptions& options) {
 
 std::uint64_t splitSegments(TriMesh& mesh, const Pslg& pslg, VertexNotes& notes, const RefineOptions& options,
                             const ItemLoop& loop) {
-  std::vector<Cut> cuts;
-  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
-    for (unsigned i = 0; i < 3; ++i) {
-      const EdgeRef e = edgeRef(t, i);
-      if (mesh.segment(e) >= pslg.segments.size()) continue;
-      if (mesh.twin(e) != kNone && mesh.twin(e) < e) continue;
-      cuts.push_back({mesh.origin(e), mesh.target(e), mesh.segment(e)});
-    }
-  }
+  const std::vector<Cut> cuts = subsegmentsOf(mesh, pslg, loop);
   const VertexId before = static_cast<VertexId>(mesh.points.size());
   const std::uint64_t most = std::min<std::uint64_t>(options.max_vertices, kNone);
   EditMesh edit(std::move(mesh));
   const Divider divider(pslg, options);
-  std::vector<TriId> touched, star;
-  std::vector<EdgeRef> opposite;
+  std::vector<TriId> touched;
+  std::vector<EdgeRef> star;
   const auto apply = [&](const Cut& cut, const std::vector<Division>& divisions) {
     const Point a = edit.point(cut.a), b = edit.point(cut.b);
     VertexId from = cut.a;
     for (const auto& [on, size] : divisions) {
       if (edit.vertexCount() >= most) break;
-      edit.star(from, opposite);
-      star.clear();
-      for (const EdgeRef e : opposite) star.push_back(triOf(e));
-      const EdgeRef edge = findEdge(edit, star, from, cut.b);
+      const EdgeRef edge = findEdge(edit, from, cut.b, star);
       if (edge == kNone) break;
       touched.clear();
       const VertexId v = edit.splitSegment(edge, on, touched);
@@ -179,7 +195,7 @@ std::uint64_t splitSegments(TriMesh& mesh, const Pslg& pslg, VertexNotes& notes,
     }
   }
   Renumbering by;
-  mesh = edit.release(by, false);
+  mesh = edit.releaseOn(loop, by);
   std::vector<double> spacing(mesh.points.size());
   for (VertexId v = 0; v < by.vertex.size(); ++v)
     if (by.vertex[v] != kNone) spacing[by.vertex[v]] = notes.spacing[v];

@@ -121,33 +121,134 @@ void putBack(EditMesh& parent, const Submesh& patch, const TriMesh& solved, std:
   parent.replace(hole, fresh, gone, touched, inner);
 }
 
+namespace {
+
+// Storage for numbers of all triangles or vertices of a mesh; kNone at first.
+std::unique_ptr<std::uint32_t[]> noNumbers(std::size_t count, const ItemLoop& loop) {
+  auto none = std::make_unique_for_overwrite<std::uint32_t[]>(count);
+  forStretches(loop, count,
+               [&](std::size_t first, std::size_t last) { std::fill(none.get() + first, none.get() + last, kNone); });
+  return none;
+}
+
+// Numbers items that several others name, in the order in which a single thread would first come upon them: the items
+// that `visit(i, see)` passes to `see`, for all i below `count`; at most three for each i. Items that have a number
+// keep it. `numbered` lists the items by number, and gets the new ones.
+template <typename Visit>
+void numberAsSeen(std::size_t count, const Visit& visit, std::uint32_t* number, std::vector<std::uint32_t>& numbered,
+                  const ItemLoop& loop) {
+  constexpr std::size_t kLeast = 1024;
+  const auto known = static_cast<std::uint32_t>(numbered.size());
+  // Until it gets its number, an item has the place where it is seen first, counted from the last number.
+  const auto forEachSight = [&](std::size_t first, std::size_t last, const auto& use) {
+    for (std::size_t i = first; i < last; ++i) {
+      auto place = known + static_cast<std::uint32_t>(3 * i);
+      visit(i, [&](std::uint32_t item) { use(item, place++); });
+    }
+  };
+  // Several threads may come upon an item at the same time.
+  const auto claim = [&](std::uint32_t item, std::uint32_t place) {
+    std::uint32_t least = __atomic_load_n(&number[item], __ATOMIC_RELAXED);
+    while (place < least &&
+           !__atomic_compare_exchange_n(&number[item], &least, place, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
+    }
+  };
+  forStretches(
+      loop, count, [&](std::size_t first, std::size_t last) { forEachSight(first, last, claim); }, kLeast);
+  const std::vector<std::vector<std::uint32_t>> seen = overStretches(
+      loop, count,
+      [&](std::size_t first, std::size_t last) {
+        std::vector<std::uint32_t> some;
+        forEachSight(first, last, [&](std::uint32_t item, std::uint32_t place) {
+          if (number[item] == place) some.push_back(item);
+        });
+        return some;
+      },
+      kLeast);
+  for (const std::vector<std::uint32_t>& some : seen) numbered.insert(numbered.end(), some.begin(), some.end());
+  forStretches(
+      loop, numbered.size() - known,
+      [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = known + first; i < known + last; ++i) number[numbered[i]] = static_cast<std::uint32_t>(i);
+      },
+      kLeast);
+}
+
+// The same as `extractSubmesh` for a large mesh, by all threads: for triangles whose index is their `slot`. `number` is
+// storage for new numbers of vertices.
+Submesh extractOn(const ItemLoop& loop, const TriMesh& parent, const VertexNotes& notes, std::vector<TriId>&& triangles,
+                  const std::uint32_t* slot, std::uint32_t* number) {
+  struct Fixed {
+    std::vector<VertexId> vertices;
+    std::vector<EdgeRef> frozen;
+  };
+  const auto isInside = [&](EdgeRef e) {
+    const EdgeRef twin = parent.twin(e);
+    return twin == kNone ? parent.segment(e) != kFrozen : slot[triOf(twin)] != kNone;
+  };
+  const std::vector<Fixed> fixed = overStretches(loop, triangles.size(), [&](std::size_t first, std::size_t last) {
+    Fixed some;
+    for (std::size_t t = first; t < last; ++t) {
+      for (unsigned i = 0; i < 3; ++i) {
+        const EdgeRef e = edgeRef(triangles[t], i);
+        if (parent.apex(e) < parent.input_vertices) some.vertices.push_back(parent.apex(e));
+        if (isInside(e)) continue;
+        some.vertices.insert(some.vertices.end(), {parent.origin(e), parent.target(e)});
+        some.frozen.push_back(e);
+      }
+    }
+    return some;
+  });
+  Submesh sub;
+  for (const Fixed& some : fixed) {
+    for (const VertexId v : some.vertices) {
+      if (number[v] != kNone) continue;
+      number[v] = static_cast<VertexId>(sub.parent.size());
+      sub.parent.push_back(v);
+    }
+    sub.frozen.insert(sub.frozen.end(), some.frozen.begin(), some.frozen.end());
+  }
+  sub.mesh.input_vertices = static_cast<VertexId>(sub.parent.size());
+  const auto corners = [&](std::size_t t, const auto& see) {
+    for (const VertexId v : parent.triangle(triangles[t]).v) see(v);
+  };
+  numberAsSeen(triangles.size(), corners, number, sub.parent, loop);
+
+  resizeAnew(loop, sub.mesh.points, sub.parent.size());
+  forEachByStretches(loop, sub.parent.size(), [&](std::size_t v) { sub.mesh.points[v] = parent.point(sub.parent[v]); });
+  sub.notes = notesOn(sub.parent, sub.mesh.input_vertices, parent.input_vertices, notes);
+  resizeAnew(loop, sub.mesh.triangles, triangles.size());
+  forEachByStretches(loop, triangles.size(), [&](std::size_t t) {
+    sub.mesh.triangles[t] = renumbered(
+        parent.triangle(triangles[t]), [&](TriId n) { return slot[n]; }, [&](VertexId v) { return number[v]; },
+        kFrozen);
+  });
+  sub.triangles = std::move(triangles);
+  assert(findBrokenLink(sub.mesh.triangles) == kNone);
+  return sub;
+}
+
+}  // namespace
+
 Submesh extractNear(const TriMesh& parent, const VertexNotes& notes, std::span<const TriId> centre, unsigned edges,
                     const ItemLoop& loop) {
-  const auto noneFor = [&](std::size_t count) {
-    auto none = std::make_unique_for_overwrite<std::uint32_t[]>(count);
-    forStretches(loop, count,
-                 [&](std::size_t first, std::size_t last) { std::fill(none.get() + first, none.get() + last, kNone); });
-    return none;
-  };
   std::vector<TriId> triangles;
-  const auto slot = noneFor(parent.triangles.size()), number = noneFor(parent.points.size());
-  const auto take = [&](TriId t) {
-    if (slot[t] != kNone) return;
-    slot[t] = static_cast<TriId>(triangles.size());
-    triangles.push_back(t);
-  };
-  for (const TriId t : centre) take(t);
+  const auto slot = noNumbers(parent.triangles.size(), loop), number = noNumbers(parent.points.size(), loop);
+  numberAsSeen(
+      centre.size(), [&](std::size_t i, const auto& see) { see(centre[i]); }, slot.get(), triangles, loop);
   std::size_t done = 0;
   for (unsigned ring = 0; ring < edges; ++ring) {
-    for (const std::size_t end = triangles.size(); done < end; ++done)
-      for (const EdgeRef twin : parent.triangle(triangles[done]).adj)
-        if (twin != kNone) take(triOf(twin));
+    const std::vector<TriId> front(triangles.begin() + static_cast<std::ptrdiff_t>(done), triangles.end());
+    done = triangles.size();
+    const auto neighbours = [&](std::size_t i, const auto& see) {
+      for (const EdgeRef twin : parent.triangle(front[i]).adj)
+        if (twin != kNone) see(triOf(twin));
+    };
+    numberAsSeen(front.size(), neighbours, slot.get(), triangles, loop);
   }
   VertexNotes without_spacing = notes;
   without_spacing.spacing.clear();
-  const auto slotOf = [&](TriId t) { return slot[t]; };
-  const auto numberOf = [&](VertexId v) -> VertexId& { return number[v]; };
-  Submesh sub = extractSubmesh(parent, parent.input_vertices, without_spacing, triangles, slotOf, numberOf);
+  Submesh sub = extractOn(loop, parent, without_spacing, std::move(triangles), slot.get(), number.get());
   noteSpacingOfNeighbours(sub.mesh, sub.notes);
   for (VertexId v = 0; v < sub.mesh.input_vertices; ++v)
     if (sub.parent[v] < parent.input_vertices) sub.notes.spacing[v] = notes.spacing[sub.parent[v]];
@@ -212,10 +313,14 @@ std::vector<TriId> putBack(TriMesh& parent, const Submesh& patch, const TriMesh&
   parent.points.resize(parent.points.size() + vertex.size() - std::min(vertex.size(), patch.parent.size()));
   parent.triangles.resize(parent.triangles.size() + triangle.size() -
                           std::min(triangle.size(), patch.triangles.size()));
-  for (VertexId v = patch.mesh.input_vertices; v < vertex.size(); ++v) parent.points[vertex[v]] = solved.points[v];
-  for (TriId t = 0; t < triangle.size(); ++t) {
+  forEachByStretches(loop, vertex.size() - patch.mesh.input_vertices, [&](std::size_t i) {
+    const std::size_t v = patch.mesh.input_vertices + i;
+    parent.points[vertex[v]] = solved.points[v];
+  });
+  // What lies beyond a frozen edge is in no patch: threads write different sides of its triangle.
+  forEachByStretches(loop, triangle.size(), [&](std::size_t t) {
     parent.triangles[triangle[t]] = renumbered(
-        solved.triangle(t), [&](TriId n) { return triangle[n]; }, [&](VertexId v) { return vertex[v]; });
+        solved.triangles[t], [&](TriId n) { return triangle[n]; }, [&](VertexId v) { return vertex[v]; });
     for (unsigned i = 0; i < 3; ++i) {
       const EdgeRef e = edgeRef(triangle[t], i);
       if (parent.segment(e) != kFrozen) continue;
@@ -223,7 +328,7 @@ std::vector<TriId> putBack(TriMesh& parent, const Submesh& patch, const TriMesh&
       assert(at != beyond.end() && endsOf(*at) == std::pair(parent.origin(e), parent.target(e)));
       link(parent.triangles, e, at->twin, at->seg);
     }
-  }
+  });
   const auto beyondOf = [](const std::vector<std::uint32_t>& old, std::size_t count) {
     return std::vector<std::uint32_t>(old.begin() + static_cast<std::ptrdiff_t>(std::min(count, old.size())),
                                       old.end());

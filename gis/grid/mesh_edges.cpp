@@ -10,6 +10,7 @@ namespace coastmesh {
 namespace {
 
 using Triangles = std::span<const std::array<std::uint32_t, 3>>;
+using Edge = std::array<std::uint32_t, 2>;
 
 template <typename Use>
 void forEachEdge(Triangles triangles, const Use& use) {
@@ -33,6 +34,8 @@ struct Stretches {
 struct Block {
   Triangles triangles;
   std::uint64_t stretches = 0;
+
+  bool has(std::size_t stretch) const { return (stretches >> stretch & 1) != 0; }
 };
 
 std::vector<Block> blocksOf(Triangles triangles, const Stretches& stretches, const ItemLoop& loop) {
@@ -69,17 +72,52 @@ void halve(std::vector<Block>& blocks, Stretches& stretches) {
   stretches.count /= 2;
 }
 
+// The edges of each stretch that far more blocks have an edge in than in others, as in that of the shore's nodes if
+// rows of triangles end there; none for other stretches. One thread would go through nearly all triangles for them.
+// Some are there twice. Counted first: one list for each range of blocks would keep more memory.
+std::vector<std::vector<Edge>> widespreadEdges(const std::vector<Block>& blocks, const Stretches& stretches,
+                                               const ItemLoop& loop) {
+  constexpr std::size_t kFarMore = 4, kRanges = 256;
+  std::vector<std::vector<Edge>> edges(stretches.count);
+  const std::uint64_t visits = visitsOf(blocks);
+  for (std::size_t s = 0; s < stretches.count; ++s) {
+    const auto own = std::ranges::count_if(blocks, [&](const Block& block) { return block.has(s); });
+    if (static_cast<std::uint64_t>(own) * stretches.count <= kFarMore * visits) continue;
+    const auto forEachOwn = [&](std::size_t range, const auto& use) {
+      for (std::size_t b = blocks.size() * range / kRanges; b < blocks.size() * (range + 1) / kRanges; ++b) {
+        if (!blocks[b].has(s)) continue;
+        forEachEdge(blocks[b].triangles, [&](std::uint32_t low, std::uint32_t high) {
+          if (low >= stretches.begin(s) && low < stretches.begin(s + 1)) use(Edge{low, high});
+        });
+      }
+    };
+    std::vector<std::size_t> next(kRanges + 1, 0);
+    loop(kRanges, [&](std::size_t r) { forEachOwn(r, [&](const Edge&) { ++next[r + 1]; }); });
+    std::inclusive_scan(next.begin(), next.end(), next.begin());
+    edges[s].resize(next.back());
+    loop(kRanges, [&](std::size_t r) {
+      std::size_t at = next[r];
+      forEachOwn(r, [&](const Edge& edge) { edges[s][at++] = edge; });
+    });
+  }
+  return edges;
+}
+
 // The edges of a stretch: for each of its nodes the greater neighbours, each once, ascending.
 struct NodeEdges {
   std::vector<std::uint32_t> begin;  // the start for each node, then the end
   std::vector<std::uint32_t> greater;
 };
 
-NodeEdges edgesOfStretch(const std::vector<Block>& blocks, const Stretches& stretches, std::size_t stretch) {
+// `known`: its edges, if they have been listed.
+NodeEdges edgesOfStretch(const std::vector<Block>& blocks, const Stretches& stretches, std::size_t stretch,
+                         std::span<const Edge> known) {
   const std::size_t first = stretches.begin(stretch), nodes = stretches.begin(stretch + 1) - first;
   const auto forEachOwn = [&](const auto& use) {
+    for (const auto& [low, high] : known) use(low - first, high);
+    if (!known.empty()) return;
     for (const Block& block : blocks) {
-      if ((block.stretches >> stretch & 1) == 0) continue;
+      if (!block.has(stretch)) continue;
       forEachEdge(block.triangles, [&](std::uint32_t low, std::uint32_t high) {
         if (low >= first && low - first < nodes) use(low - first, high);
       });
@@ -106,8 +144,8 @@ NodeEdges edgesOfStretch(const std::vector<Block>& blocks, const Stretches& stre
 
 }  // namespace
 
-std::vector<std::array<std::uint32_t, 2>> uniqueEdges(std::size_t nodes, Triangles triangles, const ItemLoop& loop) {
-  std::vector<std::array<std::uint32_t, 2>> edges;
+std::vector<Edge> uniqueEdges(std::size_t nodes, Triangles triangles, const ItemLoop& loop) {
+  std::vector<Edge> edges;
   if (triangles.empty()) return edges;
   // A block is visited once for each stretch that it has an edge in: few if numbers follow the plane. If they do not,
   // stretches are made fewer and longer.
@@ -116,8 +154,12 @@ std::vector<std::array<std::uint32_t, 2>> uniqueEdges(std::size_t nodes, Triangl
   std::vector<Block> blocks = blocksOf(triangles, stretches, loop);
   while (stretches.count > 1 && visitsOf(blocks) > kMostVisits * blocks.size()) halve(blocks, stretches);
 
+  std::vector<std::vector<Edge>> known = widespreadEdges(blocks, stretches, loop);
   std::vector<NodeEdges> parts(stretches.count);
-  loop(parts.size(), [&](std::size_t s) { parts[s] = edgesOfStretch(blocks, stretches, s); });
+  loop(parts.size(), [&](std::size_t s) {
+    parts[s] = edgesOfStretch(blocks, stretches, s, known[s]);
+    freeMemoryOf(known[s]);
+  });
   std::vector<std::size_t> before(parts.size() + 1, 0);
   for (std::size_t s = 0; s < parts.size(); ++s) before[s + 1] = before[s] + parts[s].begin.back();
   resizeAnew(loop, edges, before.back());

@@ -12,6 +12,7 @@
 #include "core/delaunay.hpp"
 #include "core/metric.hpp"
 #include "core/predicates.hpp"
+#include "tests/support/item_loops.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/mesh_figures.hpp"
 #include "tests/support/pslgs.hpp"
@@ -455,6 +456,34 @@ TEST(TriangulatePolygon, TurnedPolygonIsRefused) {
   const EditMesh mesh(constrainedDelaunay(squarePslg()));
   std::vector<Corners> triangles;
   EXPECT_FALSE(triangulatePolygon(mesh, std::vector<VertexId>{3, 2, 1, 0}, triangles));
+}
+
+// Large meshes are released range by range, on several threads: as on one, in whatever order the ranges come.
+TEST(EditMesh, OrderOfRangesDoesNotMatter) {
+  const Pslg pslg = randomPointsInBox(3, 20'000);
+  TriMesh mesh = constrainedDelaunay(pslg);
+  mesh.input_vertices = 100;
+  EditMesh edit(std::move(mesh));
+  ASSERT_GT(edit.triangleSlots(), 4u * 8192);  // several ranges
+  Patch patch;
+  std::vector<Corners> fresh;
+  std::vector<TriId> touched;
+  for (VertexId v = edit.inputVertices(); v < edit.vertexSlots(); v += 7) {
+    if (edit.kind(v) != VertexKind::Free || !edit.gatherPatch({&v, 1}, patch)) continue;
+    std::vector<VertexId> polygon;
+    for (const BoundaryEdge& r : patch.boundary) polygon.push_back(r.a);
+    if (triangulatePolygon(edit, polygon, fresh)) edit.replace(patch, fresh, {&v, 1}, touched);
+  }
+  ASSERT_LT(edit.vertexCount() + 1000, edit.vertexSlots());
+  EditMesh same = edit, again = edit;
+  Renumbering by, by_ranges, by_last_first;
+  const std::uint64_t digest = digestOf(edit.release(by, false));
+  EXPECT_EQ(digestOf(same.releaseOn(inOrder, by_ranges)), digest);
+  EXPECT_EQ(digestOf(again.releaseOn(testing::backwards, by_last_first)), digest);
+  for (const Renumbering* other : {&by_ranges, &by_last_first}) {
+    EXPECT_EQ(other->vertex, by.vertex);
+    EXPECT_EQ(other->triangle, by.triangle);
+  }
 }
 
 }  // namespace

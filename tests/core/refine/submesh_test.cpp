@@ -10,8 +10,10 @@
 #include "core/delaunay.hpp"
 #include "core/flip.hpp"
 #include "core/label_regions.hpp"
+#include "core/links.hpp"
 #include "core/metric.hpp"
 #include "core/refine/refine.hpp"
+#include "tests/support/item_loops.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/mesh_figures.hpp"
 #include "tests/support/pslgs.hpp"
@@ -233,6 +235,74 @@ TEST(Submesh, RingsGrowByVertices) {
         if (std::ranges::any_of(mesh.triangle(t).v, [&](VertexId v) { return corners.contains(v); })) naive.insert(t);
     }
   }
+}
+
+// Large patches are taken out and put back range by range, on several threads: numbers must not depend on the order of
+// the ranges.
+TEST(Submesh, OrderOfRangesDoesNotMatter) {
+  std::mt19937_64 random(20261126);
+  std::uniform_real_distribution<double> place(0.0, 100.0);
+  Pslg pslg;
+  pslg.points = {{0.0, 0.0}, {100.0, 0.0}, {100.0, 100.0}, {0.0, 100.0}};
+  for (std::uint32_t i = 0; i < 4; ++i) pslg.segments.push_back({i, (i + 1) % 4});
+  for (int i = 0; i < 60'000; ++i) pslg.points.push_back({place(random), place(random)});
+  TriMesh whole = constrainedDelaunay(pslg);
+  whole.input_vertices = 2'000;
+  const VertexNotes notes = noteInput(whole, boundOf({}));
+  std::vector<TriId> centres;
+  for (TriId t = 0; t < whole.triangles.size(); t += 1 + static_cast<TriId>(random() % 2'000)) centres.push_back(t);
+  centres.push_back(centres.front());
+
+  const Submesh patch = extractNear(whole, notes, centres, 16),
+                other = extractNear(whole, notes, centres, 16, testing::backwards);
+  ASSERT_GT(patch.triangles.size(), 3u * 8192);  // several ranges
+  ASSERT_LT(patch.triangles.size(), whole.triangles.size());
+  EXPECT_EQ(patch.triangles, other.triangles);
+  EXPECT_EQ(patch.parent, other.parent);
+  EXPECT_EQ(patch.frozen, other.frozen);
+  EXPECT_EQ(patch.notes.spacing, other.notes.spacing);
+  EXPECT_EQ(digestOf(patch.mesh), digestOf(other.mesh));
+  expectValidMesh(other.mesh);
+
+  // In the order of a search through one triangle after the other.
+  std::vector<TriId> naive;
+  std::set<TriId> seen;
+  const auto see = [&](TriId t) {
+    if (seen.insert(t).second) naive.push_back(t);
+  };
+  for (const TriId t : centres) see(t);
+  std::size_t done = 0;
+  for (int edge = 0; edge < 16; ++edge)
+    for (const std::size_t end = naive.size(); done < end; ++done)
+      for (const EdgeRef twin : whole.triangle(naive[done]).adj)
+        if (twin != kNone) see(triOf(twin));
+  EXPECT_EQ(patch.triangles, naive);
+  std::vector<VertexId> fixed, free;
+  std::set<VertexId> numbered;
+  for (const TriId t : naive) {
+    for (unsigned i = 0; i < 3; ++i) {
+      const EdgeRef e = edgeRef(t, i), twin = whole.twin(e);
+      std::vector<VertexId> ends;
+      if (whole.apex(e) < whole.input_vertices) ends.push_back(whole.apex(e));
+      if (twin != kNone && !seen.contains(triOf(twin))) ends.insert(ends.end(), {whole.origin(e), whole.target(e)});
+      for (const VertexId v : ends)
+        if (numbered.insert(v).second) fixed.push_back(v);
+    }
+  }
+  EXPECT_EQ(patch.mesh.input_vertices, fixed.size());
+  for (const TriId t : naive)
+    for (const VertexId v : whole.triangle(t).v)
+      if (numbered.insert(v).second) free.push_back(v);
+  fixed.insert(fixed.end(), free.begin(), free.end());
+  EXPECT_EQ(patch.parent, fixed);
+
+  TriMesh solved = patch.mesh;
+  for (VertexId v = solved.input_vertices; v < solved.points.size(); ++v) solved.points[v].x += 1e-9;
+  TriMesh in_order = whole, backwards = whole;
+  EXPECT_EQ(putBack(in_order, patch, solved), putBack(backwards, patch, solved, testing::backwards));
+  EXPECT_EQ(digestOf(in_order), digestOf(backwards));
+  EXPECT_NE(digestOf(in_order), digestOf(whole));
+  EXPECT_EQ(findBrokenLink(backwards.triangles), kNone);
 }
 
 }  // namespace

@@ -50,5 +50,27 @@ TEST(UniqueEdges, OfAStripThatFollowsItsNumbers) {
   EXPECT_EQ(uniqueEdges(2 * kColumns, triangles, testing::backwards), expected);
 }
 
+// Rows of triangles that begin at the shore, whose nodes come before all others: they have edges all over the mesh.
+TEST(UniqueEdges, OfRowsThatBeginAtTheShore) {
+  constexpr std::uint32_t kRows = 1000, kColumns = 300;
+  const auto node = [](std::uint32_t row, std::uint32_t column) {
+    return column == 0 ? row : kRows + row * (kColumns - 1) + column - 1;
+  };
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::set<Edge> expected;
+  for (std::uint32_t row = 0; row + 1 < kRows; ++row) {
+    for (std::uint32_t column = 0; column + 1 < kColumns; ++column) {
+      const std::uint32_t a = node(row, column), b = node(row, column + 1), c = node(row + 1, column + 1),
+                          d = node(row + 1, column);
+      triangles.insert(triangles.end(), {{a, b, c}, {a, c, d}});
+      for (const auto& [from, to] : {Edge{a, b}, Edge{b, c}, Edge{c, a}, Edge{c, d}, Edge{d, a}})
+        expected.insert({std::min(from, to), std::max(from, to)});
+    }
+  }
+  const std::vector<Edge> in_order(expected.begin(), expected.end());
+  EXPECT_EQ(uniqueEdges(kRows * kColumns, triangles), in_order);
+  EXPECT_EQ(uniqueEdges(kRows * kColumns, triangles, testing::backwards), in_order);
+}
+
 }  // namespace
 }  // namespace coastmesh
