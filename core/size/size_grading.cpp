@@ -27,7 +27,6 @@ constexpr std::size_t kMostVisits = 64;
 // The cells around a vertex that only split cells have.
 constexpr std::array<std::uint32_t, 4> kNowhere = {kNone, kNone, kNone, kNone};
 
-const ItemLoop kInOrder = inOrder;
 // Spare room for new vertices: one for every kSpare present.
 constexpr std::size_t kSpare = 32;
 
@@ -54,6 +53,26 @@ Point gradient(const Point& ab, const Point& ac, double hb, double hc) {
 void sortOnce(std::vector<std::uint32_t>& numbers) {
   std::ranges::sort(numbers);
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+// `work(r)` for every r below `ranges`, in at most `items` items: a loop on threads costs as much as some hundred
+// vertices.
+template <typename Work>
+void forRanges(const ItemLoop& loop, std::size_t ranges, std::size_t items, const Work& work) {
+  items = std::min(items, ranges);
+  if (items < 2) return inOrder(ranges, work);
+  loop(items, [&](std::size_t i) {
+    for (std::size_t r = ranges * i / items; r < ranges * (i + 1) / items; ++r) work(r);
+  });
+}
+
+// Lowers a size that other threads may lower at the same time. False if it was not larger.
+bool lowerTo(double& size, double to) {
+  double held;
+  __atomic_load(&size, &held, __ATOMIC_RELAXED);
+  while (to < held)
+    if (__atomic_compare_exchange(&size, &held, &to, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) return true;
+  return false;
 }
 
 // Sizes are stored in single precision. Rounding before comparing ensures that they are not too steep afterwards.
@@ -86,6 +105,7 @@ SizeGrading::SizeGrading(GradedSizes& sizes, const SizeGrid& grid, std::span<con
   reserveOn(loop_, round_, grid_.places.size(), grid_.places.size() / kSpare);
   round_.assign(grid_.places.size(), kNowhere);
   forEachByStretches(loop_, leaves_.size(), [&](std::size_t l) { takeIn(static_cast<std::uint32_t>(l)); });
+  reserveOn(loop_, halves_, grid_.places.size(), grid_.places.size() / kSpare);
   halves_.resize(grid_.places.size());
   forEachByStretches(loop_, halves_.size(),
                      [&](std::size_t v) { halves_[v] = largestRound(static_cast<std::uint32_t>(v)); });
@@ -131,11 +151,12 @@ bool SizeGrading::isSteep(std::uint32_t leaf) const {
   return is;
 }
 
-std::vector<std::uint32_t> SizeGrading::findSteep() const {
+// With the smallest size in each.
+std::vector<SizeQueue::Entry> SizeGrading::findSteep() const {
   return joined(overStretches(loop_, leaves_.size(), [&](std::size_t first, std::size_t last) {
-    std::vector<std::uint32_t> steep;
-    for (std::size_t l = first; l < last; ++l)
-      if (isSteep(static_cast<std::uint32_t>(l))) steep.push_back(static_cast<std::uint32_t>(l));
+    std::vector<SizeQueue::Entry> steep;
+    for (auto l = static_cast<std::uint32_t>(first); l < last; ++l)
+      if (isSteep(l)) steep.push_back({lowestOf(l), l});
     return steep;
   }));
 }
@@ -158,6 +179,7 @@ void SizeGrading::spread() {
                                 for (const std::uint32_t v : leaf)
                                   if (v != kNone && !isFree(v)) boundary.push_back(v);
                               }
+                              sortOnce(boundary);
                               return boundary;
                             })),
        [&](std::uint32_t v) { return !std::isfinite(sizes_.own[v]); });
@@ -174,6 +196,7 @@ void SizeGrading::spread() {
                                         [&](auto v, auto w) { return sizes_.size[v] < sizes_.size[w]; }));
           });
         }
+        sortOnce(lowest);
         return lowest;
       }));
   const std::vector<std::uint32_t> others = besideNew();
@@ -196,6 +219,7 @@ std::vector<std::uint32_t> SizeGrading::besideNew() const {
       for (const std::uint32_t v : leaf)
         if (v != kNone && sizes_.source[v] != kNone && std::isfinite(sizes_.own[v])) here.push_back(v);
     }
+    sortOnce(here);
     return here;
   }));
 }
@@ -254,42 +278,63 @@ double SizeGrading::legAt(std::uint32_t v) const {
 }
 
 // Sizes grow with the distance on the surface from their source, not along edges: every vertex stores its source.
+// Growth is found for a whole batch at once, and then applied in the order of its vertices' numbers, each range of
+// vertices by itself. What it does to a vertex depends on neither the ranges nor the threads.
 template <typename F>
-void SizeGrading::grow(std::vector<std::uint32_t>&& from, const F& mayLower) {
-  sortOnce(from);
-  SizeQueue queue;
-  for (const std::uint32_t v : from)
-    if (std::isfinite(sizes_.size[v])) queue.push({sizes_.size[v], v});
-  // Growth is found for the whole batch at once, and then applied in its order.
-  std::vector<SizeQueue::Entry> batch;
-  while (queue.take(batch)) {
+void SizeGrading::grow(const std::vector<std::uint32_t>& from, const F& mayLower) {
+  SizeQueues queues(grid_.places.size());
+  struct alignas(64) Found {
+    std::vector<std::uint32_t> start;
+    std::vector<Growth> within, beyond;  // found in this range, to vertices of it and of others
+    std::vector<Growth> before, after;   // to vertices of this range, found in ranges before and after it
+  };
+  std::vector<Found> found(queues.count());
+  for (const std::uint32_t v : from) found[queues.rangeOf(v)].start.push_back(v);
+  loop_(queues.count(), [&](std::size_t r) {
+    sortOnce(found[r].start);
+    for (const std::uint32_t v : found[r].start)
+      if (std::isfinite(sizes_.size[v])) queues.push({sizes_.size[v], v});
+  });
+  const auto find = [&](std::size_t r) {
+    std::vector<SizeQueue::Entry>& batch = queues[r].batch;
     std::ranges::sort(batch, {}, [](const SizeQueue::Entry& e) { return e.number; });
-    constexpr std::size_t kWorthThreads = 2'000, kStretch = 512;
-    const std::vector<std::vector<Growth>> found = overStretches(
-        batch.size() < kWorthThreads ? kInOrder : loop_, batch.size(),
-        [&](std::size_t first, std::size_t last) {
-          std::vector<Growth> some;
-          for (std::size_t i = first; i < last; ++i) {
-            fetchAhead(std::span(batch).subspan(i, last - i));
-            if (batch[i].size == sizes_.size[batch[i].number]) findGrowth(batch[i].number, mayLower, some);
-          }
-          return some;
-        },
-        kStretch);
-    for (const std::vector<Growth>& some : found) {
-      for (const auto& [allowed, to, origin] : some) {
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      fetchAhead(std::span(batch).subspan(i));
+      if (batch[i].size != sizes_.size[batch[i].number]) continue;
+      findGrowth(batch[i].number, mayLower, [&](const Growth& growth) {
+        (queues.rangeOf(growth.to) == r ? found[r].within : found[r].beyond).push_back(growth);
+      });
+    }
+  };
+  const auto pass = [&](std::size_t r) {
+    for (const Growth& growth : found[r].beyond) {
+      const std::size_t to = queues.rangeOf(growth.to);
+      (r < to ? found[to].before : found[to].after).push_back(growth);
+    }
+    found[r].beyond.clear();
+  };
+  const auto apply = [&](std::size_t r) {
+    for (std::vector<Growth>* some : {&found[r].before, &found[r].within, &found[r].after}) {
+      for (const auto& [allowed, to, origin] : *some) {
         if (!(allowed < sizes_.size[to] * (1.0 - 1e-9))) continue;
         sizes_.size[to] = allowed;
         sizes_.source[to] = origin;
-        queue.push({allowed, to});
+        queues.push({allowed, to});
       }
+      some->clear();
     }
+  };
+  while (const std::size_t waiting = queues.take()) {
+    constexpr std::size_t kWorthAnItem = 200;
+    forRanges(loop_, queues.count(), waiting / kWorthAnItem, find);
+    inOrder(queues.count(), pass);
+    forRanges(loop_, queues.count(), waiting / kWorthAnItem, apply);
   }
 }
 
 // Finds what growth at a vertex lowers around it.
-template <typename F>
-void SizeGrading::findGrowth(std::uint32_t v, const F& mayLower, std::vector<Growth>& found) const {
+template <typename F, typename G>
+void SizeGrading::findGrowth(std::uint32_t v, const F& mayLower, G&& found) const {
   const std::uint32_t origin = sizes_.source[v] == kNone ? v : sizes_.source[v];
   const double own = sizes_.own[origin], flat = kFlatFoot * legAt(origin), rate = kSizeGrowth * grid_.gradation;
   const Point from = placeOf(origin);
@@ -303,66 +348,80 @@ void SizeGrading::findGrowth(std::uint32_t v, const F& mayLower, std::vector<Gro
       if (!curved && !(reach > 0.0 && squaredDistance(from, placeOf(w)) < kSurely * reach * reach)) continue;
       const double way = std::max(grid_.distanceBetween(origin, w) - flat, 0.0);
       const double allowed = own + rate * way;
-      if (allowed < limit) found.push_back({allowed, w, origin});
+      if (allowed < limit) found(Growth{allowed, w, origin});
     }
   });
 }
 
+// Leaves of a batch are flattened at once, each from the present sizes; the lowest counts if several lower a vertex.
+// What happens depends on the leaves of a batch, not on their order.
 void SizeGrading::flatten() {
   forEachByStretches(loop_, sizes_.size.size(), [&](std::size_t v) { sizes_.size[v] = roundedDown(sizes_.size[v]); });
   // Smallest sizes first, since they determine larger ones.
-  SizeQueue queue;
-  for (const std::uint32_t l : findSteep()) queue.push({lowestOf(l), l});
-  std::vector<SizeQueue::Entry> batch;
-  std::vector<std::uint32_t> leaves;
+  SizeQueues queues(leaves_.size());
+  for (const SizeQueue::Entry& steep : findSteep()) queues.push(steep);
+  struct alignas(64) Work {
+    std::vector<std::uint32_t> leaves;
+    std::vector<Lowered> lowered;
+    std::vector<SizeQueue::Entry> beyond;  // steep leaves of other ranges
+  };
+  std::vector<Work> work(queues.count());
+  const auto flattenRange = [&](std::size_t r) {
+    std::vector<std::uint32_t>& leaves = work[r].leaves;
+    leaves.clear();
+    for (const SizeQueue::Entry& e : queues[r].batch) leaves.push_back(e.number);
+    sortOnce(leaves);
+    for (std::size_t k = 0; k < leaves.size(); ++k) {
+      fetchLeaf(std::span(leaves).subspan(k));
+      flattenLeaf(leaves[k], work[r].lowered);
+    }
+  };
+  const auto lower = [&](std::size_t r) {
+    work[r].leaves.clear();
+    for (const auto& [v, size] : work[r].lowered) {
+      if (!lowerTo(sizes_.size[v], size)) continue;
+      for (const std::uint32_t l : round_[v])
+        if (l != kNone && isFirstToSee(l)) work[r].leaves.push_back(l);
+    }
+    work[r].lowered.clear();
+  };
+  const auto enqueueSteep = [&](std::size_t r) {
+    const std::vector<std::uint32_t>& leaves = work[r].leaves;
+    for (std::size_t k = 0; k < leaves.size(); ++k) {
+      fetchLeaf(std::span(leaves).subspan(k));
+      if (!isSteep(leaves[k])) continue;
+      const SizeQueue::Entry steep{lowestOf(leaves[k]), leaves[k]};
+      if (queues.rangeOf(leaves[k]) == r)
+        queues.push(steep);
+      else
+        work[r].beyond.push_back(steep);
+    }
+  };
   seen_.assign(leaves_.size(), 0);
   seen_last_ = 0;
   std::size_t visits = kMostVisits * leaves_.size();
-  while (queue.take(batch)) {
-    leaves.clear();
-    for (const SizeQueue::Entry& e : batch) leaves.push_back(e.number);
-    sortOnce(leaves);
-    if (visits < leaves.size()) return flattenLegs();
-    visits -= leaves.size();
-    for (const SizeQueue::Entry& steep : flattenLeaves(leaves)) queue.push(steep);
+  while (const std::size_t waiting = queues.take()) {
+    constexpr std::size_t kWorthAnItem = 64;
+    const std::size_t items = waiting / kWorthAnItem;
+    ++seen_last_;
+    forRanges(loop_, queues.count(), items, flattenRange);
+    std::size_t flattened = 0;
+    for (const Work& range : work) flattened += range.leaves.size();
+    if (visits < flattened) return flattenLegs();
+    visits -= flattened;
+    forRanges(loop_, queues.count(), items, lower);
+    forRanges(loop_, queues.count(), items, enqueueSteep);
+    for (Work& range : work) {
+      for (const SizeQueue::Entry& steep : range.beyond) queues.push(steep);
+      range.beyond.clear();
+    }
   }
 }
 
-// Flattens leaves at once, each from the present sizes; the lowest counts if several lower a vertex. Returns those that
-// are steep afterwards; overwrites `leaves`.
-std::vector<SizeQueue::Entry> SizeGrading::flattenLeaves(std::vector<std::uint32_t>& leaves) {
-  constexpr std::size_t kWorthThreads = 500, kStretch = 128;
-  ++seen_last_;
-  const ItemLoop& loop = leaves.size() < kWorthThreads ? kInOrder : loop_;
-  const std::vector<Lowered> lowered = joined(overStretches(
-      loop, leaves.size(),
-      [&](std::size_t first, std::size_t last) {
-        std::vector<Lowered> some;
-        for (std::size_t k = first; k < last; ++k) {
-          fetchLeaf(std::span(leaves).subspan(k, last - k));
-          flattenLeaf(leaves[k], some);
-        }
-        return some;
-      },
-      kStretch));
-  leaves.clear();
-  for (const auto& [v, size] : lowered) {
-    if (!(size < sizes_.size[v])) continue;
-    sizes_.size[v] = size;
-    for (const std::uint32_t l : round_[v])
-      if (l != kNone && std::exchange(seen_[l], seen_last_) != seen_last_) leaves.push_back(l);
-  }
-  return joined(overStretches(
-      leaves.size() < kWorthThreads ? kInOrder : loop_, leaves.size(),
-      [&](std::size_t first, std::size_t last) {
-        std::vector<SizeQueue::Entry> steep;
-        for (std::size_t k = first; k < last; ++k) {
-          fetchLeaf(std::span(leaves).subspan(k, last - k));
-          if (isSteep(leaves[k])) steep.push_back({lowestOf(leaves[k]), leaves[k]});
-        }
-        return steep;
-      },
-      kStretch));
+// True for one of the threads that ask for a leaf in a batch.
+bool SizeGrading::isFirstToSee(std::uint32_t leaf) {
+  return __atomic_load_n(&seen_[leaf], __ATOMIC_RELAXED) != seen_last_ &&
+         __atomic_exchange_n(&seen_[leaf], seen_last_, __ATOMIC_RELAXED) != seen_last_;
 }
 
 // Sets the nearest sizes, by least squares, that make each triangle as steep as allowed: corners on its upper side go
@@ -413,7 +472,7 @@ void SizeGrading::flattenLegs() {
     for (const std::uint32_t v : leaves_[l])
       if (v != kNone) queue.push({sizes_.size[v], v});
   };
-  for (const std::uint32_t l : findSteep()) takeIn(l);
+  for (const SizeQueue::Entry& steep : findSteep()) takeIn(steep.number);
   const auto growLegs = [&](double size, std::uint32_t v) {
     forLeavesRound(v, [&](std::uint32_t l) {
       if (!is_strict[l]) return;

@@ -89,18 +89,18 @@ class SizeGrading {
   template <typename F>
   void forEachSlope(const LeafVertices& leaf, F&& f) const;
   bool isSteep(std::uint32_t leaf) const;
-  std::vector<std::uint32_t> findSteep() const;
+  std::vector<SizeQueue::Entry> findSteep() const;
   double lowestOf(std::uint32_t leaf) const;
   std::uint32_t largestRound(std::uint32_t v) const;
   double legAt(std::uint32_t v) const;
   void fetchAhead(std::span<const SizeQueue::Entry> batch) const;
   void fetchLeaf(std::span<const std::uint32_t> leaves) const;
   template <typename F>
-  void grow(std::vector<std::uint32_t>&& from, const F& mayLower);
-  template <typename F>
-  void findGrowth(std::uint32_t v, const F& mayLower, std::vector<Growth>& found) const;
+  void grow(const std::vector<std::uint32_t>& from, const F& mayLower);
+  template <typename F, typename G>
+  void findGrowth(std::uint32_t v, const F& mayLower, G&& found) const;
   std::vector<std::uint32_t> besideNew() const;
-  std::vector<SizeQueue::Entry> flattenLeaves(std::vector<std::uint32_t>& leaves);
+  bool isFirstToSee(std::uint32_t leaf);
   void flattenLeaf(std::uint32_t leaf, std::vector<Lowered>& lowered) const;
   void flattenLegs();
   template <typename F>
@@ -117,7 +117,7 @@ class SizeGrading {
   // appears twice.
   std::vector<std::array<std::uint32_t, 4>> round_;
   std::vector<std::uint32_t> halves_;  // half the side of the largest cell around each vertex, in units
-  std::vector<std::uint32_t> seen_;    // while sizes are flattened: the batch that listed a cell last
+  std::vector<std::uint32_t> seen_;    // while sizes are flattened: the last batch that listed a cell
   std::uint32_t seen_last_ = 0;
   const ItemLoop& loop_;
 };

@@ -1,12 +1,17 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "core/ids.hpp"
+#include "core/item_loop.hpp"
+#include "core/size/grow_list.hpp"
 
 namespace coastmesh {
 
@@ -23,7 +28,7 @@ class SizePlaces {
   // kNone if the point has no number.
   std::uint32_t find(const Place& place) const { return table_.empty() ? kNone : table_[slotOf(place)]; }
   std::uint32_t add(const Place& place) {
-    if (8 * places_.size() >= 3 * table_.size()) grow();
+    if (isFull()) growIfFull(inOrder);
     std::uint32_t& number = table_[slotOf(place)];
     if (number == kNone) {
       number = size();
@@ -31,28 +36,32 @@ class SizePlaces {
     }
     return number;
   }
-  // Prefetch what adding a point needs: first its slot, some time later the entry of its number.
-  [[gnu::always_inline]] void fetchSlot(const Place& place) const {
-    if (!table_.empty()) __builtin_prefetch(&table_[firstSlotOf(place) & (table_.size() - 1)]);
-  }
-  [[gnu::always_inline]] void fetchPlace(const Place& place) const {
-    if (table_.empty()) return;
-    const std::uint32_t number = table_[firstSlotOf(place) & (table_.size() - 1)];
-    if (number != kNone) __builtin_prefetch(&places_[number]);
-  }
-  // Renumbers all points: `order` lists the old numbers, each once, in the order of the new ones.
-  void reorder(const std::vector<std::uint32_t>& order) {
-    std::vector<Place> places;
-    places.reserve(order.size() + order.size() / 32);
-    places.resize(order.size());
-    std::vector<std::uint32_t> numbers(order.size());
-    for (std::uint32_t i = 0; i < order.size(); ++i) {
-      places[i] = places_[order[i]];
-      numbers[order[i]] = i;
+  // Numbers many points as `add` would one after the other: where `numbers[i]` is kNone, it becomes the number of
+  // `placeOf(i)`, which has to depend on i alone.
+  template <typename PlaceOf>
+  void addAll(const ItemLoop& loop, const PlaceOf& placeOf, std::span<std::uint32_t> numbers) {
+    for (std::size_t first = 0; first < numbers.size();) {
+      growIfFull(loop);
+      // The table stays a quarter empty even if all of these are new.
+      const std::size_t room = table_.size() / 4 * 3 - places_.size();
+      const std::size_t count = std::min(room, numbers.size() - first);
+      addSome(
+          loop, [&](std::size_t i) { return placeOf(first + i); }, numbers.subspan(first, count));
+      first += count;
     }
+    growIfFull(loop);
+  }
+  // Renumbers all points: `order` lists the old numbers, each once, in the order of the new ones; `numbers` is its
+  // inverse.
+  void reorder(const ItemLoop& loop, std::span<const std::uint32_t> order, std::span<const std::uint32_t> numbers) {
+    std::vector<Place> places;
+    reserveOn(loop, places, order.size(), order.size() / 32);
+    places.resize(order.size());
+    forEachByStretches(loop, order.size(), [&](std::size_t i) { places[i] = places_[order[i]]; });
     places_ = std::move(places);
-    for (std::uint32_t& number : table_)
-      if (number != kNone) number = numbers[number];
+    forEachByStretches(loop, table_.size(), [&](std::size_t slot) {
+      if (table_[slot] != kNone) table_[slot] = numbers[table_[slot]];
+    });
   }
 
  private:
@@ -77,13 +86,103 @@ class SizePlaces {
     while (table_[slot] != kNone && places_[table_[slot]] != place) slot = (slot + step) & last;
     return slot;
   }
-  void grow() {
-    table_.assign(table_.empty() ? 4 * kBlock : 2 * table_.size(), kNone);
-    for (std::uint32_t i = 0; i < size(); ++i) table_[slotOf(places_[i])] = i;
+  struct Search {
+    std::uint64_t slot = 0, step = 0;
+  };
+  Search searchFor(const Place& place) const {
+    Search search;
+    search.slot = firstSlotOf(place, &search.step) & (table_.size() - 1);
+    return search;
+  }
+  // For several threads at once: the slot that has `number` afterwards, or a smaller one for which `isSame` is true.
+  template <typename IsSame>
+  std::size_t claimSlot(Search search, std::uint32_t number, const IsSame& isSame) {
+    for (const std::uint64_t last = table_.size() - 1;; search.slot = (search.slot + search.step) & last) {
+      std::uint32_t& slot = table_[search.slot];
+      std::uint32_t held = __atomic_load_n(&slot, __ATOMIC_RELAXED);
+      const auto replace = [&] {
+        return __atomic_compare_exchange_n(&slot, &held, number, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED);
+      };
+      if (held == kNone && replace()) return search.slot;
+      if (!isSame(held)) continue;
+      while (number < held && !replace()) {
+      }
+      return search.slot;
+    }
+  }
+  // Adds points that fit into the table. A new point's slot first holds the smallest index that asks for it, above all
+  // numbers: that does not depend on the order of the threads, and becomes a number by counting.
+  template <typename PlaceOf>
+  void addSome(const ItemLoop& loop, const PlaceOf& placeOf, std::span<std::uint32_t> numbers) {
+    const std::uint32_t known = size();
+    UnsetNumbers<std::uint32_t> slots(numbers.size());
+    forStretches(loop, numbers.size(), [&](std::size_t first, std::size_t last) {
+      // Some at once, so that their slots are fetched from memory at the same time.
+      constexpr std::size_t kAtOnce = 32;
+      std::array<Place, kAtOnce> places;
+      std::array<Search, kAtOnce> searches;
+      for (; first < last; first += kAtOnce) {
+        const std::size_t count = std::min(kAtOnce, last - first);
+        for (std::size_t k = 0; k < count; ++k) {
+          if (numbers[first + k] != kNone) continue;
+          places[k] = placeOf(first + k);
+          searches[k] = searchFor(places[k]);
+          __builtin_prefetch(&table_[searches[k].slot], 1);
+        }
+        for (std::size_t k = 0; k < count; ++k) {
+          slots[first + k] = kNone;
+          if (numbers[first + k] != kNone) continue;
+          const auto isSame = [&](std::uint32_t held) {
+            return (held < known ? places_[held] : placeOf(held - known)) == places[k];
+          };
+          const auto number = known + static_cast<std::uint32_t>(first + k);
+          slots[first + k] = static_cast<std::uint32_t>(claimSlot(searches[k], number, isSame));
+        }
+      }
+    });
+    const std::vector<std::vector<std::uint32_t>> fresh =
+        overStretches(loop, numbers.size(), [&](std::size_t first, std::size_t last) {
+          std::vector<std::uint32_t> here;
+          for (auto i = static_cast<std::uint32_t>(first); i < last; ++i)
+            if (slots[i] != kNone && table_[slots[i]] == known + i) here.push_back(i);
+          return here;
+        });
+    std::vector<std::uint32_t> begin = {known};
+    for (const std::vector<std::uint32_t>& here : fresh)
+      begin.push_back(begin.back() + static_cast<std::uint32_t>(here.size()));
+    growOn(loop, places_, begin.back());
+    loop(fresh.size(), [&](std::size_t s) {
+      std::uint32_t number = begin[s];
+      for (const std::uint32_t i : fresh[s]) {
+        places_[number] = placeOf(i);
+        table_[slots[i]] = number++;
+      }
+    });
+    forEachByStretches(loop, numbers.size(), [&](std::size_t i) {
+      if (slots[i] != kNone) numbers[i] = table_[slots[i]];
+    });
+  }
+  bool isFull() const { return 8 * places_.size() >= 3 * table_.size(); }
+  void growIfFull(const ItemLoop& loop) {
+    while (isFull()) {
+      const std::size_t slots = table_.empty() ? 4 * kBlock : 2 * table_.size();
+      table_ = {};  // first, so that there are never two
+      table_ = UnsetNumbers<std::uint32_t>(slots);
+      forStretches(loop, slots,
+                   [&](std::size_t first, std::size_t last) { std::fill(&table_[first], &table_[0] + last, kNone); });
+      const auto isSame = [](std::uint32_t) { return false; };
+      forStretches(loop, places_.size(), [&](std::size_t first, std::size_t last) {
+        constexpr std::size_t kAhead = 16;
+        for (std::size_t i = first; i < last; ++i) {
+          if (i + kAhead < last) __builtin_prefetch(&table_[searchFor(places_[i + kAhead]).slot], 1);
+          claimSlot(searchFor(places_[i]), static_cast<std::uint32_t>(i), isSame);
+        }
+      });
+    }
   }
 
   std::vector<Place> places_;
-  std::vector<std::uint32_t> table_;  // a power of two, at most three eighths full
+  UnsetNumbers<std::uint32_t> table_;  // a power of two, at most three eighths full
 };
 
 }  // namespace coastmesh

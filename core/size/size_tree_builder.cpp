@@ -4,9 +4,13 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "core/ids.hpp"
 #include "core/metric.hpp"
+#include "core/size/grow_list.hpp"
 #include "core/size/on_surface.hpp"
 #include "core/size/size_grading.hpp"
 #include "core/size/size_places.hpp"
@@ -50,10 +54,10 @@ class SizeTreeBuilder {
   void build() {
     tree_.cells_.push_back({});
     squares_.push_back({});
-    known_.push_back(kNone);
+    own_vertices_.push_back(kUnknown);
     refine();
     if (!tree_.complete_) return;
-    balance(0);
+    balanceAll();
     number();
     limitGradation();
     tree_.demand_ = demandOfLeaves();
@@ -67,6 +71,10 @@ class SizeTreeBuilder {
   static constexpr std::array<unsigned, 5> kOwn = {0, 2, 4, 6, 8};
   static constexpr std::size_t kCentre = 2;  // index in kOwn
   static constexpr std::array<unsigned, 4> kMiddles = {1, 3, 5, 7};
+  // Their numbers, in the order of kOwn, or `kUnknown`.
+  using OwnVertices = std::array<std::uint32_t, kOwn.size()>;
+  static constexpr std::array<unsigned, 9> kOwnThenMiddles = {0, 2, 4, 6, 8, 1, 3, 5, 7};
+  static constexpr OwnVertices kUnknown = {kNone, kNone, kNone, kNone, kNone};
 
   double unit() const { return tree_.side_ / kUnits; }
   SizeBox boxOf(std::uint32_t c) const {
@@ -88,13 +96,8 @@ class SizeTreeBuilder {
     const Square& s = squares_[c];
     return {s.x + (i % 3) * (s.side() / 2), s.y + (i / 3) * (s.side() / 2)};
   }
-  void addOwnVertices(std::uint32_t c) {
-    if (known_[c] != kNone) return;
-    known_[c] = static_cast<std::uint32_t>(own_vertices_.size());
-    std::array<std::uint32_t, 5>& numbers = own_vertices_.emplace_back();
-    for (std::size_t k = 0; k < kOwn.size(); ++k) numbers[k] = vertices_.add(vertexOf(c, kOwn[k]));
-  }
 
+  // Splits a leaf when leaves have numbers.
   void split(std::uint32_t c) {
     const Square square = squares_[c];
     const std::uint32_t half = square.side() / 2;
@@ -104,10 +107,6 @@ class SizeTreeBuilder {
       const auto child = static_cast<std::uint32_t>(tree_.cells_.size());
       tree_.cells_.push_back({});
       squares_.push_back({square.x + (k % 2) * half, square.y + (k / 2) * half, square.level + 1});
-      if (leaf_cells_.empty()) {
-        known_.push_back(kNone);
-        continue;
-      }
       // The first child takes its parent's number.
       tree_.cells_.back().below = k == 0 ? leaf : static_cast<std::uint32_t>(leaf_cells_.size());
       if (k == 0)
@@ -117,19 +116,52 @@ class SizeTreeBuilder {
     }
   }
 
+  // Splits the cells `cellAt(k)` in this order while leaves have no numbers, unless there would be too many.
+  template <typename CellAt>
+  void splitIfRoom(std::size_t count, const CellAt& cellAt) {
+    if (tree_.cells_.size() + 4 * count > options_.most_cells)
+      tree_.complete_ = false;
+    else
+      splitAll(count, cellAt);
+  }
+  template <typename CellAt>
+  void splitAll(std::size_t count, const CellAt& cellAt) {
+    const std::size_t first = tree_.cells_.size(), end = first + 4 * count;
+    growOn(loop_, tree_.cells_, end);
+    growOn(loop_, squares_, end);
+    growOn(loop_, own_vertices_, end, kUnknown);
+    forEachByStretches(loop_, count, [&](std::size_t k) {
+      const std::uint32_t c = cellAt(k);
+      const Square square = squares_[c];
+      const std::uint32_t half = square.side() / 2;
+      const std::size_t below = first + 4 * k;
+      tree_.cells_[c] = {static_cast<std::uint32_t>(below), false};
+      for (unsigned child = 0; child < 4; ++child)
+        squares_[below + child] = {square.x + (child % 2) * half, square.y + (child / 2) * half, square.level + 1};
+    });
+  }
+
   bool isFull() {
     if (tree_.cells_.size() + 4 > options_.most_cells) tree_.complete_ = false;
     return !tree_.complete_;
   }
 
-  // The vertices that cells require, from the ranges of their lengths: at least, and probably.
-  struct Demand {
+  // The vertices that a cell requires, from the range of its lengths: at least, and probably.
+  struct CellDemand {
     double least = 0.0, likely = 0.0;
-    double central = 0.0;     // from the lengths at the centres of cells, if known
-    double most_here = -1.0;  // the largest `likely` of a cell
+    double central = 0.0;  // from the length at the centre, if known
+    double size = 0.0;
+  };
+  // The sums over some cells.
+  struct Demand {
+    double least = 0.0, likely = 0.0, central = 0.0;
+    double most_here = 0.0;  // the largest `likely` of a cell
     SizeBox most_in;
     double size = 0.0;
 
+    void add(const CellDemand& cell, const SizeBox& box) {
+      add({cell.least, cell.likely, cell.central, cell.likely, box, cell.size});
+    }
     void add(const Demand& other) {
       least += other.least;
       likely += other.likely;
@@ -141,7 +173,7 @@ class SizeTreeBuilder {
     }
   };
 
-  Demand demandOf(std::uint32_t c, const SizeRange& range) const {
+  CellDemand demandOf(std::uint32_t c, const SizeRange& range) const {
     const SizeBox box = boxOf(c);
     const double share = source_.share(box);
     const double area =
@@ -155,7 +187,19 @@ class SizeTreeBuilder {
     const double least = kVerticesPerArea * area / range.high / range.high;
     const double centre = range.at_centre;
     const double central = std::isfinite(centre) && centre > 0.0 ? kVerticesPerArea * area / centre / centre : least;
-    return {least, likely, central, likely, box, low};
+    return {least, likely, central, low};
+  }
+  // `sum` and what `addTo(sum, k)` adds to it for every k below `count`.
+  template <typename AddTo>
+  Demand sumOver(std::size_t count, const Demand& sum, const AddTo& addTo) const {
+    Demand all = sum;
+    const auto sumOf = [&](std::size_t first, std::size_t last) {
+      Demand here;
+      for (std::size_t k = first; k < last; ++k) addTo(here, k);
+      return here;
+    };
+    for (const Demand& part : overStretches(loop_, count, sumOf)) all.add(part);
+    return all;
   }
 
   // True if the likely demand is far too large and has hardly decreased over some levels: the apparent demand of small
@@ -186,74 +230,73 @@ class SizeTreeBuilder {
 
   // The demand of graded lengths.
   SizeDemand demandOfLeaves() const {
-    const std::vector<Demand> parts =
-        overStretches(loop_, leaf_cells_.size(), [&](std::size_t first, std::size_t last) {
-          Demand sum;
-          for (std::size_t l = first; l < last; ++l) {
-            if (!is_wanted_[l]) continue;
-            const SizeBox box = boxOf(leaf_cells_[l]);
-            const double share = source_.share(box);
-            if (!(share > 0.0)) continue;
-            Demand here{0.0, 0.0, 0.0, 0.0, box, kInfinity};
-            forEachTriangle(leaf_vertices_[l], [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-              const double x = sizes_.size[a], y = sizes_.size[b], z = sizes_.size[c];
-              const auto atMiddle = [](double p, double q) { return 4.0 / (p + q) / (p + q); };
-              // Area on the surface over area in the plane.
-              const auto shareOf = [&](std::uint32_t p, std::uint32_t q) {
-                if (!options_.surface.isCurved()) return 1.0;
-                const double shrink =
-                    options_.surface.shrinkAt(tree_.origin_ + 0.5 * unit() * (gridPoint(p) + gridPoint(q)));
-                return shrink * shrink;
-              };
-              const double area =
-                  0.5 * unit() * unit() * std::abs(cross(gridPoint(b) - gridPoint(a), gridPoint(c) - gridPoint(a)));
-              here.likely +=
-                  kVerticesPerArea * share * area *
-                  (shareOf(a, b) * atMiddle(x, y) + shareOf(b, c) * atMiddle(y, z) + shareOf(c, a) * atMiddle(z, x)) /
-                  3.0;
-              here.size = std::min({here.size, x, y, z});
-            });
-            here.most_here = here.likely;
-            sum.add(here);
-          }
-          return sum;
-        });
-    Demand all;
-    for (const Demand& part : parts) all.add(part);
+    const Demand all = sumOver(leaf_cells_.size(), {}, [&](Demand& sum, std::size_t l) {
+      if (!is_wanted_[l]) return;
+      const SizeBox box = boxOf(leaf_cells_[l]);
+      const double share = source_.share(box);
+      if (!(share > 0.0)) return;
+      Demand here{0.0, 0.0, 0.0, 0.0, box, kInfinity};
+      forEachTriangle(leaf_vertices_[l], [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        const double x = sizes_.size[a], y = sizes_.size[b], z = sizes_.size[c];
+        const auto atMiddle = [](double p, double q) { return 4.0 / (p + q) / (p + q); };
+        // Area on the surface over area in the plane.
+        const auto shareOf = [&](std::uint32_t p, std::uint32_t q) {
+          if (!options_.surface.isCurved()) return 1.0;
+          const double shrink = options_.surface.shrinkAt(tree_.origin_ + 0.5 * unit() * (gridPoint(p) + gridPoint(q)));
+          return shrink * shrink;
+        };
+        const double area =
+            0.5 * unit() * unit() * std::abs(cross(gridPoint(b) - gridPoint(a), gridPoint(c) - gridPoint(a)));
+        here.likely +=
+            kVerticesPerArea * share * area *
+            (shareOf(a, b) * atMiddle(x, y) + shareOf(b, c) * atMiddle(y, z) + shareOf(c, a) * atMiddle(z, x)) / 3.0;
+        here.size = std::min({here.size, x, y, z});
+      });
+      here.most_here = here.likely;
+      sum.add(here);
+    });
     return {all.likely, all.most_in, all.size};
   }
   Point gridPoint(std::uint32_t v) const { return {1.0 * vertices_[v].x, 1.0 * vertices_[v].y}; }
+
+  // The cells from `first` to `end` for which `is(c)` is true.
+  template <typename Is>
+  std::vector<std::uint32_t> cellsWith(std::uint32_t first, std::uint32_t end, const Is& is) const {
+    return joined(overStretches(loop_, end - first, [&](std::size_t from, std::size_t to) {
+      std::vector<std::uint32_t> here;
+      for (auto c = static_cast<std::uint32_t>(first + from); c < first + to; ++c)
+        if (is(c)) here.push_back(c);
+      return here;
+    }));
+  }
 
   // Splits cells level by level, so that many places are evaluated at once.
   void refine() {
     std::uint32_t first = 0;
     std::vector<SizeBox> boxes;
     std::vector<SizeRange> ranges;
-    std::vector<std::uint32_t> unsure;
-    std::vector<SizeRange> unsure_ranges;
-    std::vector<Demand> demands;
+    std::vector<CellDemand> demands;
     Demand settled;  // of cells that are not split
     bool too_much = false;
     for (int level = 0; level < kLevels; ++level) {
       const auto end = static_cast<std::uint32_t>(tree_.cells_.size());
-      for (std::uint32_t c = first; options_.surface.isCurved() && c < end && !isFull(); ++c)
-        if (isStretched(boxOf(c), kAnyStretch)) split(c);
+      if (options_.surface.isCurved()) {
+        const std::vector<std::uint32_t> stretched =
+            cellsWith(first, end, [&](std::uint32_t c) { return isStretched(boxOf(c), kAnyStretch); });
+        splitIfRoom(stretched.size(), [&](std::size_t k) { return stretched[k]; });
+      }
       const std::vector<std::uint32_t> wanted =
-          joined(overStretches(loop_, end - first, [&](std::size_t from, std::size_t to) {
-            std::vector<std::uint32_t> here;
-            for (auto c = static_cast<std::uint32_t>(first + from); c < first + to; ++c)
-              if (tree_.cells_[c].is_leaf && source_.isWanted(boxOf(c))) here.push_back(c);
-            return here;
-          }));
+          cellsWith(first, end, [&](std::uint32_t c) { return tree_.cells_[c].is_leaf && source_.isWanted(boxOf(c)); });
       if (wanted.empty() && tree_.cells_.size() == end) break;
-      boxes.resize(wanted.size());
+      resizeAnew(loop_, boxes, wanted.size());
       forEachByStretches(loop_, wanted.size(), [&](std::size_t k) { boxes[k] = boxOf(wanted[k]); });
-      ranges.resize(boxes.size());
+      resizeAnew(loop_, ranges, wanted.size());
       source_.bound(boxes, ranges);
-      Demand pending = settled;
-      demands.resize(wanted.size());
-      forEachByStretches(loop_, wanted.size(), [&](std::size_t k) { demands[k] = demandOf(wanted[k], ranges[k]); });
-      for (const Demand& demand : demands) pending.add(demand);
+      resizeAnew(loop_, demands, wanted.size());
+      Demand pending = sumOver(wanted.size(), settled, [&](Demand& sum, std::size_t k) {
+        demands[k] = demandOf(wanted[k], ranges[k]);
+        sum.add(demands[k], boxes[k]);
+      });
       // A few more cells cost nothing and improve the estimate.
       constexpr std::uint32_t kFewCells = 20'000;
       too_much |= isSurelyTooMuch(pending.likely) || pending.least > options_.most_vertices;
@@ -263,91 +306,110 @@ class SizeTreeBuilder {
         return abandon(pending);
       }
       if (too_much && end >= kFewCells) return abandon(pending);
-      unsure.clear();
-      unsure_ranges.clear();
-      for (std::size_t k = 0; k < wanted.size() && !isFull(); ++k) {
-        const double low = ranges[k].low, high = ranges[k].high;
-        if (!(high > low * (1.0 + toleranceOf(ranges[k])))) continue;
-        const double side = sideOf(boxes[k]);
-        if (side > options_.coarsest * low || isStretched(boxes[k], kGradedStretch)) {
-          split(wanted[k]);
-        } else if (side > (ranges[k].is_graded ? options_.finest_graded : options_.finest) * low) {
-          unsure.push_back(wanted[k]);
-          unsure_ranges.push_back(ranges[k]);
-        }
-      }
-      splitWhereBent(unsure, unsure_ranges);
+      if (tree_.complete_) splitByRange(wanted, ranges);
       if (!tree_.complete_) return abandon(pending);
-      for (std::size_t k = 0; k < wanted.size(); ++k)
-        if (tree_.cells_[wanted[k]].is_leaf) settled.add(demands[k]);
+      settled = sumOver(wanted.size(), settled, [&](Demand& sum, std::size_t k) {
+        if (tree_.cells_[wanted[k]].is_leaf) sum.add(demands[k], boxes[k]);
+      });
       first = end;
     }
     if (too_much) abandon(settled);
+  }
+
+  // Splits cells that are too large for their smallest length, and those that are bent.
+  void splitByRange(const std::vector<std::uint32_t>& cells, const std::vector<SizeRange>& ranges) {
+    enum class Split : std::uint8_t { No, Yes, IfBent };
+    std::vector<Split> splits(cells.size());
+    forEachByStretches(loop_, cells.size(), [&](std::size_t k) {
+      const double low = ranges[k].low, high = ranges[k].high;
+      if (!(high > low * (1.0 + toleranceOf(ranges[k])))) return;
+      const SizeBox box = boxOf(cells[k]);
+      const double side = sideOf(box);
+      if (side > options_.coarsest * low || isStretched(box, kGradedStretch)) {
+        splits[k] = Split::Yes;
+      } else if (side > (ranges[k].is_graded ? options_.finest_graded : options_.finest) * low) {
+        splits[k] = Split::IfBent;
+      }
+    });
+    const auto these = [&](Split which) {
+      return joined(overStretches(loop_, cells.size(), [&](std::size_t first, std::size_t last) {
+        std::vector<std::uint32_t> here;
+        for (auto k = static_cast<std::uint32_t>(first); k < last; ++k)
+          if (splits[k] == which) here.push_back(k);
+        return here;
+      }));
+    };
+    const std::vector<std::uint32_t> surely = these(Split::Yes);
+    splitIfRoom(surely.size(), [&](std::size_t k) { return cells[surely[k]]; });
+    if (tree_.complete_) splitWhereBent(cells, these(Split::IfBent), ranges);
   }
 
   double toleranceOf(const SizeRange& range) const {
     return range.is_graded ? options_.tolerance_graded : options_.tolerance;
   }
 
-  // Splits cells whose centre or sides differ from interpolation between the corners, or that contain something much
-  // smaller than all of these.
-  void splitWhereBent(const std::vector<std::uint32_t>& cells, const std::vector<SizeRange>& ranges) {
-    std::vector<std::array<std::uint32_t, 4>> middles(cells.size());
-    for (std::size_t k = 0; k < cells.size(); ++k) {
-      constexpr std::size_t kAhead = 6;
-      if (k + 2 * kAhead < cells.size()) {
-        for (const unsigned i : kMiddles) {
-          vertices_.fetchSlot(vertexOf(cells[k + 2 * kAhead], i));
-          vertices_.fetchPlace(vertexOf(cells[k + kAhead], i));
-        }
-      }
-      addOwnVertices(cells[k]);
-      if (!std::isnan(ranges[k].at_centre))
-        told_.push_back({own_vertices_[known_[cells[k]]][kCentre], ranges[k].at_centre});
-      for (std::size_t i = 0; i < kMiddles.size(); ++i) middles[k][i] = vertices_.add(vertexOf(cells[k], kMiddles[i]));
-    }
+  // Splits those of the cells `these` whose centre or sides differ from interpolation between the corners, or that
+  // contain something much smaller than all of these. `these` are numbers in the two lists.
+  void splitWhereBent(const std::vector<std::uint32_t>& cells, const std::vector<std::uint32_t>& these,
+                      const std::vector<SizeRange>& ranges) {
+    // The own vertices of each cell, then the middles of its sides.
+    constexpr std::size_t kEach = 9;
+    UnsetNumbers<std::uint32_t> numbers(kEach * these.size());
+    forEachByStretches(loop_, these.size(), [&](std::size_t k) {
+      std::ranges::copy(own_vertices_[cells[these[k]]], &numbers[kEach * k]);
+      std::fill_n(&numbers[kEach * k + kOwn.size()], kMiddles.size(), kNone);
+    });
+    vertices_.addAll(
+        loop_, [&](std::size_t i) { return vertexOf(cells[these[i / kEach]], kOwnThenMiddles[i % kEach]); }, numbers);
+    growOn(loop_, sizes_.own, vertices_.size(), kUnasked);
+    // Bounds have provided some.
+    forEachByStretches(loop_, these.size(), [&](std::size_t k) {
+      std::copy_n(&numbers[kEach * k], kOwn.size(), own_vertices_[cells[these[k]]].begin());
+      const double at_centre = ranges[these[k]].at_centre;
+      if (!std::isnan(at_centre)) sizes_.own[numbers[kEach * k + kCentre]] = at_centre;
+    });
     sample();
     const auto isBent = [&](std::size_t k) {
+      const SizeRange& range = ranges[these[k]];
       std::array<double, 9> v;
-      for (std::size_t i = 0; i < kOwn.size(); ++i) v[kOwn[i]] = sizes_.own[own_vertices_[known_[cells[k]]][i]];
-      for (std::size_t i = 0; i < kMiddles.size(); ++i) v[kMiddles[i]] = sizes_.own[middles[k][i]];
+      for (std::size_t i = 0; i < kEach; ++i) v[kOwnThenMiddles[i]] = sizes_.own[numbers[kEach * k + i]];
       // The error of four triangles; eight have about half of it.
       double off = std::abs(0.25 * (v[0] + v[2] + v[6] + v[8]) - v[4]);
       off = 0.5 * std::max({off, std::abs(0.5 * (v[0] + v[2]) - v[1]), std::abs(0.5 * (v[0] + v[6]) - v[3]),
                             std::abs(0.5 * (v[2] + v[8]) - v[5]), std::abs(0.5 * (v[6] + v[8]) - v[7])});
-      const double least = std::ranges::min(v), side = sideOf(boxOf(cells[k]));
-      if (least > kHidden * ranges[k].low) return true;
-      return std::isfinite(off) ? off * side > toleranceOf(ranges[k]) * least * least : std::isfinite(least);
+      const double least = std::ranges::min(v), side = sideOf(boxOf(cells[these[k]]));
+      if (least > kHidden * range.low) return true;
+      return std::isfinite(off) ? off * side > toleranceOf(range) * least * least : std::isfinite(least);
     };
     const std::vector<std::uint32_t> bent =
-        joined(overStretches(loop_, cells.size(), [&](std::size_t first, std::size_t last) {
+        joined(overStretches(loop_, these.size(), [&](std::size_t first, std::size_t last) {
           std::vector<std::uint32_t> here;
           for (std::size_t k = first; k < last; ++k)
             if (isBent(k)) here.push_back(static_cast<std::uint32_t>(k));
           return here;
         }));
-    for (const std::uint32_t k : bent) {
-      if (isFull()) return;
+    const std::size_t before = tree_.cells_.size();
+    splitIfRoom(bent.size(), [&](std::size_t k) { return cells[these[bent[k]]]; });
+    if (!tree_.complete_) return;
+    // Four of each child's vertices already have a number.
+    std::vector<std::uint32_t> centres(4 * bent.size(), kNone);
+    vertices_.addAll(
+        loop_, [&](std::size_t i) { return vertexOf(static_cast<std::uint32_t>(before + i), 4); }, centres);
+    forEachByStretches(loop_, bent.size(), [&](std::size_t k) {
       LeafVertices around;
-      for (std::size_t i = 0; i < kOwn.size(); ++i) around[kOwn[i]] = own_vertices_[known_[cells[k]]][i];
-      for (std::size_t i = 0; i < kMiddles.size(); ++i) around[kMiddles[i]] = middles[k][i];
-      split(cells[k]);
-      // Four of each child's vertices already have a number.
-      for (std::uint32_t child = 0; child < 4; ++child) {
-        const std::uint32_t c = tree_.cells_[cells[k]].below + child, first = child % 2 + 3 * (child / 2);
-        known_[c] = static_cast<std::uint32_t>(own_vertices_.size());
-        own_vertices_.push_back(
-            {around[first], around[first + 1], vertices_.add(vertexOf(c, 4)), around[first + 3], around[first + 4]});
+      for (std::size_t i = 0; i < kEach; ++i) around[kOwnThenMiddles[i]] = numbers[kEach * bent[k] + i];
+      for (std::size_t child = 0; child < 4; ++child) {
+        const std::size_t first = child % 2 + 3 * (child / 2);
+        own_vertices_[before + 4 * k + child] = {around[first], around[first + 1], centres[4 * k + child],
+                                                 around[first + 3], around[first + 4]};
       }
-    }
+    });
   }
 
   // Samples sizes at new vertices, except those that bounds have already provided.
   void sample() {
-    const std::size_t known = sizes_.own.size();
-    sizes_.own.resize(vertices_.size(), kUnasked);
-    for (const auto& [v, size] : told_) sizes_.own[v] = size;
-    told_.clear();
+    const std::size_t known = std::exchange(sampled_, vertices_.size());
+    growOn(loop_, sizes_.own, vertices_.size(), kUnasked);
     const std::vector<std::uint32_t> asked =
         joined(overStretches(loop_, vertices_.size() - known, [&](std::size_t first, std::size_t last) {
           std::vector<std::uint32_t> here;
@@ -355,9 +417,10 @@ class SizeTreeBuilder {
             if (sizes_.own[v] == kUnasked) here.push_back(v);
           return here;
         }));
-    std::vector<Point> places(asked.size());
+    std::vector<Point> places;
+    resizeAnew(loop_, places, asked.size());
     forEachByStretches(loop_, asked.size(), [&](std::size_t k) { places[k] = placeOf(vertices_[asked[k]]); });
-    std::vector<double> sizes(places.size());
+    UnsetNumbers<double> sizes(places.size());
     source_.sample(places, sizes);
     forEachByStretches(loop_, asked.size(), [&](std::size_t k) { sizes_.own[asked[k]] = sizes[k]; });
   }
@@ -396,15 +459,43 @@ class SizeTreeBuilder {
     return kNone;
   }
 
-  // Splits leaves until adjacent ones differ by at most one level. REQUIRES: leaves before cell `first` already do.
+  // The leaves, from cell `first` on, that have a leaf beside them that is too large.
+  std::vector<std::uint32_t> unbalanced(std::size_t first) const {
+    return cellsWith(static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(tree_.cells_.size()),
+                     [&](std::uint32_t c) { return tree_.cells_[c].is_leaf && tooLargeBeside(c) != kNone; });
+  }
+
+  // Splits leaves until adjacent ones differ by at most one level, before leaves have numbers. The result is the
+  // smallest such tree, in whatever order they are split.
+  void balanceAll() {
+    for (std::vector<std::uint32_t> waiting = unbalanced(0); !waiting.empty();) {
+      std::vector<std::uint32_t> large =
+          joined(overStretches(loop_, waiting.size(), [&](std::size_t first, std::size_t last) {
+            std::vector<std::uint32_t> here;
+            for (std::size_t k = first; k < last; ++k)
+              if (tree_.cells_[waiting[k]].is_leaf) here.push_back(tooLargeBeside(waiting[k]));
+            return here;
+          }));
+      sortOn(loop_, large);
+      large.erase(std::unique(large.begin(), large.end()), large.end());
+      const std::size_t before = tree_.cells_.size();
+      splitAll(large.size(), [&](std::size_t k) { return large[k]; });
+      std::vector<std::uint32_t> still =
+          joined(overStretches(loop_, waiting.size(), [&](std::size_t first, std::size_t last) {
+            std::vector<std::uint32_t> here;
+            for (std::size_t k = first; k < last; ++k)
+              if (tree_.cells_[waiting[k]].is_leaf && tooLargeBeside(waiting[k]) != kNone) here.push_back(waiting[k]);
+            return here;
+          }));
+      const std::vector<std::uint32_t> more = unbalanced(before);
+      still.insert(still.end(), more.begin(), more.end());
+      waiting = std::move(still);
+    }
+  }
+
+  // The same when leaves have numbers, which depend on the order. REQUIRES: leaves before cell `first` are balanced.
   void balance(std::size_t first) {
-    std::vector<std::uint32_t> waiting =
-        joined(overStretches(loop_, tree_.cells_.size() - first, [&](std::size_t from, std::size_t to) {
-          std::vector<std::uint32_t> here;
-          for (auto c = static_cast<std::uint32_t>(first + from); c < first + to; ++c)
-            if (tree_.cells_[c].is_leaf && tooLargeBeside(c) != kNone) here.push_back(c);
-          return here;
-        }));
+    std::vector<std::uint32_t> waiting = unbalanced(first);
     while (!waiting.empty()) {
       const std::uint32_t c = waiting.back();
       const std::uint32_t other = tree_.cells_[c].is_leaf ? tooLargeBeside(c) : kNone;
@@ -419,33 +510,65 @@ class SizeTreeBuilder {
 
   // Numbers leaves and their vertices so that neighbours are close in memory; samples sizes at new vertices.
   void number() {
-    const auto list = [&](const auto& self, std::uint32_t c) -> void {
-      SizeTree::Cell& cell = tree_.cells_[c];
-      if (!cell.is_leaf) {
-        for (std::uint32_t k = 0; k < 4; ++k) self(self, cell.below + k);
-        return;
-      }
-      cell.below = static_cast<std::uint32_t>(leaf_cells_.size());
-      leaf_cells_.push_back(c);
-    };
-    list(list, 0);
-    for (const std::uint32_t c : leaf_cells_) addOwnVertices(c);
+    leaf_cells_ = listLeaves();
+    UnsetNumbers<std::uint32_t> own(kOwn.size() * leaf_cells_.size());
+    forEachByStretches(loop_, leaf_cells_.size(), [&](std::size_t l) {
+      tree_.cells_[leaf_cells_[l]].below = static_cast<std::uint32_t>(l);
+      std::ranges::copy(own_vertices_[leaf_cells_[l]], &own[kOwn.size() * l]);
+    });
+    freeMemoryOf(own_vertices_);
+    vertices_.addAll(
+        loop_, [&](std::size_t i) { return vertexOf(leaf_cells_[i / kOwn.size()], kOwn[i % kOwn.size()]); }, own);
     sample();
+    reserveOn(loop_, is_wanted_, leaf_cells_.size(), leaf_cells_.size() / kSpare);
     is_wanted_.resize(leaf_cells_.size());
+    reserveOn(loop_, leaf_vertices_, leaf_cells_.size(), leaf_cells_.size() / kSpare);
     leaf_vertices_.resize(leaf_cells_.size());
     forEachByStretches(loop_, leaf_cells_.size(), [&](std::size_t l) {
-      const std::uint32_t c = leaf_cells_[l];
-      is_wanted_[l] = source_.isWanted(boxOf(c));
-      for (std::size_t k = 0; k < kOwn.size(); ++k) leaf_vertices_[l][kOwn[k]] = own_vertices_[known_[c]][k];
+      is_wanted_[l] = source_.isWanted(boxOf(leaf_cells_[l]));
+      for (std::size_t k = 0; k < kOwn.size(); ++k) leaf_vertices_[l][kOwn[k]] = own[kOwn.size() * l + k];
       findMiddles(static_cast<std::uint32_t>(l));
     });
-    freeMemoryOf(known_);
-    freeMemoryOf(own_vertices_);
+    own = {};
     putInOrder();
-    sizes_.size.reserve(sizes_.own.capacity());
-    sizes_.source.reserve(sizes_.own.capacity());
+    const std::size_t count = vertices_.size(), spare = sizes_.own.capacity() - count;
+    reserveOn(loop_, sizes_.size, count, spare);
     sizes_.size = sizes_.own;
-    sizes_.source.assign(vertices_.size(), kNone);
+    reserveOn(loop_, sizes_.source, count, spare);
+    sizes_.source.assign(count, kNone);
+  }
+
+  // Roots of subtrees, depth first, that together hold all leaves: enough for all threads, if the tree is large.
+  std::vector<std::uint32_t> listSubtrees() const {
+    constexpr std::size_t kEnough = 1024;
+    std::vector<std::uint32_t> roots = {0}, below;
+    for (bool deeper = true; deeper && roots.size() < kEnough; roots.swap(below)) {
+      below.clear();
+      for (const std::uint32_t c : roots) {
+        if (tree_.cells_[c].is_leaf) {
+          below.push_back(c);
+          continue;
+        }
+        for (std::uint32_t k = 0; k < 4; ++k) below.push_back(tree_.cells_[c].below + k);
+      }
+      deeper = below.size() > roots.size();
+    }
+    return roots;
+  }
+
+  // All leaves, depth first.
+  std::vector<std::uint32_t> listLeaves() const {
+    const std::vector<std::uint32_t> roots = listSubtrees();
+    const auto list = [&](const auto& self, std::uint32_t c, std::vector<std::uint32_t>& leaves) -> void {
+      if (tree_.cells_[c].is_leaf) return leaves.push_back(c);
+      for (std::uint32_t k = 0; k < 4; ++k) self(self, tree_.cells_[c].below + k, leaves);
+    };
+    const auto listBelow = [&](std::size_t first, std::size_t last) {
+      std::vector<std::uint32_t> leaves;
+      for (std::size_t r = first; r < last; ++r) list(list, roots[r], leaves);
+      return leaves;
+    };
+    return joined(overStretches(loop_, roots.size(), listBelow, 4));
   }
 
   // The middle of a side is a vertex if smaller leaves meet it, or if the leaf on the other side is as large and the
@@ -462,22 +585,50 @@ class SizeTreeBuilder {
 
   // Renumbers vertices as leaves use them; unused ones come last.
   void putInOrder() {
-    std::vector<std::uint32_t> order, numbers(vertices_.size(), kNone);
-    order.reserve(vertices_.size());
-    const auto numberOf = [&](std::uint32_t v) {
-      if (numbers[v] != kNone) return numbers[v];
-      order.push_back(v);
-      return numbers[v] = static_cast<std::uint32_t>(order.size() - 1);
-    };
-    for (LeafVertices& leaf : leaf_vertices_)
-      for (std::uint32_t& v : leaf)
-        if (v != kNone) v = numberOf(v);
-    for (std::uint32_t v = 0; v < vertices_.size(); ++v) numberOf(v);
-    vertices_.reorder(order);
+    const std::size_t count = vertices_.size();
+    // The first use of each vertex, as 9 times the leaf plus the index in it; later its new number.
+    UnsetNumbers<std::uint32_t> numbers(count);
+    forEachByStretches(loop_, count, [&](std::size_t v) { numbers[v] = kNone; });
+    const auto useOf = [](std::size_t l, std::size_t i) { return static_cast<std::uint32_t>(9 * l + i); };
+    forEachByStretches(loop_, leaf_vertices_.size(), [&](std::size_t l) {
+      for (std::size_t i = 0; i < 9; ++i) {
+        if (leaf_vertices_[l][i] == kNone) continue;
+        std::uint32_t& first = numbers[leaf_vertices_[l][i]];
+        std::uint32_t held = __atomic_load_n(&first, __ATOMIC_RELAXED);
+        while (useOf(l, i) < held &&
+               !__atomic_compare_exchange_n(&first, &held, useOf(l, i), false, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
+        }
+      }
+    });
+    std::vector<std::uint32_t> order =
+        joined(overStretches(loop_, leaf_vertices_.size(), [&](std::size_t first, std::size_t last) {
+          std::vector<std::uint32_t> here;
+          for (std::size_t l = first; l < last; ++l) {
+            for (std::size_t i = 0; i < 9; ++i) {
+              const std::uint32_t v = leaf_vertices_[l][i];
+              if (v != kNone && numbers[v] == useOf(l, i)) here.push_back(v);
+            }
+          }
+          return here;
+        }));
+    const std::vector<std::uint32_t> unused =
+        joined(overStretches(loop_, count, [&](std::size_t first, std::size_t last) {
+          std::vector<std::uint32_t> here;
+          for (auto v = static_cast<std::uint32_t>(first); v < last; ++v)
+            if (numbers[v] == kNone) here.push_back(v);
+          return here;
+        }));
+    order.insert(order.end(), unused.begin(), unused.end());
+    forEachByStretches(loop_, count, [&](std::size_t v) { numbers[order[v]] = static_cast<std::uint32_t>(v); });
+    forEachByStretches(loop_, leaf_vertices_.size(), [&](std::size_t l) {
+      for (std::uint32_t& v : leaf_vertices_[l])
+        if (v != kNone) v = numbers[v];
+    });
+    vertices_.reorder(loop_, order, numbers);
     std::vector<double> own;
-    own.reserve(order.size() + order.size() / kSpare);
-    own.resize(order.size());
-    forEachByStretches(loop_, order.size(), [&](std::size_t v) { own[v] = sizes_.own[order[v]]; });
+    reserveOn(loop_, own, count, count / kSpare);
+    own.resize(count);
+    forEachByStretches(loop_, count, [&](std::size_t v) { own[v] = sizes_.own[order[v]]; });
     sizes_.own = std::move(own);
   }
 
@@ -586,25 +737,66 @@ class SizeTreeBuilder {
 
   // Stores cells and leaves depth first, so that neighbours are close in memory.
   void fill() {
-    std::vector<SizeTree::Cell> cells;
-    cells.reserve(tree_.cells_.size());
-    cells.push_back({});
-    std::vector<std::uint32_t> places(leaf_cells_.size());
-    std::uint32_t leaves = 0;
-    const auto lay = [&](const auto& self, std::uint32_t c, std::size_t to) -> void {
-      const std::uint32_t below = tree_.cells_[c].below;
+    const std::vector<std::uint32_t> roots = listSubtrees();
+    // The cells that were split and the leaves of a subtree; later of all before it.
+    struct Count {
+      std::uint32_t split = 0, leaves = 0;
+    };
+    std::vector<Count> counts(roots.size());
+    const auto count = [&](const auto& self, std::uint32_t c, Count& sum) -> void {
       if (tree_.cells_[c].is_leaf) {
-        cells[to] = {leaves, true};
-        places[below] = leaves++;
+        ++sum.leaves;
         return;
       }
-      const std::size_t first = cells.size();
-      cells[to] = {static_cast<std::uint32_t>(first), false};
-      cells.resize(first + 4);
-      for (std::uint32_t k = 0; k < 4; ++k) self(self, below + k, first + k);
+      ++sum.split;
+      for (std::uint32_t k = 0; k < 4; ++k) self(self, tree_.cells_[c].below + k, sum);
     };
-    lay(lay, 0, 0);
+    forStretches(
+        loop_, roots.size(),
+        [&](std::size_t first, std::size_t last) {
+          for (std::size_t r = first; r < last; ++r) count(count, roots[r], counts[r]);
+        },
+        4);
+    std::vector<SizeTree::Cell> cells;
+    reserveOn(loop_, cells, tree_.cells_.size());
+    cells.resize(tree_.cells_.size());
+    UnsetNumbers<std::uint32_t> places(leaf_cells_.size());
+    // Writes a cell; the children of one that was split follow those of all that were split before.
+    const auto layCell = [&](std::uint32_t c, std::size_t to, Count& before, const auto& layBelow) {
+      const std::uint32_t below = tree_.cells_[c].below;
+      if (tree_.cells_[c].is_leaf) {
+        cells[to] = {before.leaves, true};
+        places[below] = before.leaves++;
+        return;
+      }
+      const std::uint32_t first = 1 + 4 * before.split++;
+      cells[to] = {first, false};
+      for (std::uint32_t k = 0; k < 4; ++k) layBelow(below + k, first + k);
+    };
+    // Above the roots first, which tells where each subtree begins.
+    std::vector<std::size_t> to(roots.size());
+    Count before;
+    std::size_t next = 0;
+    const auto layTop = [&](const auto& self, std::uint32_t c, std::size_t at) -> void {
+      if (c != roots[next]) return layCell(c, at, before, [&](auto child, auto there) { self(self, child, there); });
+      to[next] = at;
+      const Count here = std::exchange(counts[next], before);
+      before.split += here.split;
+      before.leaves += here.leaves;
+      if (next + 1 < roots.size()) ++next;
+    };
+    layTop(layTop, 0, 0);
+    const auto lay = [&](const auto& self, std::uint32_t c, std::size_t at, Count& sum) -> void {
+      layCell(c, at, sum, [&](auto child, auto there) { self(self, child, there, sum); });
+    };
+    forStretches(
+        loop_, roots.size(),
+        [&](std::size_t first, std::size_t last) {
+          for (std::size_t r = first; r < last; ++r) lay(lay, roots[r], to[r], counts[r]);
+        },
+        4);
     tree_.cells_ = std::move(cells);
+    reserveOn(loop_, tree_.leaves_, leaf_vertices_.size());
     tree_.leaves_.resize(leaf_vertices_.size());
     const std::vector<SizeRange> parts =
         overStretches(loop_, leaf_vertices_.size(), [&](std::size_t first, std::size_t last) {
@@ -653,16 +845,11 @@ class SizeTreeBuilder {
   const SizeSource& source_;
   const SizeTreeOptions& options_;
   const ItemLoop& loop_;
-  std::vector<Square> squares_;                             // one for each cell
-  std::vector<std::uint32_t> known_;                        // for each cell: index in own_vertices_, or kNone
-  std::vector<std::array<std::uint32_t, 5>> own_vertices_;  // numbers, in the order of kOwn
-  SizePlaces vertices_;                                     // in units; some are of cells that were split
-  GradedSizes sizes_;                                       // at the vertices
-  struct Told {
-    std::uint32_t vertex;
-    double size;
-  };
-  std::vector<Told> told_;  // sizes that bounds have provided since `sample`
+  std::vector<Square> squares_;            // one for each cell
+  std::vector<OwnVertices> own_vertices_;  // one for each cell, until leaves have numbers
+  SizePlaces vertices_;                    // in units; some are of cells that were split
+  GradedSizes sizes_;                      // at the vertices
+  std::size_t sampled_ = 0;                // vertices whose sizes `sample` has found
   std::vector<std::uint32_t> leaf_cells_;
   std::vector<LeafVertices> leaf_vertices_;
   std::vector<char> is_wanted_;  // one for each leaf

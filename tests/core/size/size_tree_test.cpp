@@ -4,12 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <limits>
 #include <random>
+#include <span>
+#include <vector>
 
 #include "core/metric.hpp"
 #include "core/size/size_grading.hpp"
+#include "tests/support/item_loops.hpp"
 #include "tests/support/pslgs.hpp"
 
 namespace coastmesh {
@@ -259,6 +263,62 @@ TEST(SizeTree, CoarseWhereNobodyAsks) {
     if (p.x >= 0.0) continue;
     EXPECT_NEAR(half.at(p), all.at(p), 1e-6);
   }
+}
+
+// All parts of a tree, bit for bit: sizes that are not there are NaN.
+std::vector<std::vector<std::byte>> partsOf(const SizeTree& tree) {
+  std::vector<std::vector<std::byte>> parts;
+  const auto add = [&](const auto& items) {
+    const auto bytes = std::as_bytes(std::span(items));
+    parts.emplace_back(bytes.begin(), bytes.end());
+  };
+  tree.visitParts([&](const Point& origin, double side, const std::vector<SizeTree::Cell>& cells, const auto& leaves,
+                      int start_levels, const auto& start, const auto& start_level, double least, double most) {
+    add(std::vector<double>{origin.x, origin.y, side, 1.0 * start_levels, least, most});
+    std::vector<std::uint32_t> below;  // without padding
+    for (const SizeTree::Cell& cell : cells) below.insert(below.end(), {cell.below, std::uint32_t{cell.is_leaf}});
+    add(below);
+    add(leaves);
+    add(start);
+    add(start_level);
+  });
+  return parts;
+}
+
+// Pits and a ridge, steeper than allowed: cells are split because they are bent, and for what grows into them.
+TEST(SizeTree, OrderOfRangesDoesNotMatter) {
+  const auto f = [](const Point& p) {
+    double least = 0.02 + 0.3 * std::abs(p.y - 0.3 - 0.2 * std::sin(3.0 * p.x));
+    for (const Point& pit : {Point{-0.7, 0.2}, Point{0.1, 0.8}, Point{0.6, 0.5}})
+      least = std::min(least, 0.0007 + 0.5 * distance(p, pit));
+    return least;
+  };
+  for (const bool tells_centres : {false, true}) {
+    for (const Surface& surface : {Surface{}, Surface::sphere(1.0)}) {
+      FunctionSource source(0.0007, 0.7, f);
+      source.tells_centres = tells_centres;
+      const SizeTreeOptions options{.surface = surface, .gradation = 0.04, .coarsest = 1.2};
+      const auto treeWith = [&](const ItemLoop& loop) {
+        return SizeTree({-1.0, 0.0}, {1.0, 1.0}, source, options, loop);
+      };
+      const SizeTree tree = treeWith(inOrder);
+      ASSERT_GT(tree.leaves(), 4u * 8192);  // several ranges
+      EXPECT_EQ(partsOf(tree), partsOf(treeWith(testing::backwards)));
+    }
+  }
+}
+
+// Splitting stops at the same cells.
+TEST(SizeTree, OrderOfRangesDoesNotMatterIfItIsTooSmall) {
+  const FunctionSource source(0.001, 0.3, [](const Point& p) { return 0.001 + 0.3 * std::abs(p.y - 0.4); });
+  const SizeTreeOptions options{.gradation = 0.3, .most_cells = 20'000};
+  const SizeTree tree({-1.0, 0.0}, {1.0, 1.0}, source, options);
+  const SizeTree again({-1.0, 0.0}, {1.0, 1.0}, source, options, testing::backwards);
+  EXPECT_FALSE(tree.isComplete());
+  EXPECT_LE(tree.cells(), options.most_cells);
+  EXPECT_FALSE(again.isComplete());
+  EXPECT_EQ(tree.cells(), again.cells());
+  EXPECT_EQ(tree.demand().vertices, again.demand().vertices);
 }
 
 INSTANTIATE_TEST_SUITE_P(Grades, GradedTree, ::testing::Values(0.05, 0.15, 0.3));

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/item_loop.hpp"
+
+namespace coastmesh {
+
+// Resizes a list that grows in several steps. New memory is first touched by all threads, spare room not at all.
+template <typename Item>
+void growOn(const ItemLoop& loop, std::vector<Item>& items, std::size_t count, const Item& fill = {}) {
+  if (count > items.capacity()) items.reserve(2 * count);
+  constexpr std::size_t kPage = 4096;
+  volatile char* const memory = static_cast<char*>(static_cast<void*>(items.data() + items.size()));
+  const auto touch = [&](std::size_t first, std::size_t last) {
+    for (std::size_t page = first; page < last; ++page) memory[page * kPage] = 0;
+  };
+  if (count > items.size()) forStretches(loop, (count - items.size()) * sizeof(Item) / kPage, touch, 64);
+  items.resize(count, fill);
+}
+
+// Numbers without initial values: whoever writes them first touches their memory.
+template <typename Number>
+class UnsetNumbers {
+ public:
+  UnsetNumbers() = default;
+  explicit UnsetNumbers(std::size_t count) : numbers_(std::make_unique_for_overwrite<Number[]>(count)), count_(count) {}
+
+  std::size_t size() const { return count_; }
+  bool empty() const { return count_ == 0; }
+  Number& operator[](std::size_t i) { return numbers_[i]; }
+  const Number& operator[](std::size_t i) const { return numbers_[i]; }
+  operator std::span<Number>() { return {numbers_.get(), count_}; }
+  operator std::span<const Number>() const { return {numbers_.get(), count_}; }
+
+ private:
+  std::unique_ptr<Number[]> numbers_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace coastmesh
