@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "core/grow_list.hpp"
 #include "core/ids.hpp"
 #include "core/item_loop.hpp"
-#include "core/size/grow_list.hpp"
 
 namespace coastmesh {
 
@@ -150,7 +150,7 @@ class SizePlaces {
     std::vector<std::uint32_t> begin = {known};
     for (const std::vector<std::uint32_t>& here : fresh)
       begin.push_back(begin.back() + static_cast<std::uint32_t>(here.size()));
-    growOn(loop, places_, begin.back());
+    resizeOn(loop, places_, begin.back());
     loop(fresh.size(), [&](std::size_t s) {
       std::uint32_t number = begin[s];
       for (const std::uint32_t i : fresh[s]) {

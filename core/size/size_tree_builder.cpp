@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "core/grow_list.hpp"
 #include "core/ids.hpp"
 #include "core/metric.hpp"
-#include "core/size/grow_list.hpp"
 #include "core/size/on_surface.hpp"
 #include "core/size/size_grading.hpp"
 #include "core/size/size_places.hpp"
@@ -127,9 +127,9 @@ class SizeTreeBuilder {
   template <typename CellAt>
   void splitAll(std::size_t count, const CellAt& cellAt) {
     const std::size_t first = tree_.cells_.size(), end = first + 4 * count;
-    growOn(loop_, tree_.cells_, end);
-    growOn(loop_, squares_, end);
-    growOn(loop_, own_vertices_, end, kUnknown);
+    resizeOn(loop_, tree_.cells_, end);
+    resizeOn(loop_, squares_, end);
+    resizeOn(loop_, own_vertices_, end, kUnknown);
     forEachByStretches(loop_, count, [&](std::size_t k) {
       const std::uint32_t c = cellAt(k);
       const Square square = squares_[c];
@@ -361,7 +361,7 @@ class SizeTreeBuilder {
     });
     vertices_.addAll(
         loop_, [&](std::size_t i) { return vertexOf(cells[these[i / kEach]], kOwnThenMiddles[i % kEach]); }, numbers);
-    growOn(loop_, sizes_.own, vertices_.size(), kUnasked);
+    resizeOn(loop_, sizes_.own, vertices_.size(), kUnasked);
     // Bounds have provided some.
     forEachByStretches(loop_, these.size(), [&](std::size_t k) {
       std::copy_n(&numbers[kEach * k], kOwn.size(), own_vertices_[cells[these[k]]].begin());
@@ -409,7 +409,7 @@ class SizeTreeBuilder {
   // Samples sizes at new vertices, except those that bounds have already provided.
   void sample() {
     const std::size_t known = std::exchange(sampled_, vertices_.size());
-    growOn(loop_, sizes_.own, vertices_.size(), kUnasked);
+    resizeOn(loop_, sizes_.own, vertices_.size(), kUnasked);
     const std::vector<std::uint32_t> asked =
         joined(overStretches(loop_, vertices_.size() - known, [&](std::size_t first, std::size_t last) {
           std::vector<std::uint32_t> here;

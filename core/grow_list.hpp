@@ -3,15 +3,28 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/item_loop.hpp"
 
 namespace coastmesh {
 
-// Resizes a list that grows in several steps. New memory is first touched by all threads, spare room not at all.
+// Makes room for `count` items, and for `spare` more whose memory is not touched. If the list has to move, all threads
+// touch the new memory first; `reserve` would touch it on one thread, while copying.
 template <typename Item>
-void growOn(const ItemLoop& loop, std::vector<Item>& items, std::size_t count, const Item& fill = {}) {
+void growOn(const ItemLoop& loop, std::vector<Item>& items, std::size_t count, std::size_t spare = 0) {
+  if (count <= items.capacity()) return;
+  std::vector<Item> grown;
+  reserveOn(loop, grown, count, spare);
+  grown.insert(grown.end(), items.begin(), items.end());
+  items = std::move(grown);
+}
+
+// Resizes a list that grows in several steps to `count` items. All threads touch the memory of new items first, and
+// none that of spare room.
+template <typename Item>
+void resizeOn(const ItemLoop& loop, std::vector<Item>& items, std::size_t count, const Item& fill = {}) {
   if (count > items.capacity()) items.reserve(2 * count);
   constexpr std::size_t kPage = 4096;
   volatile char* const memory = static_cast<char*>(static_cast<void*>(items.data() + items.size()));
