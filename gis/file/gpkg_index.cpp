@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -16,15 +15,16 @@ constexpr std::size_t kHeaderBytes = 4, kCellBytes = 24;
 constexpr std::size_t kCells = (GeoPackageIndex::kNodeBytes - kHeaderBytes) / kCellBytes;
 constexpr std::uint64_t kRoot = 1;
 
+// Whether rounding went the wrong way is as good as random, so it is no branch: the next float has the next bits.
 float roundedDown(double value) {
   const auto nearest = static_cast<float>(value);
-  return nearest > value ? std::nextafter(nearest, -std::numeric_limits<float>::infinity()) : nearest;
+  const int step = nearest > value ? 1 : 0;
+  if (nearest == 0.0f) return step == 0 ? nearest : -std::numeric_limits<float>::denorm_min();
+  const auto bits = std::bit_cast<std::int32_t>(nearest);
+  return std::bit_cast<float>(bits < 0 ? bits + step : bits - step);
 }
 
-float roundedUp(double value) {
-  const auto nearest = static_cast<float>(value);
-  return nearest < value ? std::nextafter(nearest, std::numeric_limits<float>::infinity()) : nearest;
-}
+float roundedUp(double value) { return -roundedDown(-value); }
 
 }  // namespace
 

@@ -75,7 +75,7 @@ class LayerRows {
   }
 
   IndexBox box(std::size_t row) const {
-    if (layer_.shape == GridLayer::Shape::Point) return boxOf({&grid_.nodes[row], 1});
+    if (layer_.shape == GridLayer::Shape::Point) return {grid_.nodes[row], grid_.nodes[row]};
     const std::array<std::uint32_t, 3>& corners = grid_.triangles[row];
     if (map_.has_parts && map_.cutter.cuts(corners)) return boxOfParts(map_.cutter.partsOf(corners));
     const auto& [a, b, c] = cornersOf(row);
