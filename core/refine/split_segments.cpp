@@ -195,7 +195,8 @@ std::uint64_t splitSegments(TriMesh& mesh, const Pslg& pslg, VertexNotes& notes,
     }
   }
   Renumbering by;
-  mesh = edit.releaseOn(loop, by);
+  constexpr std::size_t kWorthThreads = 1 << 15;
+  mesh = edit.vertexCount() < kWorthThreads ? edit.release(by, false) : edit.releaseOn(loop, by);
   std::vector<double> spacing(mesh.points.size());
   for (VertexId v = 0; v < by.vertex.size(); ++v)
     if (by.vertex[v] != kNone) spacing[by.vertex[v]] = notes.spacing[v];

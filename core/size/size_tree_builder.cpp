@@ -2,6 +2,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <span>
 #include <type_traits>
@@ -44,12 +45,19 @@ struct Square {
   std::uint32_t side() const { return kUnits >> level; }
 };
 
+// Hundreds of loops over the cells of a small lake have a single item, for which it does not pay to wake threads.
+ItemLoop withoutThreadsForOne(const ItemLoop& loop) {
+  return [&loop](std::size_t count, const std::function<void(std::size_t)>& work) {
+    count < 2 ? inOrder(count, work) : loop(count, work);
+  };
+}
+
 }  // namespace
 
 class SizeTreeBuilder {
  public:
   SizeTreeBuilder(SizeTree& tree, const SizeSource& source, const SizeTreeOptions& options, const ItemLoop& loop)
-      : tree_(tree), source_(source), options_(options), loop_(loop) {}
+      : tree_(tree), source_(source), options_(options), loop_(withoutThreadsForOne(loop)) {}
 
   void build() {
     tree_.cells_.push_back({});
@@ -556,6 +564,11 @@ class SizeTreeBuilder {
     return roots;
   }
 
+  std::size_t subtreesAtOnce(const std::vector<std::uint32_t>& roots) const {
+    constexpr std::size_t kWorthThreads = 1 << 14, kSome = 4;
+    return tree_.cells_.size() < kWorthThreads ? roots.size() : kSome;
+  }
+
   // All leaves, depth first.
   std::vector<std::uint32_t> listLeaves() const {
     const std::vector<std::uint32_t> roots = listSubtrees();
@@ -568,7 +581,7 @@ class SizeTreeBuilder {
       for (std::size_t r = first; r < last; ++r) list(list, roots[r], leaves);
       return leaves;
     };
-    return joined(overStretches(loop_, roots.size(), listBelow, 4));
+    return joined(overStretches(loop_, roots.size(), listBelow, subtreesAtOnce(roots)));
   }
 
   // The middle of a side is a vertex if smaller leaves meet it, or if the leaf on the other side is as large and the
@@ -756,7 +769,7 @@ class SizeTreeBuilder {
         [&](std::size_t first, std::size_t last) {
           for (std::size_t r = first; r < last; ++r) count(count, roots[r], counts[r]);
         },
-        4);
+        subtreesAtOnce(roots));
     std::vector<SizeTree::Cell> cells;
     reserveOn(loop_, cells, tree_.cells_.size());
     cells.resize(tree_.cells_.size());
@@ -794,7 +807,7 @@ class SizeTreeBuilder {
         [&](std::size_t first, std::size_t last) {
           for (std::size_t r = first; r < last; ++r) lay(lay, roots[r], to[r], counts[r]);
         },
-        4);
+        subtreesAtOnce(roots));
     tree_.cells_ = std::move(cells);
     reserveOn(loop_, tree_.leaves_, leaf_vertices_.size());
     tree_.leaves_.resize(leaf_vertices_.size());
@@ -844,7 +857,7 @@ class SizeTreeBuilder {
   SizeTree& tree_;
   const SizeSource& source_;
   const SizeTreeOptions& options_;
-  const ItemLoop& loop_;
+  const ItemLoop loop_;
   std::vector<Square> squares_;            // one for each cell
   std::vector<OwnVertices> own_vertices_;  // one for each cell, until leaves have numbers
   SizePlaces vertices_;                    // in units; some are of cells that were split
