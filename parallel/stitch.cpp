@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/flip.hpp"
-#include "core/grow_list.hpp"
+#include "core/lattice/grow_list.hpp"
 #include "core/links.hpp"
 #include "core/predicates.hpp"
 #include "core/refine/check.hpp"

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/delaunay.hpp"
-#include "core/grow_list.hpp"
+#include "core/lattice/grow_list.hpp"
 #include "core/links.hpp"
 
 namespace coastmesh {

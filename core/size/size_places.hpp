@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/grow_list.hpp"
 #include "core/ids.hpp"
 #include "core/item_loop.hpp"
+#include "core/size/large_list.hpp"
 
 namespace coastmesh {
 

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/grow_list.hpp"
 #include "core/ids.hpp"
 #include "core/metric.hpp"
+#include "core/size/large_list.hpp"
 #include "core/size/on_surface.hpp"
 #include "core/size/size_grading.hpp"
 #include "core/size/size_places.hpp"
