@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <mutex>
 #include <set>
 #include <stdexcept>
@@ -225,6 +226,49 @@ TEST_P(CappedRegion, KeepsToTheBudgetOfVertices) {
 
 INSTANTIATE_TEST_SUITE_P(Angles, CappedRegion, ::testing::Values(28.0, 33.0, 40.0),
                          [](const auto& named) { return std::to_string(static_cast<int>(named.param)); });
+
+// A basin with long thin islands that wind: more than 300,000 triangles beside the cores, which wait for their
+// insertion if they are bad.
+Pslg basinWithIslands() {
+  constexpr int kIslands = 9, kCorners = 60;
+  constexpr double kApart = 0.03;
+  Pslg pslg;
+  const auto addRing = [&pslg](const std::vector<Point>& ring) {
+    const auto first = static_cast<VertexId>(pslg.points.size()), count = static_cast<VertexId>(ring.size());
+    for (VertexId i = 0; i < count; ++i) pslg.segments.push_back({first + i, first + (i + 1) % count});
+    pslg.points.insert(pslg.points.end(), ring.begin(), ring.end());
+  };
+  addRing({{0.0, 0.0}, {1.0, 0.0}, {1.0, (kIslands + 1) * kApart}, {0.0, (kIslands + 1) * kApart}});
+  for (int k = 1; k <= kIslands; ++k) {
+    std::vector<Point> lower, upper;
+    for (int i = 0; i < kCorners; ++i) {
+      const double x = 0.03 + 0.94 * i / (kCorners - 1), y = k * kApart + 0.004 * std::sin(5.0 * k + 0.9 * i);
+      lower.push_back({x, y});
+      upper.push_back({x, y + 0.002});
+    }
+    lower.insert(lower.end(), upper.rbegin(), upper.rend());
+    addRing(lower);
+    pslg.holes.push_back({0.5 * (lower[0].x + lower[1].x), 0.5 * (lower[0].y + lower[1].y) + 0.001});
+  }
+  return pslg;
+}
+
+TEST(MeshRegion, NothingIsLeftBadBesideManyCores) {
+  const Pslg pslg = basinWithIslands();
+  const RefineOptions bounds{.min_angle_deg = 33.0, .size_max = 0.001};
+  std::vector<std::uint64_t> digests;
+  for (const int threads : {1, 3}) {
+    withThreads({.threads = threads}, [&] {
+      const MeshedRegion region = meshRegion(pslg, {.refine = bounds});
+      if (digests.empty()) {
+        EXPECT_EQ(wrongBoundViolations(region.mesh, pslg, bounds, region.stats.unresolved), "");
+      }
+      EXPECT_TRUE(region.stats.unresolved.empty());
+      digests.push_back(digestOf(region.mesh));
+    });
+  }
+  EXPECT_EQ(digests[0], digests[1]);
+}
 
 TEST(MeshRegion, WhatFallsShortIsListedOnce) {
   // An infeasible bound: violations after coarsening replace those after refinement.
