@@ -1,11 +1,11 @@
 #include "core/refine/submesh.hpp"
 
 #include <algorithm>
-#include <memory>
 #include <utility>
 
 #include "core/links.hpp"
 #include "core/refine/fill_holes.hpp"
+#include "core/size/large_list.hpp"
 
 namespace coastmesh {
 
@@ -123,20 +123,12 @@ void putBack(EditMesh& parent, const Submesh& patch, const TriMesh& solved, std:
 
 namespace {
 
-// Storage for numbers of all triangles or vertices of a mesh; kNone at first.
-std::unique_ptr<std::uint32_t[]> noNumbers(std::size_t count, const ItemLoop& loop) {
-  auto none = std::make_unique_for_overwrite<std::uint32_t[]>(count);
-  forStretches(loop, count,
-               [&](std::size_t first, std::size_t last) { std::fill(none.get() + first, none.get() + last, kNone); });
-  return none;
-}
-
 // Numbers items that several others name, in the order in which a single thread would first come upon them: the items
 // that `visit(i, see)` passes to `see`, for all i below `count`; at most three for each i. Items that have a number
 // keep it. `numbered` lists the items by number, and gets the new ones.
 template <typename Visit>
-void numberAsSeen(std::size_t count, const Visit& visit, std::uint32_t* number, std::vector<std::uint32_t>& numbered,
-                  const ItemLoop& loop) {
+void numberAsSeen(std::size_t count, const Visit& visit, std::span<std::uint32_t> number,
+                  std::vector<std::uint32_t>& numbered, const ItemLoop& loop) {
   constexpr std::size_t kLeast = 1024;
   const auto known = static_cast<std::uint32_t>(numbered.size());
   // Until it gets its number, an item has the place where it is seen first, counted from the last number.
@@ -146,13 +138,7 @@ void numberAsSeen(std::size_t count, const Visit& visit, std::uint32_t* number, 
       visit(i, [&](std::uint32_t item) { use(item, place++); });
     }
   };
-  // Several threads may come upon an item at the same time.
-  const auto claim = [&](std::uint32_t item, std::uint32_t place) {
-    std::uint32_t least = __atomic_load_n(&number[item], __ATOMIC_RELAXED);
-    while (place < least &&
-           !__atomic_compare_exchange_n(&number[item], &least, place, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
-    }
-  };
+  const auto claim = [&](std::uint32_t item, std::uint32_t place) { lowerTo(number[item], place); };
   forStretches(
       loop, count, [&](std::size_t first, std::size_t last) { forEachSight(first, last, claim); }, kLeast);
   const std::vector<std::vector<std::uint32_t>> seen = overStretches(
@@ -177,7 +163,7 @@ void numberAsSeen(std::size_t count, const Visit& visit, std::uint32_t* number, 
 // The same as `extractSubmesh` for a large mesh, by all threads: for triangles whose index is their `slot`. `number` is
 // storage for new numbers of vertices.
 Submesh extractOn(const ItemLoop& loop, const TriMesh& parent, const VertexNotes& notes, std::vector<TriId>&& triangles,
-                  const std::uint32_t* slot, std::uint32_t* number) {
+                  std::span<const std::uint32_t> slot, std::span<std::uint32_t> number) {
   struct Fixed {
     std::vector<VertexId> vertices;
     std::vector<EdgeRef> frozen;
@@ -233,9 +219,10 @@ Submesh extractOn(const ItemLoop& loop, const TriMesh& parent, const VertexNotes
 Submesh extractNear(const TriMesh& parent, const VertexNotes& notes, std::span<const TriId> centre, unsigned edges,
                     const ItemLoop& loop) {
   std::vector<TriId> triangles;
-  const auto slot = noNumbers(parent.triangles.size(), loop), number = noNumbers(parent.points.size(), loop);
+  UnsetNumbers<std::uint32_t> slot = noNumbers(loop, parent.triangles.size());
+  UnsetNumbers<std::uint32_t> number = noNumbers(loop, parent.points.size());
   numberAsSeen(
-      centre.size(), [&](std::size_t i, const auto& see) { see(centre[i]); }, slot.get(), triangles, loop);
+      centre.size(), [&](std::size_t i, const auto& see) { see(centre[i]); }, slot, triangles, loop);
   std::size_t done = 0;
   for (unsigned ring = 0; ring < edges; ++ring) {
     const std::vector<TriId> front(triangles.begin() + static_cast<std::ptrdiff_t>(done), triangles.end());
@@ -244,11 +231,11 @@ Submesh extractNear(const TriMesh& parent, const VertexNotes& notes, std::span<c
       for (const EdgeRef twin : parent.triangle(front[i]).adj)
         if (twin != kNone) see(triOf(twin));
     };
-    numberAsSeen(front.size(), neighbours, slot.get(), triangles, loop);
+    numberAsSeen(front.size(), neighbours, slot, triangles, loop);
   }
   VertexNotes without_spacing = notes;
   without_spacing.spacing.clear();
-  Submesh sub = extractOn(loop, parent, without_spacing, std::move(triangles), slot.get(), number.get());
+  Submesh sub = extractOn(loop, parent, without_spacing, std::move(triangles), slot, number);
   noteSpacingOfNeighbours(sub.mesh, sub.notes);
   for (VertexId v = 0; v < sub.mesh.input_vertices; ++v)
     if (sub.parent[v] < parent.input_vertices) sub.notes.spacing[v] = notes.spacing[sub.parent[v]];

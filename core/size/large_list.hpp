@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "core/ids.hpp"
 #include "core/item_loop.hpp"
 
 namespace coastmesh {
@@ -41,5 +43,23 @@ class UnsetNumbers {
   std::unique_ptr<Number[]> numbers_;
   std::size_t count_ = 0;
 };
+
+// Numbers that are all kNone.
+inline UnsetNumbers<std::uint32_t> noNumbers(const ItemLoop& loop, std::size_t count) {
+  UnsetNumbers<std::uint32_t> none(count);
+  forEachByStretches(loop, count, [&](std::size_t i) { none[i] = kNone; });
+  return none;
+}
+
+// Lowers a value that other threads may lower at the same time, so that the smallest remains. False if it was not
+// larger.
+template <typename Value>
+bool lowerTo(Value& value, Value to) {
+  Value held;
+  __atomic_load(&value, &held, __ATOMIC_RELAXED);
+  while (to < held)
+    if (__atomic_compare_exchange(&value, &held, &to, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) return true;
+  return false;
+}
 
 }  // namespace coastmesh

@@ -7,6 +7,7 @@
 
 #include "core/ids.hpp"
 #include "core/metric.hpp"
+#include "core/size/large_list.hpp"
 #include "core/size/on_surface.hpp"
 #include "core/size/size_queue.hpp"
 
@@ -64,15 +65,6 @@ void forRanges(const ItemLoop& loop, std::size_t ranges, std::size_t items, cons
   loop(items, [&](std::size_t i) {
     for (std::size_t r = ranges * i / items; r < ranges * (i + 1) / items; ++r) work(r);
   });
-}
-
-// Lowers a size that other threads may lower at the same time. False if it was not larger.
-bool lowerTo(double& size, double to) {
-  double held;
-  __atomic_load(&size, &held, __ATOMIC_RELAXED);
-  while (to < held)
-    if (__atomic_compare_exchange(&size, &held, &to, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) return true;
-  return false;
 }
 
 // Sizes are stored in single precision. Rounding before comparing ensures that they are not too steep afterwards.

@@ -100,13 +100,10 @@ class SizePlaces {
     for (const std::uint64_t last = table_.size() - 1;; search.slot = (search.slot + search.step) & last) {
       std::uint32_t& slot = table_[search.slot];
       std::uint32_t held = __atomic_load_n(&slot, __ATOMIC_RELAXED);
-      const auto replace = [&] {
-        return __atomic_compare_exchange_n(&slot, &held, number, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED);
-      };
-      if (held == kNone && replace()) return search.slot;
+      if (held == kNone && __atomic_compare_exchange_n(&slot, &held, number, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED))
+        return search.slot;
       if (!isSame(held)) continue;
-      while (number < held && !replace()) {
-      }
+      lowerTo(slot, number);
       return search.slot;
     }
   }
@@ -167,9 +164,7 @@ class SizePlaces {
     while (isFull()) {
       const std::size_t slots = table_.empty() ? 4 * kBlock : 2 * table_.size();
       table_ = {};  // first, so that there are never two
-      table_ = UnsetNumbers<std::uint32_t>(slots);
-      forStretches(loop, slots,
-                   [&](std::size_t first, std::size_t last) { std::fill(&table_[first], &table_[0] + last, kNone); });
+      table_ = noNumbers(loop, slots);
       const auto isSame = [](std::uint32_t) { return false; };
       forStretches(loop, places_.size(), [&](std::size_t first, std::size_t last) {
         constexpr std::size_t kAhead = 16;
@@ -182,7 +177,7 @@ class SizePlaces {
   }
 
   std::vector<Place> places_;
-  UnsetNumbers<std::uint32_t> table_;  // a power of two, at most three eighths full
+  UnsetNumbers<std::uint32_t> table_;  // a power of two, at most three eighths full between calls
 };
 
 }  // namespace coastmesh

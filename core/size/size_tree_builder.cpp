@@ -15,6 +15,7 @@
 #include "core/size/on_surface.hpp"
 #include "core/size/size_grading.hpp"
 #include "core/size/size_places.hpp"
+#include "core/size/size_subtrees.hpp"
 #include "core/size/size_tree.hpp"
 
 namespace coastmesh {
@@ -518,7 +519,7 @@ class SizeTreeBuilder {
 
   // Numbers leaves and their vertices so that neighbours are close in memory; samples sizes at new vertices.
   void number() {
-    leaf_cells_ = listLeaves();
+    leaf_cells_ = leavesDepthFirst(tree_.cells_, loop_);
     UnsetNumbers<std::uint32_t> own(kOwn.size() * leaf_cells_.size());
     forEachByStretches(loop_, leaf_cells_.size(), [&](std::size_t l) {
       tree_.cells_[leaf_cells_[l]].below = static_cast<std::uint32_t>(l);
@@ -546,44 +547,6 @@ class SizeTreeBuilder {
     sizes_.source.assign(count, kNone);
   }
 
-  // Roots of subtrees, depth first, that together hold all leaves: enough for all threads, if the tree is large.
-  std::vector<std::uint32_t> listSubtrees() const {
-    constexpr std::size_t kEnough = 1024;
-    std::vector<std::uint32_t> roots = {0}, below;
-    for (bool deeper = true; deeper && roots.size() < kEnough; roots.swap(below)) {
-      below.clear();
-      for (const std::uint32_t c : roots) {
-        if (tree_.cells_[c].is_leaf) {
-          below.push_back(c);
-          continue;
-        }
-        for (std::uint32_t k = 0; k < 4; ++k) below.push_back(tree_.cells_[c].below + k);
-      }
-      deeper = below.size() > roots.size();
-    }
-    return roots;
-  }
-
-  std::size_t subtreesAtOnce(const std::vector<std::uint32_t>& roots) const {
-    constexpr std::size_t kWorthThreads = 1 << 14, kSome = 4;
-    return tree_.cells_.size() < kWorthThreads ? roots.size() : kSome;
-  }
-
-  // All leaves, depth first.
-  std::vector<std::uint32_t> listLeaves() const {
-    const std::vector<std::uint32_t> roots = listSubtrees();
-    const auto list = [&](const auto& self, std::uint32_t c, std::vector<std::uint32_t>& leaves) -> void {
-      if (tree_.cells_[c].is_leaf) return leaves.push_back(c);
-      for (std::uint32_t k = 0; k < 4; ++k) self(self, tree_.cells_[c].below + k, leaves);
-    };
-    const auto listBelow = [&](std::size_t first, std::size_t last) {
-      std::vector<std::uint32_t> leaves;
-      for (std::size_t r = first; r < last; ++r) list(list, roots[r], leaves);
-      return leaves;
-    };
-    return joined(overStretches(loop_, roots.size(), listBelow, subtreesAtOnce(roots)));
-  }
-
   // The middle of a side is a vertex if smaller leaves meet it, or if the leaf on the other side is as large and the
   // size there is known.
   void findMiddles(std::uint32_t l) {
@@ -600,18 +563,11 @@ class SizeTreeBuilder {
   void putInOrder() {
     const std::size_t count = vertices_.size();
     // The first use of each vertex, as 9 times the leaf plus the index in it; later its new number.
-    UnsetNumbers<std::uint32_t> numbers(count);
-    forEachByStretches(loop_, count, [&](std::size_t v) { numbers[v] = kNone; });
+    UnsetNumbers<std::uint32_t> numbers = noNumbers(loop_, count);
     const auto useOf = [](std::size_t l, std::size_t i) { return static_cast<std::uint32_t>(9 * l + i); };
     forEachByStretches(loop_, leaf_vertices_.size(), [&](std::size_t l) {
-      for (std::size_t i = 0; i < 9; ++i) {
-        if (leaf_vertices_[l][i] == kNone) continue;
-        std::uint32_t& first = numbers[leaf_vertices_[l][i]];
-        std::uint32_t held = __atomic_load_n(&first, __ATOMIC_RELAXED);
-        while (useOf(l, i) < held &&
-               !__atomic_compare_exchange_n(&first, &held, useOf(l, i), false, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
-        }
-      }
+      for (std::size_t i = 0; i < 9; ++i)
+        if (leaf_vertices_[l][i] != kNone) lowerTo(numbers[leaf_vertices_[l][i]], useOf(l, i));
     });
     std::vector<std::uint32_t> order =
         joined(overStretches(loop_, leaf_vertices_.size(), [&](std::size_t first, std::size_t last) {
@@ -750,65 +706,8 @@ class SizeTreeBuilder {
 
   // Stores cells and leaves depth first, so that neighbours are close in memory.
   void fill() {
-    const std::vector<std::uint32_t> roots = listSubtrees();
-    // The cells that were split and the leaves of a subtree; later of all before it.
-    struct Count {
-      std::uint32_t split = 0, leaves = 0;
-    };
-    std::vector<Count> counts(roots.size());
-    const auto count = [&](const auto& self, std::uint32_t c, Count& sum) -> void {
-      if (tree_.cells_[c].is_leaf) {
-        ++sum.leaves;
-        return;
-      }
-      ++sum.split;
-      for (std::uint32_t k = 0; k < 4; ++k) self(self, tree_.cells_[c].below + k, sum);
-    };
-    forStretches(
-        loop_, roots.size(),
-        [&](std::size_t first, std::size_t last) {
-          for (std::size_t r = first; r < last; ++r) count(count, roots[r], counts[r]);
-        },
-        subtreesAtOnce(roots));
-    std::vector<SizeTree::Cell> cells;
-    reserveOn(loop_, cells, tree_.cells_.size());
-    cells.resize(tree_.cells_.size());
-    UnsetNumbers<std::uint32_t> places(leaf_cells_.size());
-    // Writes a cell; the children of one that was split follow those of all that were split before.
-    const auto layCell = [&](std::uint32_t c, std::size_t to, Count& before, const auto& layBelow) {
-      const std::uint32_t below = tree_.cells_[c].below;
-      if (tree_.cells_[c].is_leaf) {
-        cells[to] = {before.leaves, true};
-        places[below] = before.leaves++;
-        return;
-      }
-      const std::uint32_t first = 1 + 4 * before.split++;
-      cells[to] = {first, false};
-      for (std::uint32_t k = 0; k < 4; ++k) layBelow(below + k, first + k);
-    };
-    // Above the roots first, which tells where each subtree begins.
-    std::vector<std::size_t> to(roots.size());
-    Count before;
-    std::size_t next = 0;
-    const auto layTop = [&](const auto& self, std::uint32_t c, std::size_t at) -> void {
-      if (c != roots[next]) return layCell(c, at, before, [&](auto child, auto there) { self(self, child, there); });
-      to[next] = at;
-      const Count here = std::exchange(counts[next], before);
-      before.split += here.split;
-      before.leaves += here.leaves;
-      if (next + 1 < roots.size()) ++next;
-    };
-    layTop(layTop, 0, 0);
-    const auto lay = [&](const auto& self, std::uint32_t c, std::size_t at, Count& sum) -> void {
-      layCell(c, at, sum, [&](auto child, auto there) { self(self, child, there, sum); });
-    };
-    forStretches(
-        loop_, roots.size(),
-        [&](std::size_t first, std::size_t last) {
-          for (std::size_t r = first; r < last; ++r) lay(lay, roots[r], to[r], counts[r]);
-        },
-        subtreesAtOnce(roots));
-    tree_.cells_ = std::move(cells);
+    CellOrder order = orderDepthFirst(tree_.cells_, leaf_vertices_.size(), loop_);
+    tree_.cells_ = std::move(order.cells);
     reserveOn(loop_, tree_.leaves_, leaf_vertices_.size());
     tree_.leaves_.resize(leaf_vertices_.size());
     const std::vector<SizeRange> parts =
@@ -817,7 +716,7 @@ class SizeTreeBuilder {
           for (std::size_t l = first; l < last; ++l) {
             for (unsigned i = 0; i < 9; ++i) {
               const std::uint32_t v = leaf_vertices_[l][i];
-              tree_.leaves_[places[l]][i] = v == kNone ? std::nanf("") : static_cast<float>(sizes_.size[v]);
+              tree_.leaves_[order.leaf[l]][i] = v == kNone ? std::nanf("") : static_cast<float>(sizes_.size[v]);
               if (v == kNone) continue;
               range.low = std::min(range.low, sizes_.size[v]);
               range.high = std::max(range.high, sizes_.size[v]);

@@ -230,7 +230,7 @@ std::vector<std::vector<Point>> MapCutter::partsOfLine(std::span<const std::uint
 }
 
 bool MapCutter::cutsAny() const {
-  return std::ranges::any_of(grid_.triangles, [this](const auto& corners) { return cuts(corners); });
+  return end_ && std::ranges::any_of(grid_.triangles, [this](const auto& corners) { return cuts(corners); });
 }
 
 std::vector<MapCutter::Ring> MapCutter::partsOf(const std::array<std::uint32_t, 3>& corners) const {
