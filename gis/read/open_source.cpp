@@ -199,7 +199,9 @@ OpenSource openSource(const std::string& given, const std::vector<std::string>& 
   source.names_layers = !names.empty();
   const std::string path = pathForOgr(file, names);
   source.dataset.reset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
-  if (!source.dataset) refuse(source.name, path, errors);
+  // GDAL opens TELEMAC's meshes, and makes a polygon of each triangle.
+  if (!source.dataset || source.dataset->GetDriverName() == std::string_view("Selafin"))
+    refuse(source.name, path, errors);
 
   // The name of a file in an archive also selects its only layer, whatever that layer's name is.
   const bool in_archive = path != file && (path.starts_with("/vsizip/") || path.starts_with("/vsitar/"));

@@ -42,7 +42,7 @@ std::string refusalOf(const std::string& path) {
 
 TEST(MeshAsInput, IsNamedAsOne) {
   const TemporaryFolder folder;
-  for (const char* name : {"mesh.14", "mesh.nc", "mesh.2dm"}) {
+  for (const char* name : {"mesh.14", "mesh.nc", "mesh.2dm", "mesh.slf"}) {
     const std::string path = written(folder, name);
     EXPECT_EQ(refusalOf(path), path + ": a mesh, not a coastline; convert, check, info and plot read meshes");
   }
