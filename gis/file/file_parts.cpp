@@ -1,6 +1,8 @@
 #include "gis/file/file_parts.hpp"
 
 #include <fcntl.h>
+#include <linux/aio_abi.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -15,20 +17,17 @@
 namespace coastmesh {
 namespace {
 
-constexpr std::uint64_t kWindow = std::uint64_t{2} << 20;  // bytes made and written at once
+// A window is made by all threads, section by section, while the disk writes the one before.
+constexpr std::uint64_t kSection = std::uint64_t{256} << 10, kSections = 64, kWindow = kSection * kSections;
 // O_DIRECT requires offsets, lengths and addresses that are multiples of this.
 constexpr std::uint64_t kSector = 4096;
-
-[[noreturn]] void fail(const std::string& path, int error) {
-  throw OutputError("cannot write '" + path + "': " + std::strerror(error));
-}
 
 // An open file, written past the page cache if requested and supported by the file system.
 class OpenFile {
  public:
   OpenFile(const std::string& path, bool past_cache) : path_(path) {
     cached_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
-    if (cached_ < 0) fail(path, errno);
+    if (cached_ < 0) fail(errno);
     if (past_cache) direct_ = ::open(path.c_str(), O_WRONLY | O_DIRECT | O_CLOEXEC);
   }
   ~OpenFile() {
@@ -38,17 +37,28 @@ class OpenFile {
   OpenFile(const OpenFile&) = delete;
   OpenFile& operator=(const OpenFile&) = delete;
 
-  // Reserves the disk space beforehand: in one piece, and a full disk is reported before anything is made.
+  // Reserves the disk space beforehand: in one piece, and a full disk is reported before anything is made. The file
+  // gets its length too: the caller of a write that extends it would have to wait for it.
   void allocate(std::uint64_t size) const {
-    while (::fallocate(cached_, FALLOC_FL_KEEP_SIZE, 0, static_cast<off_t>(size)) != 0) {
+    while (::fallocate(cached_, 0, 0, static_cast<off_t>(size)) != 0) {
       if (errno == EINTR) continue;
-      if (errno == ENOSPC || errno == EDQUOT || errno == EFBIG) fail(path_, errno);
+      if (errno == ENOSPC || errno == EDQUOT || errno == EFBIG) fail(errno);
       return;  // not every file system can; writing reports other errors
     }
   }
 
+  [[noreturn]] void fail(int error) const {
+    throw OutputError("cannot write '" + path_ + "': " + std::strerror(error));
+  }
+
+  // The file past the page cache, or -1.
+  int direct() const { return direct_; }
+  bool fitsDirect(std::uint64_t at, std::uint64_t size) const {
+    return direct_ >= 0 && at % kSector == 0 && size % kSector == 0;
+  }
+
   void write(std::uint64_t at, std::span<const std::byte> bytes) const {
-    bool direct = direct_ >= 0 && at % kSector == 0 && bytes.size() % kSector == 0;
+    bool direct = fitsDirect(at, bytes.size());
     while (!bytes.empty()) {
       const ssize_t written = ::pwrite(direct ? direct_ : cached_, bytes.data(), bytes.size(), static_cast<off_t>(at));
       if (written < 0 && errno == EINTR) continue;
@@ -56,7 +66,7 @@ class OpenFile {
         direct = false;  // other alignment needed, or an error that the cached write reports
         continue;
       }
-      if (written <= 0) fail(path_, written < 0 ? errno : EIO);
+      if (written <= 0) fail(written < 0 ? errno : EIO);
       bytes = bytes.subspan(static_cast<std::size_t>(written));
       at += static_cast<std::uint64_t>(written);
     }
@@ -66,13 +76,119 @@ class OpenFile {
   void close() {
     const int file = cached_;
     cached_ = -1;
-    if (::close(file) != 0) fail(path_, errno);
+    if (::close(file) != 0) fail(errno);
   }
 
  private:
   const std::string& path_;
   int cached_ = -1, direct_ = -1;
 };
+
+// Writes that the kernel does while the caller goes on: Linux's native asynchronous writes, which need no thread.
+class WritesAhead {
+ public:
+  explicit WritesAhead(const OpenFile& file) : file_(file) {
+    if (file.direct() < 0) return;
+    constexpr unsigned kMostAtOnce = 16;
+    writes_.reserve(kMostAtOnce);
+    available_ = ::syscall(SYS_io_setup, kMostAtOnce, &context_) == 0;
+  }
+  // Waits for writes under way.
+  ~WritesAhead() {
+    if (available_) ::syscall(SYS_io_destroy, context_);
+  }
+  WritesAhead(const WritesAhead&) = delete;
+  WritesAhead& operator=(const WritesAhead&) = delete;
+
+  // Not for files in the page cache, nor where the system refuses it.
+  bool available() const { return available_; }
+
+  // `bytes` must stay unchanged until `wait`. Their address must have the remainder of `at` by the sector's size.
+  void begin(std::uint64_t at, std::span<const std::byte> bytes) {
+    const std::uint64_t head = std::min<std::uint64_t>((kSector - at % kSector) % kSector, bytes.size());
+    const std::uint64_t sectors = (bytes.size() - head) / kSector * kSector;
+    if (head > 0) file_.write(at, bytes.first(head));
+    if (sectors > 0) beginSectors(at + head, bytes.subspan(head, sectors));
+    if (head + sectors < bytes.size()) file_.write(at + head + sectors, bytes.subspan(head + sectors));
+  }
+
+  void wait() {
+    for (std::size_t waiting = writes_.size(); waiting > 0;) {
+      io_event event{};
+      const long ended = ::syscall(SYS_io_getevents, context_, 1L, 1L, &event, nullptr);
+      if (ended < 0 && errno == EINTR) continue;
+      if (ended != 1) file_.fail(errno);
+      --waiting;
+      const iocb& write = writes_[event.data];
+      const std::uint64_t written = event.res > 0 ? static_cast<std::uint64_t>(event.res) : 0;
+      const std::byte* const bytes = reinterpret_cast<const std::byte*>(static_cast<std::uintptr_t>(write.aio_buf));
+      // The rest, if there is any, as an ordinary write, which reports what prevents it.
+      file_.write(static_cast<std::uint64_t>(write.aio_offset) + written,
+                  {bytes + written, write.aio_nbytes - written});
+    }
+    writes_.clear();
+  }
+
+ private:
+  void beginSectors(std::uint64_t at, std::span<const std::byte> bytes) {
+    if (writes_.size() < writes_.capacity()) {
+      iocb& write = writes_.emplace_back();
+      write.aio_data = writes_.size() - 1;
+      write.aio_lio_opcode = IOCB_CMD_PWRITE;
+      write.aio_fildes = static_cast<std::uint32_t>(file_.direct());
+      write.aio_buf = reinterpret_cast<std::uintptr_t>(bytes.data());
+      write.aio_nbytes = bytes.size();
+      write.aio_offset = static_cast<std::int64_t>(at);
+      iocb* const submitted = &write;
+      if (::syscall(SYS_io_submit, context_, 1L, &submitted) == 1) return;
+      writes_.pop_back();
+    }
+    file_.write(at, bytes);
+  }
+
+  const OpenFile& file_;
+  aio_context_t context_ = 0;
+  bool available_ = false;
+  std::vector<iocb> writes_;  // under way; never reallocated
+};
+
+// Bytes in memory, and their place in the file.
+struct Run {
+  std::uint64_t at = 0;
+  std::span<const std::byte> bytes;
+};
+
+// Adds a run that follows the others, to the last one if it begins where that ends, in the file and in memory.
+void append(std::vector<Run>& runs, const Run& run) {
+  if (!runs.empty() && runs.back().at + runs.back().bytes.size() == run.at &&
+      runs.back().bytes.data() + runs.back().bytes.size() == run.bytes.data())
+    runs.back().bytes = {runs.back().bytes.data(), runs.back().bytes.size() + run.bytes.size()};
+  else
+    runs.push_back(run);
+}
+
+// Sets the bytes of `buffer`, which stands for the file from `begin` on, as far as they are of a part.
+std::vector<Run> fill(std::span<std::byte> buffer, std::uint64_t begin, const std::vector<FilePart>& parts) {
+  const std::uint64_t end = begin + buffer.size();
+  const auto endOf = [](const FilePart& p) { return p.begin + p.size; };
+  std::vector<Run> runs;
+  for (auto part = std::ranges::upper_bound(parts, begin, {}, endOf); part != parts.end() && part->begin < end;
+       ++part) {
+    const std::uint64_t head = std::max(begin, part->begin), tail = std::min(end, endOf(*part));
+    const std::span<std::byte> bytes = buffer.subspan(head - begin, tail - head);
+    part->fill(head - part->begin, bytes);
+    append(runs, {head, bytes});
+  }
+  return runs;
+}
+
+using Buffer = std::unique_ptr<std::byte, decltype(&std::free)>;
+
+Buffer makeBuffer() {
+  Buffer buffer(static_cast<std::byte*>(std::aligned_alloc(kSector, kWindow)), &std::free);
+  if (!buffer) throw std::bad_alloc();
+  return buffer;
+}
 
 }  // namespace
 
@@ -83,34 +199,28 @@ void writeParts(const std::string& path, std::vector<FilePart> parts, const Item
   std::uint64_t all = 0;
   for (const FilePart& part : parts) all += part.size;
   OpenFile file(path, all >= large_file);
-  const std::uint64_t first = parts.front().begin / kWindow, size = parts.back().begin + parts.back().size;
+  const std::uint64_t size = parts.back().begin + parts.back().size;
   if (all >= large_file) file.allocate(size);
-  const auto writeWindow = [&](std::uint64_t begin, std::byte* const buffer) {
-    const std::uint64_t end = std::min(begin + kWindow, size);
-    // Adjacent parts are written together.
-    std::uint64_t from = begin, to = begin;
-    const auto flush = [&] { file.write(from, {buffer + (from - begin), to - from}); };
-    const auto endOf = [](const FilePart& p) { return p.begin + p.size; };
-    for (auto part = std::ranges::upper_bound(parts, begin, {}, endOf); part != parts.end() && part->begin < end;
-         ++part) {
-      const std::uint64_t head = std::max(begin, part->begin), tail = std::min(end, endOf(*part));
-      if (head != to) {
-        flush();
-        from = head;
-      }
-      part->fill(head - part->begin, {buffer + (head - begin), tail - head});
-      to = tail;
-    }
-    flush();
-  };
-  const std::uint64_t windows = (size - 1) / kWindow - first + 1;
-  const auto writeWindows = [&](std::size_t from, std::size_t to) {
-    const std::unique_ptr<void, decltype(&std::free)> buffer(std::aligned_alloc(kSector, kWindow), &std::free);
-    if (!buffer) throw std::bad_alloc();
-    for (std::size_t w = from; w < to; ++w) writeWindow((first + w) * kWindow, static_cast<std::byte*>(buffer.get()));
-  };
-  constexpr std::size_t kWindowsABuffer = 4;
-  forStretches(loop, windows, writeWindows, kWindowsABuffer);
+  Buffer filled = makeBuffer(), written = makeBuffer();
+  WritesAhead ahead(file);
+  for (std::uint64_t begin = parts.front().begin / kWindow * kWindow; begin < size; begin += kWindow) {
+    const std::uint64_t sections = (std::min(kWindow, size - begin) - 1) / kSection + 1;
+    std::vector<std::vector<Run>> runs(sections);
+    loop(sections, [&](std::size_t s) {
+      const std::uint64_t first = s * kSection, bytes = std::min(kSection, size - begin - first);
+      runs[s] = fill({filled.get() + first, bytes}, begin + first, parts);
+      if (ahead.available()) return;
+      for (const Run& run : runs[s]) file.write(run.at, run.bytes);
+    });
+    if (!ahead.available()) continue;
+    std::vector<Run> joined;
+    for (const std::vector<Run>& of_section : runs)
+      for (const Run& run : of_section) append(joined, run);
+    ahead.wait();
+    for (const Run& run : joined) ahead.begin(run.at, run.bytes);
+    std::swap(filled, written);
+  }
+  ahead.wait();
   file.close();
 }
 

@@ -22,8 +22,8 @@ struct FilePart {
 // longer than writing to a fast disk.
 inline constexpr std::uint64_t kLargeFile = std::uint64_t{64} << 20;
 
-// Writes parts, which do not overlap, into an existing file; the rest of it is unchanged. Memory: a few megabytes per
-// thread. Throws OutputError with the path and the system's reason.
+// Writes parts, which do not overlap, into an existing file; the rest of it is unchanged. Large files are written while
+// the following bytes are made. Memory: 32 MiB. Throws OutputError with the path and the system's reason.
 void writeParts(const std::string& path, std::vector<FilePart> parts, const ItemLoop& loop,
                 std::uint64_t large_file = kLargeFile);
 

@@ -24,14 +24,19 @@ char byteAt(std::uint64_t at) { return static_cast<char>(at * 0x9E3779B97F4A7C15
 
 // Parts with arbitrary ends, adjacent or apart, within a file's existing content.
 void expectWritten(const ItemLoop& loop, std::uint64_t large_file) {
-  constexpr std::uint64_t kSize = 9'000'001;
+  constexpr std::uint64_t kSize = 40'000'001;  // several times as much as is written at once
   const testing::TemporaryFolder folder;
   const std::string path = folder / "parts";
   std::vector<char> expected(kSize, 'x');
   std::ofstream(path, std::ios::binary).write(expected.data(), kSize);
   std::vector<FilePart> parts;
-  for (const auto& [begin, end] : std::vector<std::pair<std::uint64_t, std::uint64_t>>{
-           {6'000'003, 9'000'000}, {13, 13}, {5, 4096}, {4096, 4100}, {4'194'304, 6'000'003}, {7'000, 2'097'153}}) {
+  for (const auto& [begin, end] : std::vector<std::pair<std::uint64_t, std::uint64_t>>{{6'000'003, 9'000'000},
+                                                                                       {13, 13},
+                                                                                       {5, 4096},
+                                                                                       {4096, 4100},
+                                                                                       {4'194'304, 6'000'003},
+                                                                                       {7'000, 2'097'153},
+                                                                                       {9'000'001, 39'999'999}}) {
     for (std::uint64_t at = begin; at < end; ++at) expected[at] = byteAt(at);
     parts.push_back({begin, end - begin, [begin = begin](std::uint64_t first, std::span<std::byte> bytes) {
                        for (std::size_t i = 0; i < bytes.size(); ++i)
@@ -50,6 +55,18 @@ TEST(WriteParts, PutsEachPartInItsPlaceAndLeavesTheRest) {
 TEST(WriteParts, PutsThemInPlacePastTheCache) {
   expectWritten(inOrder, 0);
   expectWritten(testing::backwards, 0);
+}
+
+// Writes of earlier parts may be under way.
+TEST(WriteParts, PassesOnTheErrorOfAPartThatCannotBeMade) {
+  const testing::TemporaryFolder folder;
+  std::ofstream(folder / "parts").close();
+  constexpr std::uint64_t kSize = 50'000'000;
+  const auto fill = [](std::uint64_t first, std::span<std::byte> bytes) {
+    if (first >= kSize / 2) throw OutputError("a part cannot be made");
+    std::ranges::fill(bytes, std::byte{1});
+  };
+  EXPECT_THROW(writeParts(folder / "parts", {{4096, kSize, fill}}, inOrder, 0), OutputError);
 }
 
 TEST(WriteParts, NamesTheFileThatCannotBeWritten) {
