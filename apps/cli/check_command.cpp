@@ -18,6 +18,7 @@
 #include "gis/for_count.hpp"
 #include "gis/format/grid_io.hpp"
 #include "gis/grid/ground_orientation.hpp"
+#include "gis/grid/linked_grid.hpp"
 #include "gis/grid/one_turn.hpp"
 #include "gis/model/apart_waters.hpp"
 #include "gis/model/check_target.hpp"
@@ -95,8 +96,7 @@ DefectRow rowOf(const TargetDefect& defect, const std::string& target) {
 // `checkTarget` reports for models. Nodes of weirs are exempt: both sides may coincide.
 std::vector<DefectRow> meetingRows(const Grid& grid, bool with_nodes, const ItemLoop& loop) {
   std::vector<DefectRow> rows;
-  std::vector<EdgeConflict> conflicts;
-  const TriMesh mesh = linkTriangles(grid.nodes, grid.triangles, conflicts, loop);
+  const TriMesh mesh = linkGrid(grid, loop).mesh;
   for (const auto& [t, other] : triangleOverlaps(grid, mesh, loop))
     rows.push_back({std::string(toString(TargetDefectKind::Overlap)),
                     {},
@@ -169,8 +169,9 @@ std::vector<DefectRow> targetRows(Grid& grid, const std::vector<Target>& targets
   check.overlaps = false;  // reported for any model
   std::optional<TurnedNodes> turned;
   if (format != nullptr && format->places != NodePlaces::OneTurn) turned.emplace(grid);
+  const LinkedGrid linked = linkGrid(grid, loop);
   for (const Target target : targets) {
-    for (const TargetDefect& defect : checkTarget(grid, target, check, loop)) {
+    for (const TargetDefect& defect : checkTarget(grid, linked, target, check, loop)) {
       DefectRow& row = rows.emplace_back(rowOf(defect, kTargetNames[static_cast<std::size_t>(target)]));
       if (turned) row.place = turned->putBack(row.place);
     }

@@ -87,7 +87,7 @@ FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunContr
   DepthOptions depth = options.depth;
   depth.keep_known = hasDepths(grid);
   if (!grid.triangles.empty()) report.depth = setDepths(grid, depth, of_depths, loop);
-  if (!grid.triangles.empty()) report.boundaries = assignBoundaries(grid, options.boundaries);
+  if (!grid.triangles.empty()) report.boundaries = assignBoundaries(grid, options.boundaries, loop);
   if (options.drop_apart) report.dropped = dropApartWaters(grid, options.grazed, loop);
   // The report is of the water that is left.
   if (report.dropped.waters > 0 && !depth.files.empty()) report.depth = setDepths(grid, depth, of_depths, loop);

@@ -21,6 +21,7 @@
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/grid/geographic_nodes.hpp"
 #include "gis/grid/grid_lines.hpp"
+#include "gis/grid/linked_grid.hpp"
 #include "gis/grid/local_plane.hpp"
 #include "gis/grid/on_sphere.hpp"
 #include "gis/model/time_step.hpp"
@@ -57,7 +58,7 @@ class GlobePlot {
         chart_(chart),
         canvas_(path, (-kRoom) * chart.half(), kRoom * chart.half(), static_cast<double>(options.size_px), kStripPx) {
     for (const SphereVector& place : places) seen_.push_back(chart.see(place));
-    mesh_ = linkTriangles(grid.nodes, grid.triangles, conflicts_);
+    mesh_ = linkGrid(grid).mesh;
   }
 
   void draw() {
@@ -310,7 +311,6 @@ class GlobePlot {
   PlotCanvas canvas_;
   std::vector<SphereVector> seen_;  // per node
   TriMesh mesh_;
-  std::vector<EdgeConflict> conflicts_;
   Shares shares_;
   GlobeChart::Triangles areas_;  // of one triangle of the mesh
   std::vector<int> regions_;     // per feature

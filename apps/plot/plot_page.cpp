@@ -26,6 +26,7 @@
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/grid/geographic_nodes.hpp"
 #include "gis/grid/grid_lines.hpp"
+#include "gis/grid/linked_grid.hpp"
 #include "gis/grid/local_plane.hpp"
 #include "gis/grid/on_sphere.hpp"
 #include "gis/long_wave.hpp"
@@ -272,8 +273,7 @@ PageData dataOf(const Grid& grid, const PageOptions& options) {
   }
   data.addIndices("corners", corners);
   addCoordinates(data, grid, geographic);
-  std::vector<EdgeConflict> conflicts;
-  TriMesh linked = linkTriangles(grid.nodes, grid.triangles, conflicts);
+  TriMesh linked = linkGrid(grid).mesh;
   linked.regions.assign(grid.triangles.size(), 0);
   if (!grid.feature_of.empty()) linked.regions.assign(grid.feature_of.begin(), grid.feature_of.end());
   addMarks(data, grid, linked);

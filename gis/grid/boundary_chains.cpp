@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "gis/grid/linked_grid.hpp"
 #include "gis/grid/loop_role.hpp"
 
 namespace coastmesh {
@@ -17,8 +18,7 @@ std::vector<Boundary> findBoundaries(const TriMesh& mesh, const ItemLoop& loop) 
 
 void findMissingBoundaries(Grid& grid) {
   if (!grid.boundaries.empty()) return;
-  std::vector<EdgeConflict> conflicts;
-  for (std::vector<std::uint32_t>& nodes : boundaryLoops(linkTriangles(grid.nodes, grid.triangles, conflicts))) {
+  for (std::vector<std::uint32_t>& nodes : boundaryLoops(linkGrid(grid).mesh)) {
     const BoundaryRole role = roleOfLoop(grid.nodes, nodes, grid.crs);
     grid.boundaries.push_back({role, true, std::move(nodes)});
   }

@@ -5,6 +5,7 @@
 #include <ranges>
 #include <set>
 
+#include "gis/grid/linked_grid.hpp"
 #include "gis/grid/loop_role.hpp"
 #include "gis/lower_case.hpp"
 
@@ -57,9 +58,8 @@ std::optional<BoundaryRole> roleOfWord(const std::string& given) {
   return std::nullopt;
 }
 
-std::vector<std::vector<std::uint32_t>> boundaryLoops(const Grid& grid) {
-  std::vector<EdgeConflict> conflicts;
-  return boundaryLoops(linkTriangles(grid.nodes, grid.triangles, conflicts));
+std::vector<std::vector<std::uint32_t>> boundaryLoops(const Grid& grid, const ItemLoop& loop) {
+  return boundaryLoops(linkGrid(grid, loop).mesh, loop);
 }
 
 std::vector<Boundary> cutLoops(const Grid& grid, const std::vector<std::vector<std::uint32_t>>& loops,

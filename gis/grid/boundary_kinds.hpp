@@ -29,7 +29,7 @@ inline bool isOpening(const BoundaryKind& kind) {
 std::optional<BoundaryRole> roleOfWord(const std::string& word);
 
 // The grid's boundary as closed loops of nodes with the mesh to the left; see `boundaryLoops`.
-std::vector<std::vector<std::uint32_t>> boundaryLoops(const Grid& grid);
+std::vector<std::vector<std::uint32_t>> boundaryLoops(const Grid& grid, const ItemLoop& loop = inOrder);
 
 // Cuts loops into boundaries where the kind of their edges changes. A loop of one kind stays closed; if that is shore,
 // `roleOfLoop` decides whether it is land or an island. Shore in other loops is land.

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <compare>
 #include <map>
+#include <numeric>
+#include <span>
 #include <utility>
 
 #include "gis/geometry/union_find.hpp"
@@ -35,29 +38,62 @@ double largestOf(const WaterAreas& areas) {
   return largest;
 }
 
+// The edges of a grid's triangles in either direction, as clockwise triangles may be among them.
+class EdgesByNode {
+ public:
+  struct Edge {
+    std::uint32_t other = 0, triangle = 0;  // the end with the larger number
+    friend auto operator<=>(const Edge&, const Edge&) = default;
+  };
+
+  EdgesByNode(const Grid& grid, const ItemLoop& loop)
+      : first_(grid.nodes.size() + 1, 0), edges_(3 * grid.triangles.size()) {
+    const auto forEachEdge = [&grid](const auto& use) {
+      for (std::uint32_t t = 0; t < grid.triangles.size(); ++t) {
+        const auto& [a, b, c] = grid.triangles[t];
+        use(std::min(a, b), Edge{std::max(a, b), t});
+        use(std::min(b, c), Edge{std::max(b, c), t});
+        use(std::min(c, a), Edge{std::max(c, a), t});
+      }
+    };
+    forEachEdge([this](std::uint32_t node, const Edge&) { ++first_[node + 1]; });
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+    forEachEdge([&](std::uint32_t node, const Edge& edge) { edges_[next[node]++] = edge; });
+    forEachByStretches(loop, grid.nodes.size(), [this](std::size_t node) {
+      std::sort(edges_.begin() + first_[node], edges_.begin() + first_[node + 1]);
+    });
+  }
+
+  // The edges from a node to those with larger numbers, in their order.
+  std::span<const Edge> from(std::uint32_t node) const {
+    return std::span(edges_).subspan(first_[node], first_[node + 1] - first_[node]);
+  }
+
+ private:
+  std::vector<std::uint32_t> first_;
+  std::vector<Edge> edges_;
+};
+
 Apart apartOf(const Grid& grid, const ItemLoop& loop) {
-  // Edges in either direction, as clockwise triangles may be among them, with their triangles.
-  using Edge = std::pair<std::uint32_t, std::uint32_t>;
-  std::vector<std::pair<Edge, std::uint32_t>> edges(3 * grid.triangles.size());
-  forEachByStretches(loop, grid.triangles.size(), [&](std::size_t t) {
-    const auto& v = grid.triangles[t];
-    for (std::size_t i = 0; i < 3; ++i)
-      edges[3 * t + i] = {std::minmax(v[i], v[(i + 1) % 3]), static_cast<std::uint32_t>(t)};
-  });
-  sortOn(loop, edges);
+  const EdgesByNode edges(grid, loop);
   UnionFind waters(grid.triangles.size());
-  for (std::size_t i = 0; i + 1 < edges.size(); ++i)
-    if (edges[i].first == edges[i + 1].first) waters.unite(edges[i].second, edges[i + 1].second);
+  for (std::uint32_t node = 0; node < grid.nodes.size(); ++node) {
+    const std::span<const EdgesByNode::Edge> there = edges.from(node);
+    for (std::size_t i = 1; i < there.size(); ++i)
+      if (there[i].other == there[i - 1].other) waters.unite(there[i].triangle, there[i - 1].triangle);
+  }
 
   std::vector<bool> reached(grid.triangles.size(), false);  // of a water's first triangle
   bool any = false;
   for (const Boundary& boundary : grid.boundaries) {
     if (boundary.role != BoundaryRole::Open && boundary.role != BoundaryRole::River) continue;
     for (std::size_t i = 0; i + 1 < boundary.nodes.size(); ++i) {
-      const Edge edge = std::minmax(boundary.nodes[i], boundary.nodes[i + 1]);
-      const auto found = std::ranges::lower_bound(edges, std::pair(edge, 0u));
-      if (found == edges.end() || found->first != edge) continue;
-      reached[waters.find(found->second)] = true;
+      const auto [from, to] = std::minmax(boundary.nodes[i], boundary.nodes[i + 1]);
+      const std::span<const EdgesByNode::Edge> there = edges.from(from);
+      const auto found = std::ranges::lower_bound(there, to, {}, &EdgesByNode::Edge::other);
+      if (found == there.end() || found->other != to) continue;
+      reached[waters.find(found->triangle)] = true;
       any = true;
     }
   }

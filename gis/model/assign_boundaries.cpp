@@ -38,12 +38,12 @@ std::vector<Boundary> boundariesOf(const Grid& grid, const std::vector<std::vect
 
 }  // namespace
 
-BoundaryReport assignBoundaries(Grid& grid, const BoundaryOptions& options) {
+BoundaryReport assignBoundaries(Grid& grid, const BoundaryOptions& options, const ItemLoop& loop) {
   if (!options.any()) return {};
   const auto isWeir = [](const Boundary& boundary) { return !boundary.weir.empty(); };
   if (std::ranges::any_of(grid.boundaries, isWeir))
     throw InputError("the mesh has weirs, whose boundaries cannot be set anew; leave the options of boundaries out");
-  const std::vector<std::vector<std::uint32_t>> loops = boundaryLoops(grid);
+  const std::vector<std::vector<std::uint32_t>> loops = boundaryLoops(grid, loop);
   BoundaryEdges boundary = edgesOfLoops(grid, loops);
   const BoundaryPlaces at{grid.crs, grid.nodes, grid.z};
   BoundaryReport report = defineKinds(at, options, boundary);

@@ -6,6 +6,6 @@
 namespace coastmesh {
 
 // Changes the grid's boundaries according to the options. Throws InputError.
-BoundaryReport assignBoundaries(Grid& grid, const BoundaryOptions& options);
+BoundaryReport assignBoundaries(Grid& grid, const BoundaryOptions& options, const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

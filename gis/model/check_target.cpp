@@ -6,9 +6,11 @@
 #include <limits>
 #include <utility>
 
+#include "core/metric.hpp"
 #include "core/predicates.hpp"
 #include "core/quality.hpp"
 #include "core/tri_mesh.hpp"
+#include "gis/geometry/box.hpp"
 #include "gis/grid/boundary_kinds.hpp"
 #include "gis/grid/geographic_nodes.hpp"
 #include "gis/grid/grid_edit.hpp"
@@ -68,14 +70,19 @@ std::vector<TargetDefect> courantsBeyond(const Grid& grid, double time_step_s, b
 
 class TargetCheck {
  public:
-  TargetCheck(const Grid& grid, Target target, const TargetCheckOptions& options, const ItemLoop& loop)
-      : grid_(grid), target_(target), options_(options), loop_(loop) {}
+  TargetCheck(const Grid& grid, const LinkedGrid& linked, Target target, const TargetCheckOptions& options,
+              const ItemLoop& loop)
+      : grid_(grid),
+        mesh_(linked.mesh),
+        conflicts_(linked.conflicts),
+        target_(target),
+        options_(options),
+        loop_(loop) {}
 
   std::vector<TargetDefect> run() {
     for (const std::string& note : grid_.notes)
       defects_.push_back(
           {TargetDefectKind::WrongCount, grid_.nodes.empty() ? Point{} : grid_.nodes.front(), -1, -1, 0.0, note});
-    mesh_ = linkTriangles(grid_.nodes, grid_.triangles, conflicts_, loop_);
     findBoundaryEdges();
     for (const EdgeConflict& conflict : conflicts_) add(TargetDefectKind::BrokenEdge, middle(conflict.a, conflict.b));
     if (mindsJumps(target_) && grid_.crs.geographic) checkJumps();
@@ -128,6 +135,21 @@ class TargetCheck {
     return 0.0;
   }
 
+  // A quick test: far from poles a triangle of less than a degree has the same orientation in degrees as on the ground,
+  // unless it is so flat that a bent side could turn it.
+  bool isSurelyCounterClockwise(const std::array<std::uint32_t, 3>& corners) const {
+    constexpr double kSmall = 1.0, kFarFromPoles = 80.0;  // degrees
+    constexpr double kNotFlat = 0.05;                     // height over the longest side
+    const Point &a = grid_.nodes[corners[0]], &b = grid_.nodes[corners[1]], &c = grid_.nodes[corners[2]];
+    Box box = Box::of(a, b);
+    box.add(c);
+    const double width = box.xmax - box.xmin, height = box.ymax - box.ymin;
+    if (grid_.crs.geographic &&
+        (width > kSmall || height > kSmall || box.ymin < -kFarFromPoles || box.ymax > kFarFromPoles))
+      return false;
+    return cross(b - a, c - a) > kNotFlat * (width * width + height * height);
+  }
+
   Point middle(std::uint32_t a, std::uint32_t b) const {
     return meanPlace(grid_.crs, std::array{grid_.nodes[a], grid_.nodes[b]});
   }
@@ -139,8 +161,10 @@ class TargetCheck {
       const auto report = [&](TargetDefectKind kind, double value = 0.0) {
         found.push_back({kind, middle(t), static_cast<std::int64_t>(t), -1, value, {}});
       };
-      const auto [a, b, c] = localPlane(grid_, grid_.triangles[t]);
-      if (orient2d(a, b, c) <= 0) return report(TargetDefectKind::Clockwise);
+      if (!isSurelyCounterClockwise(grid_.triangles[t])) {
+        const auto [a, b, c] = localPlane(grid_, grid_.triangles[t]);
+        if (orient2d(a, b, c) <= 0) return report(TargetDefectKind::Clockwise);
+      }
       const auto& adj = mesh_.triangles[t].adj;
       const auto neighbours = 3 - std::ranges::count(adj, kNone);
       if (neighbours == 0) {
@@ -332,12 +356,12 @@ class TargetCheck {
   }
 
   const Grid& grid_;
+  const TriMesh& mesh_;
+  const std::vector<EdgeConflict>& conflicts_;
   const Target target_;
   const TargetCheckOptions& options_;
   const ItemLoop& loop_;
-  TriMesh mesh_;
   std::vector<EdgeRef> boundary_edges_;  // ascending
-  std::vector<EdgeConflict> conflicts_;
   std::vector<TargetDefect> defects_;
   std::vector<Point> on_earth_;  // longitudes and latitudes of the nodes, if the model uses these instead
   bool goes_round_ = false;      // around a pole or the globe
@@ -361,7 +385,12 @@ std::vector<TargetDefect> checkTimeStep(const Grid& grid, double time_step_s, co
 
 std::vector<TargetDefect> checkTarget(const Grid& grid, Target target, const TargetCheckOptions& options,
                                       const ItemLoop& loop) {
-  return TargetCheck(grid, target, options, loop).run();
+  return checkTarget(grid, linkGrid(grid, loop), target, options, loop);
+}
+
+std::vector<TargetDefect> checkTarget(const Grid& grid, const LinkedGrid& linked, Target target,
+                                      const TargetCheckOptions& options, const ItemLoop& loop) {
+  return TargetCheck(grid, linked, target, options, loop).run();
 }
 
 }  // namespace coastmesh

@@ -7,6 +7,7 @@
 
 #include "core/item_loop.hpp"
 #include "gis/grid/grid.hpp"
+#include "gis/grid/linked_grid.hpp"
 #include "gis/model/target.hpp"
 
 namespace coastmesh {
@@ -70,6 +71,10 @@ bool isOfLongWaves(Target target);
 // `timeSteps`); then advice. Boundaries are taken as they are. The limits are in target_limits.hpp.
 std::vector<TargetDefect> checkTarget(const Grid& grid, Target target, const TargetCheckOptions& options = {},
                                       const ItemLoop& loop = inOrder);
+
+// The same for a grid that is linked already.
+std::vector<TargetDefect> checkTarget(const Grid& grid, const LinkedGrid& linked, Target target,
+                                      const TargetCheckOptions& options = {}, const ItemLoop& loop = inOrder);
 
 // The same for the time step alone, for any model: triangles with a Courant number above 1, starting with the worst.
 std::vector<TargetDefect> checkTimeStep(const Grid& grid, double time_step_s, const ItemLoop& loop = inOrder);

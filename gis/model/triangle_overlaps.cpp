@@ -79,6 +79,9 @@ class Places {
   std::vector<SphereVector> places_;
 };
 
+// The difference of two longitudes, within ±180.
+double wrapped(double degrees) { return std::abs(degrees) <= 180.0 ? degrees : std::remainder(degrees, 360.0); }
+
 // The box in longitudes and latitudes of a triangle of great circles; its first corner's longitude is within ±180.
 Box boxOnSphere(const Grid& grid, std::uint32_t t) {
   constexpr double kWide = 60.0;     // degrees: sides this long may pass near a pole
@@ -86,12 +89,11 @@ Box boxOnSphere(const Grid& grid, std::uint32_t t) {
   const auto& corners = grid.triangles[t];
   std::array<Point, 3> p;
   for (std::size_t i = 0; i < 3; ++i) p[i] = grid.nodes[corners[i]];
-  const double first = std::remainder(p[0].x, 360.0);
-  const double turn = std::remainder(p[1].x - p[0].x, 360.0) + std::remainder(p[2].x - p[1].x, 360.0) +
-                      std::remainder(p[0].x - p[2].x, 360.0);
+  const double first = wrapped(p[0].x);
+  const double turn = wrapped(p[1].x - p[0].x) + wrapped(p[2].x - p[1].x) + wrapped(p[0].x - p[2].x);
   const bool at_pole = std::ranges::any_of(p, [](const Point& corner) { return std::abs(corner.y) > 90.0 - 1e-9; });
   Box box;
-  for (const Point& corner : p) box.add(Point{first + std::remainder(corner.x - p[0].x, 360.0), corner.y});
+  for (const Point& corner : p) box.add(Point{first + wrapped(corner.x - p[0].x), corner.y});
   const double width = box.xmax - box.xmin;
   const bool round = std::abs(turn) > 1.0 || at_pole;
   if (round || width > kWide) {
@@ -116,6 +118,13 @@ Box boxOf(const Grid& grid, std::uint32_t t) {
   return box;
 }
 
+// False if all longitudes are within half a turn.
+bool mayMeetATurnAway(const Grid& grid) {
+  if (!grid.crs.geographic || grid.nodes.empty()) return false;
+  const auto [west, east] = std::ranges::minmax(grid.nodes, {}, &Point::x);
+  return !(east.x <= 180.0 && west.x >= -180.0 && east.x - west.x < 180.0);
+}
+
 Box shifted(const Box& box, double east) { return {box.xmin + east, box.ymin, box.xmax + east, box.ymax}; }
 
 }  // namespace
@@ -128,33 +137,58 @@ std::vector<TriangleOverlap> triangleOverlaps(const Grid& grid, const TriMesh& m
     stands[t] = places.isCounterClockwise(places.of(static_cast<std::uint32_t>(t)));
   });
   const auto isLoose = [&](EdgeRef twin) { return twin == kNone || !stands[triOf(twin)]; };
-  std::vector<Box> boxes;
-  std::vector<std::uint32_t> owner;
-  for (std::uint32_t t = 0; t < count; ++t) {
-    if (!stands[t] || !std::ranges::any_of(mesh.triangles[t].adj, isLoose)) continue;
-    const Box box = boxOf(grid, t);
-    for (const double turn : {0.0, -360.0, 360.0}) {
-      if (turn != 0.0 && !grid.crs.geographic) continue;
-      boxes.push_back(shifted(box, turn));
-      owner.push_back(t);
+  const std::vector<std::uint32_t> loose = joined(overStretches(loop, count, [&](std::size_t first, std::size_t last) {
+    std::vector<std::uint32_t> found;
+    for (auto t = static_cast<std::uint32_t>(first); t < last; ++t)
+      if (stands[t] && std::ranges::any_of(mesh.triangles[t].adj, isLoose)) found.push_back(t);
+    return found;
+  }));
+  const std::vector<double> turns = mayMeetATurnAway(grid) ? std::vector{0.0, -360.0, 360.0} : std::vector{0.0};
+  std::vector<Box> boxes(loose.size() * turns.size());
+  std::vector<std::uint32_t> owner(boxes.size());
+  forEachByStretches(loop, loose.size(), [&](std::size_t k) {
+    const Box box = boxOf(grid, loose[k]);
+    for (std::size_t i = 0; i < turns.size(); ++i) {
+      boxes[k * turns.size() + i] = shifted(box, turns[i]);
+      owner[k * turns.size() + i] = loose[k];
     }
-  }
+  });
   const BoxTree tree(boxes, BoxTree::Order::Hilbert);
-  const auto findOverlap = [&](std::uint32_t t, std::vector<TriangleOverlap>& found) {
-    if (!stands[t]) return;
-    const Box box = boxOf(grid, t);
-    const Corners corners = places.of(t);
-    bool overlaps = false;
-    tree.descend([&](const Box& node, std::size_t, std::size_t) { return !overlaps && node.meets(box); },
-                 [&](std::uint32_t k) {
-                   if (owner[k] == t || !places.overlap(corners, places.of(owner[k]))) return;
-                   overlaps = true;
-                   found.push_back({t, owner[k]});
-                 });
+  const auto overlapsWith = [&](std::uint32_t t, const Corners& corners, std::uint32_t k) {
+    return owner[k] != t && places.overlap(corners, places.of(owner[k]));
+  };
+  // Consecutive triangles are mostly neighbours: far from edges without a neighbour, one search serves all.
+  constexpr std::size_t kTogether = 32, kMostCandidates = 64;
+  const auto findOverlaps = [&](std::uint32_t first, std::uint32_t last, std::vector<TriangleOverlap>& found) {
+    std::array<Box, kTogether> box_of;
+    Box all;
+    for (std::uint32_t t = first; t < last; ++t) all.add(box_of[t - first] = boxOf(grid, t));
+    std::vector<std::uint32_t> candidates;
+    const auto isFew = [&] { return candidates.size() <= kMostCandidates; };
+    tree.descend([&](const Box& node, std::size_t, std::size_t) { return isFew() && node.meets(all); },
+                 [&](std::uint32_t k) { candidates.push_back(k); });
+    for (std::uint32_t t = first; t < last && !candidates.empty(); ++t) {
+      if (!stands[t]) continue;
+      const Box& box = box_of[t - first];
+      const Corners corners = places.of(t);
+      std::uint32_t with = kNone;
+      if (isFew()) {
+        const auto at = std::ranges::find_if(
+            candidates, [&](std::uint32_t k) { return boxes[k].meets(box) && overlapsWith(t, corners, k); });
+        if (at != candidates.end()) with = owner[*at];
+      } else {
+        tree.descend([&](const Box& node, std::size_t, std::size_t) { return with == kNone && node.meets(box); },
+                     [&](std::uint32_t k) {
+                       if (overlapsWith(t, corners, k)) with = owner[k];
+                     });
+      }
+      if (with != kNone) found.push_back({t, with});
+    }
   };
   return joined(overStretches(loop, count, [&](std::size_t first, std::size_t last) {
     std::vector<TriangleOverlap> found;
-    for (std::size_t t = first; t < last; ++t) findOverlap(static_cast<std::uint32_t>(t), found);
+    for (std::size_t t = first; t < last; t += kTogether)
+      findOverlaps(static_cast<std::uint32_t>(t), static_cast<std::uint32_t>(std::min(t + kTogether, last)), found);
     return found;
   }));
 }

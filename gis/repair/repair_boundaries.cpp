@@ -21,9 +21,7 @@ BoundaryKind openingAt(const RepairState& state, std::uint32_t node) {
 
 }  // namespace
 
-BoundaryKinds takeBoundaryKinds(const Grid& grid) {
-  std::vector<EdgeConflict> conflicts;
-  const TriMesh mesh = linkTriangles(grid.nodes, grid.triangles, conflicts);
+BoundaryKinds takeBoundaryKinds(const Grid& grid, const TriMesh& mesh) {
   const EdgeKinds given(grid);
   BoundaryKinds kinds;
   for (TriId t = 0; t < mesh.triangles.size(); ++t) {
@@ -57,7 +55,7 @@ void rebuildBoundaries(RepairState& state) {
     const auto at = state.links.kinds.find(edgeKey(a, b));
     return at == state.links.kinds.end() ? BoundaryKind{} : at->second;
   };
-  state.grid.boundaries = cutLoops(state.grid, boundaryLoops(state.grid), kindOfEdge);
+  state.grid.boundaries = cutLoops(state.grid, boundaryLoops(state.grid, state.loop), kindOfEdge);
 }
 
 void reportRebuilt(RepairState& state, std::span<const FoundDefect> pending, std::size_t boundaries_before) {

@@ -7,7 +7,7 @@ namespace coastmesh {
 // Repairs boundaries: they are taken apart into edges of the mesh and reassembled.
 
 // The kind of each boundary edge of the mesh, from the grid's boundaries; land if an edge is in none.
-BoundaryKinds takeBoundaryKinds(const Grid& grid);
+BoundaryKinds takeBoundaryKinds(const Grid& grid, const TriMesh& mesh);
 
 // Gives the solid boundary edge that starts at the defect's node the kind of the open boundary there.
 void openLoneWall(RepairState& state, const FoundDefect& found);

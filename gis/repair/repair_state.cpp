@@ -8,6 +8,7 @@
 #include "core/metric.hpp"
 #include "gis/crs/geodesy.hpp"
 #include "gis/crs/ogr_support.hpp"
+#include "gis/grid/linked_grid.hpp"
 #include "gis/grid/local_plane.hpp"
 
 namespace coastmesh {
@@ -137,10 +138,8 @@ RepairMemory memoryOf(const RepairState& state) {
 void startRound(RepairState& state) {
   const Grid& grid = state.grid;
   GridLinks& links = state.links;
-  if (!state.targets.empty()) {  // repairs for the time step do not use `mesh`
-    std::vector<EdgeConflict> conflicts;
-    links.mesh = linkTriangles(grid.nodes, grid.triangles, conflicts);
-  }
+  // Repairs for the time step do not use `mesh`.
+  if (!state.targets.empty()) links.mesh = linkGrid(grid, state.loop).mesh;
   for (std::vector<std::uint32_t>& triangles : links.triangles_at) triangles.clear();  // they keep their memory
   links.triangles_at.resize(grid.nodes.size());
   for (std::uint32_t t = 0; t < grid.triangles.size(); ++t)

@@ -18,6 +18,7 @@ struct RepairState {
   Grid& grid;
   std::span<const Target> targets;
   RepairOptions options{};
+  ItemLoop loop = inOrder;
   RepairReport report{};
   GridLinks links{};
   // By triangle, in this round: `touched` has changed, or is in the patch of an edit; `dead` is removed.

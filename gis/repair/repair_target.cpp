@@ -10,6 +10,7 @@
 #include "gis/crs/geodesy.hpp"
 #include "gis/error.hpp"
 #include "gis/grid/ground_orientation.hpp"
+#include "gis/grid/linked_grid.hpp"
 #include "gis/grid/local_plane.hpp"
 #include "gis/grid/one_turn.hpp"
 #include "gis/model/triangle_overlaps.hpp"
@@ -34,11 +35,11 @@ RunControl roundOf(const RunControl& control, int round) {
   return stageControl(control, {at(round), at(round + 1)});
 }
 
-std::vector<FoundDefect> findDefects(const Grid& grid, std::span<const Target> targets, const RepairOptions& options,
-                                     const ItemLoop& loop) {
+std::vector<FoundDefect> findDefects(const Grid& grid, const LinkedGrid& linked, std::span<const Target> targets,
+                                     const RepairOptions& options, const ItemLoop& loop) {
   std::vector<FoundDefect> found;
   for (const Target target : targets)
-    for (TargetDefect& defect : checkTarget(grid, target, {.overlaps = false}, loop))
+    for (TargetDefect& defect : checkTarget(grid, linked, target, {.overlaps = false}, loop))
       if (!defect.advice) found.push_back({target, std::move(defect)});
   if (options.time_step_s > 0.0 && !grid.z.empty())
     for (TargetDefect& defect : checkTimeStep(grid, options.time_step_s, loop))
@@ -47,12 +48,11 @@ std::vector<FoundDefect> findDefects(const Grid& grid, std::span<const Target> t
 }
 
 // No repair removes overlaps, so they are searched for once, not in every round.
-std::vector<FoundDefect> findOverlaps(const Grid& grid, std::span<const Target> targets, const ItemLoop& loop) {
+std::vector<FoundDefect> findOverlaps(const Grid& grid, const LinkedGrid& linked, std::span<const Target> targets,
+                                      const ItemLoop& loop) {
   std::vector<FoundDefect> found;
   if (targets.empty()) return found;
-  std::vector<EdgeConflict> conflicts;
-  const TriMesh mesh = linkTriangles(grid.nodes, grid.triangles, conflicts, loop);
-  const std::vector<TriangleOverlap> overlaps = triangleOverlaps(grid, mesh, loop);
+  const std::vector<TriangleOverlap> overlaps = triangleOverlaps(grid, linked.mesh, loop);
   for (const Target target : targets)
     for (const auto& [t, other] : overlaps)
       found.push_back({target, {TargetDefectKind::Overlap, middleOf(grid, t), t, -1, 0.0, {}}});
@@ -266,34 +266,38 @@ std::vector<bool> nodesAt(const std::vector<Point>& nodes, std::vector<Point> pl
 RepairReport repairInOneTurn(Grid& grid, std::span<const Target> targets, const RepairOptions& options,
                              std::vector<bool> asked, RepairMemory* memory, const RunControl& control,
                              const ItemLoop& loop) {
-  RepairState state{grid, targets, options};
+  RepairState state{.grid = grid, .targets = targets, .options = options, .loop = loop};
   state.links.asked = std::move(asked);
-  std::vector<FoundDefect> defects = findDefects(grid, targets, options, loop);
+  LinkedGrid linked;
+  const auto search = [&] {
+    if (!targets.empty()) linked = linkGrid(grid, loop);  // time steps need no links
+    return findDefects(grid, linked, targets, options, loop);
+  };
+  std::vector<FoundDefect> defects = search();
   if (defects.empty()) {
-    reportLeft(findOverlaps(grid, targets, loop), state.report);
+    reportLeft(findOverlaps(grid, linked, targets, loop), state.report);
     return std::move(state.report);
   }
   if (hasWeirs(grid)) {
     refuseWeirs(defects);
     return std::move(state.report);
   }
-  if (dropCopies(state, defects)) defects = findDefects(grid, targets, options, loop);
+  if (dropCopies(state, defects)) defects = search();
   startRepairs(state, memory);
-  state.links.kinds = takeBoundaryKinds(grid);
+  state.links.kinds = takeBoundaryKinds(grid, targets.empty() ? linkGrid(grid, loop).mesh : linked.mesh);
   bool again = true, boundaries_done = false;
   for (int round = 0; round < kMostRounds && again && !defects.empty(); ++round) {
     again = mendRound(state, defects, boundaries_done, roundOf(control, round));
-    defects = findDefects(grid, targets, options, loop);
+    defects = search();
   }
   requireTriangles(grid, targets);
-  if (relax(state, stageControl(control, {kRelaxFrom, 1.0})) && !targets.empty())
-    defects = findDefects(grid, targets, options, loop);
+  if (relax(state, stageControl(control, {kRelaxFrom, 1.0})) && !targets.empty()) defects = search();
   reportLeft(std::move(defects), state.report);
-  reportLeft(findOverlaps(grid, targets, loop), state.report);
+  reportLeft(findOverlaps(grid, linked, targets, loop), state.report);
   if (keepsBoundaries(state) && std::ranges::count(state.changed, true) > 0) rebuildBoundaries(state);
   if (memory != nullptr) *memory = memoryOf(state);
   measureChanged(grid, state.changed, state.shape());
-  requireConsistent(grid);
+  requireConsistent(grid, loop);
   return std::move(state.report);
 }
 

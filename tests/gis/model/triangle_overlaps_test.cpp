@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -150,6 +151,44 @@ TEST(TriangleOverlaps, ABandThatWindsOverItself) {
   };
   EXPECT_THAT(overlapsIn(band(0.95)), IsEmpty());
   EXPECT_THAT(overlapsIn(band(1.15)), ::testing::Not(IsEmpty()));
+}
+
+// Sheets over one another: each triangle is tested alone against each of those at a side without a neighbour.
+TEST(TriangleOverlaps, AreThoseOfPairs) {
+  const Grid fine = gridOf(lattice(
+      40, 30, [](int, int) { return true; },
+      [](int i, int j) {
+        return Point{0.5 + 0.1 * i - 0.03 * j, 0.2 + 0.03 * i + 0.1 * j};
+      }));
+  for (const bool with_fine : {false, true}) {  // beside many triangles at sides, and beside few
+    Grid grid = gridOf(lattice(12, 12, [](int i, int j) { return (i + j) % 5 > 0; }));
+    if (with_fine) appendGrid(grid, Grid(fine));
+    std::vector<EdgeConflict> conflicts;
+    const TriMesh mesh = linkTriangles(grid.nodes, grid.triangles, conflicts);
+    const auto overlap = [&](std::size_t t, std::size_t other) {
+      Grid pair;
+      for (const std::size_t of : {t, other}) {
+        const auto base = static_cast<std::uint32_t>(pair.nodes.size());
+        for (const std::uint32_t node : grid.triangles[of]) pair.nodes.push_back(grid.nodes[node]);
+        pair.triangles.push_back({base, base + 1, base + 2});
+      }
+      return !overlapsIn(pair).empty();
+    };
+    std::vector<std::uint32_t> expected;
+    for (std::uint32_t t = 0; t < grid.triangles.size(); ++t) {
+      bool found = false;
+      for (std::uint32_t other = 0; other < grid.triangles.size() && !found; ++other)
+        found = other != t && std::ranges::count(mesh.triangles[other].adj, kNone) > 0 && overlap(t, other);
+      if (found) expected.push_back(t);
+    }
+    std::vector<std::uint32_t> found;
+    for (const auto& [t, other] : overlapsIn(grid)) {
+      found.push_back(t);
+      EXPECT_TRUE(overlap(t, other)) << t << " and " << other;
+    }
+    EXPECT_EQ(found, expected);
+    EXPECT_EQ(found.empty(), !with_fine);
+  }
 }
 
 TEST(NodeMeets, HangingAndRepeatedNodes) {

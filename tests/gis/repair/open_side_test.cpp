@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/quality.hpp"
+#include "gis/grid/linked_grid.hpp"
 #include "gis/grid/local_plane.hpp"
 #include "gis/model/time_step.hpp"
 #include "gis/repair/repair_boundaries.hpp"
@@ -152,7 +153,7 @@ TEST(OpenSide, EdgesMayBeCloseAlongTheBoundary) {
     grid = placed(grid, geographic);
     RepairState state{.grid = grid, .targets = {}, .options = {.shore_moves = true}};
     startRepairs(state, nullptr);
-    state.links.kinds = takeBoundaryKinds(grid);
+    state.links.kinds = takeBoundaryKinds(grid, linkGrid(grid).mesh);
     startRound(state);
     const RepairView view = state.view();
     for (const std::uint32_t node : {kNorth, kOfSouth})

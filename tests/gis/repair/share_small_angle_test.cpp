@@ -6,6 +6,7 @@
 #include "core/predicates.hpp"
 #include "core/quality.hpp"
 #include "gis/crs/geodesy.hpp"
+#include "gis/grid/linked_grid.hpp"
 #include "gis/repair/repair_boundaries.hpp"
 #include "gis/repair/repair_shape.hpp"
 #include "tests/gis/model/target_samples.hpp"
@@ -51,7 +52,7 @@ TEST(ShareSmallAngle, TrianglesAroundGiveUpWhatTheyHaveAboveTheBound) {
       const Grid given = grid;
       RepairState state{.grid = grid, .targets = {}, .options = {.min_angle_deg = kBoundDeg}};
       startRepairs(state, nullptr);
-      state.links.kinds = takeBoundaryKinds(grid);
+      state.links.kinds = takeBoundaryKinds(grid, linkGrid(grid).mesh);
       startRound(state);
       const std::vector<std::uint32_t> small = smallIn(grid);
       before += small.size();
