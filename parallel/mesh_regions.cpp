@@ -308,7 +308,9 @@ void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opt
         trianglesInViolation(region.mesh, options.refine, seeds.input.corners.get(), stitch);
     insertCores(region.mesh, static_cast<VertexId>(pslg.points.size()), seeds.cores, stitch);
     region.log.append(recorder.finish("stitch"));
-    mendBesideCores(region, left, pslg, options.refine, seeds.input, helpers, {control.cancelled, {}}, add);
+    // With too few vertices triangles are bad everywhere.
+    if (!region.stats.budget_reached)
+      mendBesideCores(region, left, pslg, options.refine, seeds.input, helpers, {control.cancelled, {}}, add);
   }
   Recorder recorder;
   const ItemLoop label = recorder.loop("label", control);

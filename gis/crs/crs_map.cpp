@@ -8,6 +8,7 @@
 #include <limits>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
@@ -53,6 +54,8 @@ struct Pair {
 struct CrsMap::Ends {
   std::string from, to;
   bool from_traditional = false, to_traditional = false;
+
+  bool operator==(const Ends&) const = default;
 };
 
 namespace {
@@ -77,6 +80,11 @@ class Kept {
   const Pair& get(const std::shared_ptr<const CrsMap::Ends>& ends) {
     for (const Entry& entry : entries_)
       if (entry.ends == ends) return entry.pair;
+    for (Entry& entry : entries_) {
+      if (!entry.ends || *entry.ends != *ends) continue;
+      entry.ends = ends;  // of another map between the same CRS
+      return entry.pair;
+    }
     Entry& entry = entries_[oldest_];
     oldest_ = (oldest_ + 1) % entries_.size();
     entry = {ends, makePair(*ends)};
@@ -130,6 +138,28 @@ Point CrsMap::inverse(const Point& p) const {
   if (!(size(step) <= kSmall * size(first))) return first;
   const Point better{first.x - step.x, first.y - step.y};
   return miss(transform(*pair.forward, better)) < miss(image) ? better : first;
+}
+
+void CrsMap::forward(std::span<double> x, std::span<double> y) const {
+  std::vector<int> ok(x.size());
+  pairOfThread(ends_).forward->Transform(static_cast<int>(x.size()), x.data(), y.data(), nullptr, nullptr, ok.data());
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (!ok[i]) x[i] = y[i] = std::numeric_limits<double>::quiet_NaN();
+}
+
+std::shared_ptr<const CrsMap> mapToGeographic(const Crs& crs) {
+  struct Entry {
+    std::string authority, wkt;
+    std::shared_ptr<const CrsMap> map;
+  };
+  thread_local std::array<Entry, 4> kept;
+  thread_local std::size_t oldest = 0;
+  for (const Entry& entry : kept)
+    if (entry.map && entry.authority == crs.authority && entry.wkt == crs.wkt) return entry.map;
+  auto map = std::make_shared<const CrsMap>(toOgr(crs), geographicBase(crs));
+  kept[oldest] = {crs.authority, crs.wkt, map};
+  oldest = (oldest + 1) % kept.size();
+  return map;
 }
 
 OGRSpatialReference geographicBase(const Crs& crs) {

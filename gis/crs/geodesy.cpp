@@ -1,7 +1,5 @@
 #include "gis/crs/geodesy.hpp"
 
-#include <ogr_spatialref.h>
-
 #include <GeographicLib/Geodesic.hpp>
 #include <GeographicLib/PolygonArea.hpp>
 #include <algorithm>
@@ -12,7 +10,6 @@
 
 #include "core/quality.hpp"
 #include "gis/crs/crs_map.hpp"
-#include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
 
 namespace coastmesh {
@@ -38,22 +35,15 @@ struct Geodetic {
 Geodetic toGeodetic(std::span<const Point> points, const Crs& crs, const std::string& path = {}) {
   Geodetic out{points, {}, crs.semi_major_m, crs.flattening};
   if (!crs.geographic) {
-    const OgrErrors errors;
-    const OGRSpatialReference srs = toOgr(crs);
-    const OGRSpatialReference base = geographicBase(crs);
-    const std::unique_ptr<OGRCoordinateTransformation> to_base(OGRCreateCoordinateTransformation(&srs, &base));
-    if (!to_base)
-      throw InputError("no way from the CRS " + nameOf(crs) + " to longitude and latitude: " + errors.text());
     std::vector<double> x(points.size()), y(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
       x[i] = points[i].x;
       y[i] = points[i].y;
     }
-    std::vector<int> ok(points.size());
-    to_base->Transform(static_cast<int>(points.size()), x.data(), y.data(), nullptr, nullptr, ok.data());
+    mapToGeographic(crs)->forward(x, y);
     out.places.resize(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
-      if (!ok[i] || !std::isfinite(x[i]) || !std::isfinite(y[i])) refuseNode(points, i, crs, path);
+      if (!std::isfinite(x[i]) || !std::isfinite(y[i])) refuseNode(points, i, crs, path);
       out.places[i] = {x[i], y[i]};
     }
   }

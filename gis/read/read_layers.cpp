@@ -145,9 +145,9 @@ class LayerReader {
     }
   }
 
-  RawLayer finish() {
-    if (raw_.use == FeatureUse::Area && count_ == 1 && raw_.features.size() == 1 &&
-        raw_.features.front().attributes.empty())
+  // `filtered`: by --where, so that other features may have been left out.
+  RawLayer finish(bool filtered) {
+    if (raw_.use == FeatureUse::Area && !filtered && raw_.columns.empty() && count_ == 1 && raw_.features.size() == 1)
       takeBareApart();
     return std::move(raw_);
   }
@@ -190,10 +190,11 @@ class LayerReader {
                    "; polygons or lines are needed");
 }
 
-std::vector<RawLayer> finishAll(std::vector<LayerReader>& readers, const std::string& source, std::uint64_t points) {
+std::vector<RawLayer> finishAll(std::vector<LayerReader>& readers, bool filtered, const std::string& source,
+                                std::uint64_t points) {
   std::vector<RawLayer> raw;
   for (LayerReader& reader : readers) {
-    RawLayer finished = reader.finish();
+    RawLayer finished = reader.finish(filtered);
     if (!finished.empty()) raw.push_back(std::move(finished));
   }
   if (raw.empty()) refuseEmpty(source, points);
@@ -228,7 +229,7 @@ std::vector<RawLayer> readLayers(const Source& given, const ReadFilter& filter, 
     feature.use = given.use;
     readers.emplace_back(wgs84(), given.path, given.use);
     readers.front().add(std::move(*bare), std::move(feature), report);
-    return finishAll(readers, given.path, report.skipped_points - points_before);
+    return finishAll(readers, false, given.path, report.skipped_points - points_before);
   }
 
   OgrErrors errors;
@@ -264,7 +265,7 @@ std::vector<RawLayer> readLayers(const Source& given, const ReadFilter& filter, 
   const auto isEmpty = [](const LayerReader& reader) { return reader.count() == 0; };
   if (!filter.where.empty() && std::ranges::all_of(readers, isEmpty))
     throw InputError(source.name + ": --where \"" + filter.where + "\" holds for no feature with a geometry in it");
-  return finishAll(readers, source.name, report.skipped_points - points_before);
+  return finishAll(readers, !filter.where.empty(), source.name, report.skipped_points - points_before);
 }
 
 }  // namespace coastmesh

@@ -6,6 +6,7 @@
 #include <ranges>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "core/predicates.hpp"
 #include "core/quality.hpp"
@@ -325,6 +326,7 @@ bool relaxTriangle(RepairState& state, std::uint32_t t) {
 bool shareSmallAngle(RepairState& state, std::uint32_t t) {
   constexpr int kRings = 3, kMostSweeps = 80;
   constexpr double kBeyondDeg = 1.0;  // above the bound: larger angles are free to become smaller
+  constexpr double kHardly = 0.99;    // sweeps that leave more of the lack than this lead nowhere
   const RepairView view = state.view();
   const double bound = state.options.min_angle_deg - kAngleSlackDeg, goal = state.options.min_angle_deg + kBeyondDeg;
   std::vector<std::uint32_t> around{t};
@@ -340,6 +342,7 @@ bool shareSmallAngle(RepairState& state, std::uint32_t t) {
   const auto small_before = countSmall();
   if (small_before == 0) return false;
   MovedNodes moved(state);
+  double lack = lackOfAngles(view, affected, goal);
   for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
     bool any = false;
     for (const std::uint32_t node : movable) {
@@ -351,7 +354,8 @@ bool shareSmallAngle(RepairState& state, std::uint32_t t) {
       moved.move(node, patch, *chosen);
       any = true;
     }
-    if (!any || countSmall() == 0) break;
+    const double before = std::exchange(lack, lackOfAngles(view, affected, goal));
+    if (!any || lack > kHardly * before || countSmall() == 0) break;
   }
   if (countSmall() < small_before) return true;
   moved.putBack();

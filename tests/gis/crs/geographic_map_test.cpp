@@ -5,7 +5,10 @@
 #include <GeographicLib/TransverseMercator.hpp>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <vector>
 
+#include "gis/crs/crs_map.hpp"
 #include "gis/crs/geodesy.hpp"
 
 namespace coastmesh {
@@ -42,6 +45,32 @@ TEST(GeographicMap, HasDegreesWhateverTheCrsCountsIn) {
   EXPECT_NEAR((areas[0] + areas[1]) * 0.99988 * 0.99988, 1e8, 1e4);
   EXPECT_NEAR(edgeLengths(square, triangles, france)[0][0] * 0.99988, 1e4, 0.5);
   EXPECT_NEAR(chainLengths({{square[0], square[1]}}, france)[0] * 0.99988, 1e4, 0.5);
+}
+
+// PROJ takes milliseconds for each, and a file of many features needs one for each of them.
+TEST(GeographicMap, IsMadeOnceForACrs) {
+  const Crs utm = parseCrs("EPSG:32633"), laea = parseCrs("EPSG:3035");
+  const std::shared_ptr<const CrsMap> first = mapToGeographic(utm);
+  const std::shared_ptr<const CrsMap> other = mapToGeographic(laea);
+  EXPECT_NE(first, other);
+  EXPECT_EQ(mapToGeographic(parseCrs("EPSG:32633")), first);
+  EXPECT_EQ(mapToGeographic(laea), other);
+}
+
+TEST(GeographicMap, TakesManyPointsAsItTakesOne) {
+  const std::shared_ptr<const CrsMap> map = mapToGeographic(parseCrs("EPSG:3035"));
+  const double infinite = std::numeric_limits<double>::infinity();
+  const std::vector<Point> points{{4321000, 3210000}, {infinite, 0}, {2000000.5, 1500000.25}};
+  std::vector<double> x, y;
+  for (const Point& p : points) x.push_back(p.x), y.push_back(p.y);
+  map->forward(x, y);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Point one = map->forward(points[i]);
+    EXPECT_EQ(std::isfinite(x[i]), i != 1);
+    EXPECT_EQ(std::isfinite(one.x), i != 1);
+    if (i == 1) continue;
+    EXPECT_EQ((Point{x[i], y[i]}), one);
+  }
 }
 
 }  // namespace

@@ -129,6 +129,26 @@ TEST_F(ReadCoastline, ABareGeometryIsAFeatureAPolygon) {
   EXPECT_EQ(coastline.features[2].polygons[0].outer[0], (Point{8, 8}));
 }
 
+// A row of a table is no bare geometry: neither one without values nor the only one that a filter leaves.
+TEST_F(ReadCoastline, ARowStaysOneFeature) {
+  const std::string two =
+      R"("geometry":{"type":"MultiPolygon","coordinates":[[[[0,0],[1,0],[1,1],[0,0]]],[[[5,5],[6,5],[6,6],[5,5]]]]})";
+  const std::string file = write("row.geojson", R"({"type":"FeatureCollection","features":[
+      {"type":"Feature","id":7,"properties":{"name":null},)" +
+                                                    two + "}]}");
+  const Coastline row = read(file);
+  ASSERT_EQ(row.features.size(), 1u);
+  EXPECT_EQ(row.features[0].fid, 7);
+  EXPECT_EQ(row.features[0].polygons.size(), 2u);
+  const std::string rows = write("rows.geojson", R"({"type":"FeatureCollection","features":[
+      {"type":"Feature","id":7,"properties":{},)" + two +
+                                                     R"(},{"type":"Feature","id":8,"properties":{},)" + two + "}]}");
+  ReadReport report;
+  const Coastline left = readCoastline({Source{.path = rows}}, ReadFilter{.where = "fid = 8"}, report);
+  ASSERT_EQ(left.features.size(), 1u);
+  EXPECT_EQ(left.features[0].fid, 8);
+}
+
 TEST_F(ReadCoastline, SkipsAndCountsWhatIsNoShore) {
   const Coastline coastline = read(geojson("mixed.geojson", {"null", kSquare, R"({"type":"Point","coordinates":[3,3]})",
                                                              R"({"type":"MultiPoint","coordinates":[[3,3],[4,4]]})",
