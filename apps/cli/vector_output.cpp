@@ -9,6 +9,7 @@
 
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
+#include "gis/format/ogr_layer.hpp"
 
 namespace coastmesh {
 
@@ -32,15 +33,6 @@ const VectorFormat& formatOf(const std::string& path) {
   }
   throw OutputError("cannot write '" + path + "': give it one of the endings .gpkg, .geojson, .fgb");
 }
-
-[[noreturn]] void fail(const std::string& path, const OgrErrors& errors) {
-  throw OutputError("cannot write '" + path + "'" + (errors.text().empty() ? "" : ": " + errors.text()));
-}
-
-struct CloseDataset {
-  void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
-};
-using DatasetPtr = std::unique_ptr<GDALDataset, CloseDataset>;
 
 OGRFieldType fieldType(const VectorValue& value) {
   if (std::holds_alternative<std::int64_t>(value)) return OFTInteger64;
@@ -105,29 +97,29 @@ OGRwkbGeometryType typeOf(VectorLayer::Kind kind) {
   return wkbNone;
 }
 
-void writeLayer(GDALDataset& dataset, const std::string& path, const VectorLayer& layer, OGRSpatialReference* srs,
+void writeLayer(GDALDataset& dataset, const std::string& path, const VectorLayer& layer, const OGRSpatialReference* srs,
                 const OgrErrors& errors) {
   const OGRwkbGeometryType type = typeOf(layer.kind);
-  OGRLayer* target = dataset.CreateLayer(layer.name.c_str(), type == wkbNone ? nullptr : srs, type, nullptr);
-  if (target == nullptr) fail(path, errors);
+  constexpr const char* kNoOptions[] = {nullptr};
+  OGRLayer& target = createLayer(dataset, path, layer.name, type == wkbNone ? nullptr : srs, type, kNoOptions);
   for (const auto& [name, sample] : layer.fields) {
     OGRFieldDefn field(name.c_str(), fieldType(sample));
-    if (target->CreateField(&field) != OGRERR_NONE) fail(path, errors);
+    if (target.CreateField(&field) != OGRERR_NONE) failToWrite(path, errors);
   }
   const bool transactions = dataset.TestCapability(ODsCTransactions) != 0;
   int pending = 0;
   for (const VectorShape& shape : layer.shapes) {
-    if (transactions && pending == 0 && dataset.StartTransaction() != OGRERR_NONE) fail(path, errors);
-    OGRFeature feature(target->GetLayerDefn());
+    if (transactions && pending == 0 && dataset.StartTransaction() != OGRERR_NONE) failToWrite(path, errors);
+    OGRFeature feature(target.GetLayerDefn());
     for (std::size_t i = 0; i < shape.values.size(); ++i) setField(feature, static_cast<int>(i), shape.values[i]);
     if (auto geometry = geometryOf(shape, layer.kind)) feature.SetGeometryDirectly(geometry.release());
-    if (target->CreateFeature(&feature) != OGRERR_NONE) fail(path, errors);
+    if (target.CreateFeature(&feature) != OGRERR_NONE) failToWrite(path, errors);
     if (++pending == kShapesPerTransaction) {
-      if (transactions && dataset.CommitTransaction() != OGRERR_NONE) fail(path, errors);
+      if (transactions && dataset.CommitTransaction() != OGRERR_NONE) failToWrite(path, errors);
       pending = 0;
     }
   }
-  if (transactions && pending > 0 && dataset.CommitTransaction() != OGRERR_NONE) fail(path, errors);
+  if (transactions && pending > 0 && dataset.CommitTransaction() != OGRERR_NONE) failToWrite(path, errors);
 }
 
 }  // namespace
@@ -151,14 +143,14 @@ void writeVectorLayers(const std::string& path, const Crs& crs, const std::vecto
     throw OutputError("cannot write '" + path + "': this GDAL has no driver " + formatOf(path).driver);
   }
   DatasetPtr dataset(driver->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
-  if (!dataset) fail(path, errors);
+  if (!dataset) failToWrite(path, errors);
   std::optional<OGRSpatialReference> srs;
   if (!crs.isPlane()) srs = toOgr(crs);
   for (const VectorLayer& layer : layers) writeLayer(*dataset, path, layer, srs ? &*srs : nullptr, errors);
 
   // The driver writes its buffers on closing, which fails if the disk is full.
   dataset.reset();
-  if (errors.failed()) fail(path, errors);
+  if (errors.failed()) failToWrite(path, errors);
 }
 
 }  // namespace coastmesh

@@ -24,6 +24,14 @@ bool saysLeftOut(std::string_view message) {
   return std::ranges::any_of(kWords, [&](std::string_view word) { return message.find(word) != message.npos; });
 }
 
+bool canBeWrittenAs(const OGRSpatialReference& srs, const char* format) {
+  char* text = nullptr;
+  const char* const options[] = {format, nullptr};
+  const bool written = srs.exportToWkt(&text, options) == OGRERR_NONE && text != nullptr && *text != '\0';
+  CPLFree(text);
+  return written;
+}
+
 }  // namespace
 
 OgrErrors::OgrErrors() {
@@ -70,6 +78,11 @@ OGRSpatialReference toOgr(const Crs& crs) {
   srs.SetFromUserInput(crs.authority.empty() ? crs.wkt.c_str() : crs.authority.c_str());
   srs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   return srs;
+}
+
+bool needsWkt2(const OGRSpatialReference& srs) {
+  const OgrErrors caught;  // of what is only tried here
+  return !canBeWrittenAs(srs, "FORMAT=WKT1_GDAL") && canBeWrittenAs(srs, "FORMAT=WKT2_2015");
 }
 
 }  // namespace coastmesh

@@ -52,4 +52,8 @@ void registerDrivers();
 // With x = easting or longitude. REQUIRES: not a plane.
 OGRSpatialReference toOgr(const Crs& crs);
 
+// True if WKT 2 can express it and WKT 1 cannot, as Equal Earth. GDAL reports that as an error where it tries WKT 1
+// first, although it then writes WKT 2.
+bool needsWkt2(const OGRSpatialReference& srs);
+
 }  // namespace coastmesh

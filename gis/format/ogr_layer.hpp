@@ -40,6 +40,10 @@ struct MapOfLayer {
 DatasetPtr createDataset(const OgrWriter& writer, const std::string& path, const OgrErrors& errors);
 // Flushes GDAL's buffers; only the collected messages show whether that succeeded.
 void closeDataset(DatasetPtr dataset, const std::string& path, const OgrErrors& errors);
+// A layer without columns; without a CRS if `srs` is null. `options` end with a null.
+OGRLayer& createLayer(GDALDataset& dataset, const std::string& path, const std::string& name,
+                      const OGRSpatialReference* srs, OGRwkbGeometryType type, const char* const* options);
+// A layer of a grid, with its columns.
 OGRLayer& createLayer(GDALDataset& dataset, const std::string& path, const OgrWriter& writer, const Grid& grid,
                       const GridLayer& layer, const std::string& name, const OgrErrors& errors);
 // Writes all rows in order; OGR numbers them from its first free fid.

@@ -199,6 +199,16 @@ OGRSpatialReference srsForLayer(const Crs& crs) {
   return older;
 }
 
+OGRLayer& createLayer(GDALDataset& dataset, const std::string& path, const std::string& name,
+                      const OGRSpatialReference* srs, OGRwkbGeometryType type, const char* const* options) {
+  const bool needs_wkt2 = srs != nullptr && needsWkt2(*srs);
+  const OgrErrors errors;
+  OGRLayer* const layer =
+      dataset.CreateLayer(name.c_str(), const_cast<OGRSpatialReference*>(srs), type, const_cast<char**>(options));
+  if (layer == nullptr || (errors.failed() && !needs_wkt2)) failToWrite(path, errors);
+  return *layer;
+}
+
 OGRLayer& createLayer(GDALDataset& dataset, const std::string& path, const OgrWriter& writer, const Grid& grid,
                       const GridLayer& layer, const std::string& name, const OgrErrors& errors) {
   std::optional<OGRSpatialReference> srs;
@@ -209,12 +219,11 @@ OGRLayer& createLayer(GDALDataset& dataset, const std::string& path, const OgrWr
   }
   std::vector<const char*> options = writer.layer_options;
   options.push_back(nullptr);
-  OGRLayer* const target = dataset.CreateLayer(name.c_str(), srs ? &*srs : nullptr, ShapeCursor::typeOf(grid, layer),
-                                               const_cast<char**>(options.data()));
-  if (target == nullptr) failToWrite(path, errors);
+  OGRLayer& target =
+      createLayer(dataset, path, name, srs ? &*srs : nullptr, ShapeCursor::typeOf(grid, layer), options.data());
   for (const LayerColumn& column : layer.columns)
-    if (!createField(*target, column, writer)) failToWrite(path, errors);
-  return *target;
+    if (!createField(target, column, writer)) failToWrite(path, errors);
+  return target;
 }
 
 void writeFeatures(OGRLayer& target, const std::string& path, const Grid& grid, const GridLayer& layer,

@@ -543,6 +543,22 @@ TEST_F(Coordinates, NotTrueToScaleAreWarnedOfForModels) {
   EXPECT_EQ(errorsAt(1e5, "a.2dm").find("times those"), std::string::npos);
 }
 
+// GDAL calls it an error that WKT 1 cannot express Equal Earth, and then writes it as WKT 2.
+TEST_F(Coordinates, InEqualEarthGoIntoGeoPackages) {
+  const std::string lake =
+      write("lake.geojson",
+            R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::8857"}},)"
+            R"("features":[{"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":[[)"
+            R"([-240000,6400000],[-230000,6400000],[-230000,6412000],[-240000,6400000]]]}}]})");
+  const std::string cleaned = file("cleaned.gpkg"), mesh = file("m.gpkg");
+  const ProgramRun clean = runProgram({"clean", lake, "-o", cleaned});
+  EXPECT_EQ(clean.code, 0) << clean.errors;
+  const ProgramRun run = runProgram({"mesh", cleaned, "-o", mesh, "--edits", file("edits.gpkg")});
+  EXPECT_EQ(run.code, 0) << run.errors;
+  EXPECT_EQ(infoOf(cleaned)["crs"], "EPSG:8857");
+  EXPECT_EQ(infoOf(mesh)["crs"], "EPSG:8857");
+}
+
 }  // namespace
 
 }  // namespace coastmesh::test

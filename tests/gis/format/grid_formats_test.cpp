@@ -346,6 +346,21 @@ TEST(GridFormats, KeepCrssThatHaveNoCode) {
   }
 }
 
+// GDAL calls it an error that WKT 1 cannot express Equal Earth, and then writes it as WKT 2.
+TEST(GridFormats, KeepCrssThatOnlyWkt2CanExpress) {
+  const TemporaryFolder folder;
+  for (const char* text : {"EPSG:8857", "+proj=eqearth +lon_0=20 +R=6371000"}) {
+    const Grid grid = sampleGrid(parseCrs(text), {500000.0, 5000000.0}, 100.0);
+    for (const char* name : {"a.gpkg", "a.fgb"}) {
+      const std::string path = folder / name;
+      StagedOutput output(path, gridFormatFor(path), true);
+      output.write(grid);
+      output.commit();
+      EXPECT_TRUE(sameCrs(readGrid(path).crs, grid.crs)) << name << ' ' << text;
+    }
+  }
+}
+
 // Files with longitudes but without a CRS are in WGS 84, whatever the prime meridian and datum of the mesh.
 TEST(GridFormats, LongitudesWithoutACrsAreThoseOfWgs84) {
   const TemporaryFolder folder;
