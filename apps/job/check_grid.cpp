@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
+#include <span>
 #include <unordered_map>
 #include <utility>
 
 #include "apps/job/grid_pieces.hpp"
-#include "core/box_halves.hpp"
-#include "core/metric.hpp"
 #include "core/point_hash.hpp"
 #include "core/quality.hpp"
 #include "core/sphere/close_sphere.hpp"
@@ -44,47 +42,6 @@ void addTurns(const Grid& grid, InputVertices& vertices) {
     for (const double turn : {360.0, -360.0}) vertices.emplace(Point{place.x + turn, place.y}, vertex);
 }
 
-// Finds the places in the plane of nodes that `keepInFrame` moved: on the segments of the frame, which leave the sides
-// of the box a little.
-class FrameSides {
- public:
-  FrameSides(const FrameBox& box, const Domain& domain) : box_(box) {
-    for (const Segment& s : domain.pslg.segments) {
-      const Point &a = domain.pslg.points[s.a], &b = domain.pslg.points[s.b];
-      const auto isOnSide = [&](VertexId v) { return box.hasOnSide(box.nearest(domain.input_points[v])); };
-      if ((s.left < 0) == (s.right < 0) || !isOnSide(s.a) || !isOnSide(s.b)) continue;
-      ends_.push_back({a, b});
-      Bounds& bounds = bounds_.emplace_back();
-      bounds.add(a);
-      bounds.add(b);
-    }
-    tree_ = BoxHalves(bounds_);
-  }
-
-  // The place on the nearest segment of a node that lies on a side of the box; otherwise `in_plane` itself.
-  Point placeOf(const Point& node, const Point& in_plane) const {
-    if (ends_.empty() || !box_.hasOnSide(node)) return in_plane;
-    double nearest = std::numeric_limits<double>::infinity();
-    Point place = in_plane;
-    tree_.visit([&](const Bounds& bounds) { return bounds.squaredDistanceTo(in_plane) < nearest; },
-                [&](std::uint32_t i) {
-                  const auto& [a, b] = ends_[i];
-                  const Point way = b - a;
-                  const double share = std::clamp(dot(in_plane - a, way) / squaredLength(way), 0.0, 1.0);
-                  const Point on_segment = a + share * way;
-                  const double distance = squaredDistance(in_plane, on_segment);
-                  if (distance < nearest) nearest = distance, place = on_segment;
-                });
-    return place;
-  }
-
- private:
-  const FrameBox& box_;
-  std::vector<std::array<Point, 2>> ends_;
-  std::vector<Bounds> bounds_;
-  BoxHalves tree_;
-};
-
 // Degrees by which the sum of the angles opposite an interior edge exceeds 180.
 double delaunayExcess(const TriMesh& mesh, EdgeRef e) {
   const auto angleAtApex = [&mesh](EdgeRef edge) {
@@ -107,14 +64,17 @@ EdgeRef edgeAt(const TriMesh& mesh, TriId t, const Point& place) {
   return edgeRef(t, nearest);
 }
 
-// True if rounding cannot explain the defect.
-bool isClearlyNotDelaunay(const TriMesh& mesh, const MeshDefect& defect) {
+// True if neither rounding nor a move of a node onto the box of the frame explains the defect.
+bool isClearlyNotDelaunay(const TriMesh& mesh, std::span<const std::uint8_t> moved, const MeshDefect& defect) {
   const EdgeRef e = edgeAt(mesh, defect.triangle, defect.place);
-  return mesh.twin(e) != kNone && delaunayExcess(mesh, e) > kAngleSlackDeg;
+  if (mesh.twin(e) == kNone || delaunayExcess(mesh, e) <= kAngleSlackDeg) return false;
+  const std::array corners{mesh.origin(e), mesh.target(e), mesh.apex(e), mesh.apex(mesh.twin(e))};
+  return moved.empty() || std::ranges::none_of(corners, [moved](VertexId v) { return moved[v] != 0; });
 }
 
-void checkPiece(const GridPiece& piece, const Pslg* pslg, const GridCheckOptions& options, const ItemLoop& loop,
-                GridCheck& result) {
+// `moved`: 1 for each point of the mesh that may have been elsewhere in the plane; empty: none.
+void checkPiece(const GridPiece& piece, const Pslg* pslg, std::span<const std::uint8_t> moved,
+                const GridCheckOptions& options, const ItemLoop& loop, GridCheck& result) {
   std::vector<GridDefect>& defects = result.defects;
   const auto inverse = [&piece](const Point& place) { return piece.projection.inverse(place); };
   for (const EdgeConflict& conflict : piece.conflicts) {
@@ -134,7 +94,7 @@ void checkPiece(const GridPiece& piece, const Pslg* pslg, const GridCheckOptions
       checkMesh(piece.mesh, pslg, check, loopOfPiece(piece.triangles.size(), loop), &bounds);
   result.bounds.add(bounds);
   for (const MeshDefect& defect : found) {
-    if (defect.kind == DefectKind::NotDelaunay && !isClearlyNotDelaunay(piece.mesh, defect)) continue;
+    if (defect.kind == DefectKind::NotDelaunay && !isClearlyNotDelaunay(piece.mesh, moved, defect)) continue;
     if (defect.kind == DefectKind::NotCounterClockwise) continue;  // tested on the ground, not in this plane
     const std::int64_t triangle = defect.triangle == kNone ? -1 : std::int64_t{piece.triangles[defect.triangle]};
     defects.push_back({defect.kind, inverse(defect.place), triangle, defect.value});
@@ -177,7 +137,7 @@ SurfaceKind surfaceFor(const Grid& grid, const SurfaceChoice& choice) {
 GridCheck checkGrid(const Grid& grid, const GridCheckOptions& options, const ItemLoop& loop) {
   GridCheck result;
   for (const GridPiece& piece : splitGrid(grid, surfaceFor(grid, options.surface), loop))
-    checkPiece(piece, nullptr, options, loop, result);
+    checkPiece(piece, nullptr, {}, options, loop, result);
   checkOrientation(grid, loop, result.defects);
   sortByKind(result.defects);
   return result;
@@ -225,19 +185,22 @@ GridCheck checkGridAgainst(const Grid& grid, const JobInput& input, const GridCh
     std::ranges::sort(triangles_of[g]);
     const ItemLoop& of_piece = loopOfPiece(triangles_of[g].size(), loop);
     GridPiece piece = makePiece(grid, std::move(triangles_of[g]), domains[g]->projection, lines, of_piece);
-    std::optional<FrameSides> sides;
-    if (box) sides.emplace(*box, *domains[g]);
     // Vertices that cleaning made have exact places only in the plane: projecting their rounded coordinates does not
     // give these back.
+    std::vector<VertexId> vertex_of(piece.nodes.size(), kNone);
     for (std::size_t v = 0; v < piece.nodes.size(); ++v) {
       const auto found = vertices.find(grid.nodes[piece.nodes[v]]);
-      if (found != vertices.end() && found->second.group == g) {
-        piece.mesh.points[v] = domains[g]->pslg.points[found->second.vertex];
-      } else if (sides) {
-        piece.mesh.points[v] = sides->placeOf(grid.nodes[piece.nodes[v]], piece.mesh.points[v]);
-      }
+      if (found == vertices.end() || found->second.group != g) continue;
+      vertex_of[v] = found->second.vertex;
+      piece.mesh.points[v] = domains[g]->pslg.points[vertex_of[v]];
     }
-    checkPiece(piece, &domains[g]->pslg, options, loop, result);
+    std::vector<std::uint8_t> moved;
+    if (box) {
+      std::vector<Point> nodes;
+      for (const std::uint32_t node : piece.nodes) nodes.push_back(grid.nodes[node]);
+      moved = undoMovesToFrame(piece.mesh, nodes, *box, domains[g]->pslg, vertex_of, domains[g]->projection);
+    }
+    checkPiece(piece, &domains[g]->pslg, moved, options, loop, result);
   }
   checkOrientation(grid, loop, defects);
   sortByKind(defects);

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
+#include "core/metric.hpp"
 #include "core/quality.hpp"
 #include "gis/coast/feature_bounds.hpp"
 #include "gis/crs/geodesy.hpp"
@@ -24,6 +27,15 @@ Point FrameBox::nearest(const Point& p) const {
 
 bool FrameBox::hasOnSide(const Point& p) const {
   return p.y == box_.ymin || p.y == box_.ymax || (!in_parts_ && (p.x == box_.xmin || p.x == box_.xmax));
+}
+
+Point FrameBox::inwards(const Point& p) const {
+  constexpr double kShare = 1e-4;  // of the box: more than rounding, and little beside the curvature of meridians
+  const auto step = [](double at, double least, double greatest) {
+    const double length = kShare * (greatest - least);
+    return at == least ? length : at == greatest ? -length : 0.0;
+  };
+  return {p.x + (in_parts_ ? 0.0 : step(p.x, box_.xmin, box_.xmax)), p.y + step(p.y, box_.ymin, box_.ymax)};
 }
 
 namespace {
@@ -123,6 +135,74 @@ class Mover {
   std::vector<AngleBounds> allowed_;
 };
 
+using VertexPair = std::pair<VertexId, VertexId>;
+
+// The edges at the boundary of a mesh, or with a segment, from both of their ends.
+class ChainEdges {
+ public:
+  explicit ChainEdges(const TriMesh& mesh) {
+    for (TriId t = 0; t < mesh.triangles.size(); ++t) {
+      for (unsigned i = 0; i < 3; ++i) {
+        const EdgeRef e = edgeRef(t, i);
+        if (mesh.twin(e) != kNone && (mesh.segment(e) == kNone || mesh.twin(e) < e)) continue;
+        halves_.emplace_back(mesh.origin(e), mesh.target(e));
+        halves_.emplace_back(mesh.target(e), mesh.origin(e));
+      }
+    }
+    std::ranges::sort(halves_);
+  }
+
+  std::span<const VertexPair> from(VertexId v) const {
+    const auto range = std::ranges::equal_range(halves_, v, {}, &VertexPair::first);
+    return {range.begin(), range.end()};
+  }
+
+ private:
+  std::vector<VertexPair> halves_;
+};
+
+// A run of edges through points that are no vertices of the input, and the vertices at its ends, or kNone.
+struct Chain {
+  std::vector<VertexId> points;
+  std::array<VertexId, 2> ends;
+};
+
+// REQUIRES: two edges from `start`.
+Chain chainThrough(VertexId start, const ChainEdges& edges, std::span<const VertexId> vertex_of) {
+  Chain chain{{start}, {kNone, kNone}};
+  for (const unsigned k : {0u, 1u}) {
+    VertexId before = start, at = edges.from(start)[k].second;
+    // A ring without a vertex of the input comes back to the start.
+    while (at != start && vertex_of[at] == kNone) {
+      chain.points.push_back(at);
+      const std::span<const VertexPair> on = edges.from(at);
+      if (on.size() != 2) break;
+      before = std::exchange(at, on[on[0].second == before ? 1 : 0].second);
+    }
+    chain.ends[k] = vertex_of[at];
+  }
+  return chain;
+}
+
+std::vector<VertexPair> sortedSegments(const Pslg& pslg) {
+  std::vector<VertexPair> pairs;
+  pairs.reserve(pslg.segments.size());
+  for (const Segment& s : pslg.segments) pairs.emplace_back(std::minmax(s.a, s.b));
+  std::ranges::sort(pairs);
+  return pairs;
+}
+
+// Where the line through `p` in the direction `way` meets the segment from a to b; the nearest place if they are as
+// good as parallel.
+Point placeOnSegment(const Point& p, const Point& way, const Point& a, const Point& b) {
+  constexpr double kParallel = 1e-6;
+  const Point along = b - a;
+  const double turn = cross(along, way);
+  const bool parallel = std::abs(turn) <= kParallel * std::sqrt(squaredLength(along) * squaredLength(way));
+  const double share = parallel ? dot(p - a, along) / squaredLength(along) : cross(p - a, way) / turn;
+  return a + std::clamp(share, 0.0, 1.0) * along;
+}
+
 }  // namespace
 
 FrameMoves keepInFrame(Grid& grid, const Coastline& coastline, const AngleBounds& bounds, const ItemLoop& loop) {
@@ -134,6 +214,32 @@ FrameMoves keepInFrame(Grid& grid, const Coastline& coastline, const AngleBounds
   Mover mover(grid, std::move(outside), bounds, loop);
   mover.move(box);
   return mover.moves();
+}
+
+std::vector<std::uint8_t> undoMovesToFrame(TriMesh& mesh, std::span<const Point> nodes, const FrameBox& box,
+                                           const Pslg& pslg, std::span<const VertexId> vertex_of,
+                                           const Projection& projection) {
+  const auto count = static_cast<VertexId>(mesh.points.size());
+  std::vector<std::uint8_t> moved(count, 0);
+  for (VertexId v = 0; v < count; ++v) moved[v] = vertex_of[v] == kNone && box.hasOnSide(nodes[v]) ? 1 : 0;
+  if (std::ranges::find(moved, 1) == moved.end()) return moved;
+  const ChainEdges edges(mesh);
+  const std::vector<VertexPair> segments = sortedSegments(pslg);
+  std::vector<std::uint8_t> seen(count, 0);
+  for (VertexId v = 0; v < count; ++v) {
+    if (moved[v] == 0 || seen[v] != 0 || edges.from(v).size() != 2) continue;
+    const Chain chain = chainThrough(v, edges, vertex_of);
+    for (const VertexId point : chain.points) seen[point] = 1;
+    if (!std::ranges::binary_search(segments, VertexPair(std::minmax(chain.ends[0], chain.ends[1])))) continue;
+    const Point &a = pslg.points[chain.ends[0]], &b = pslg.points[chain.ends[1]];
+    for (const VertexId point : chain.points) {
+      if (moved[point] == 0) continue;
+      Point& place = mesh.points[point];
+      place = placeOnSegment(place, projection.forward(box.inwards(nodes[point])) - place, a, b);
+      moved[point] = 0;
+    }
+  }
+  return moved;
 }
 
 }  // namespace coastmesh

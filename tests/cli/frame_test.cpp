@@ -106,6 +106,19 @@ TEST_F(Frame, AMeshInABoxAgreesWithItsInput) {
   EXPECT_EQ(check.code, 0) << check.output;
 }
 
+// The side of a box bulges beyond its parallel, so that a shore, and nodes beside it, may lie between the two. They are
+// moved onto the box too, but lay on no side of it before.
+TEST_F(Frame, AMeshBetweenTheBoxAndItsSideAgreesWithItsInput) {
+  const std::string box = "--bbox=-1.44,59.9,-1.09,60.073294";
+  for (const auto& [tip, foot] : {std::pair{60.0733144, -1.20817}, {60.073313, -1.20748}, {60.0733024, -1.20784}}) {
+    const LonLatRing shore{{-1.2084, 60.0737}, {-1.20755, tip}, {foot, 60.0716}, {-1.22, 60.07}, {-1.22, 60.075}};
+    const std::string land = write("land.geojson", geoJsonPolygons({{shore}}));
+    ASSERT_EQ(runProgram({"mesh", land, "--domain", "outside", box, "-o", file("sea.nc"), "--overwrite"}).code, 0);
+    const ProgramRun check = runProgram({"check", file("sea.nc"), "--input", land, "--domain", "outside", box});
+    EXPECT_EQ(check.code, 0) << check.output;
+  }
+}
+
 TEST_F(Frame, ARingOfOpenBoundaryIsSaidToBeTwo) {
   const std::vector<std::string> arguments{"mesh",         island(), "--domain", "outside",     "--bbox=-9,58,9,64",
                                            "--size-shore", "10000",  "-o",       file("sea.14")};
