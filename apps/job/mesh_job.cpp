@@ -560,7 +560,7 @@ MeshJobResult runOnThreads(const MeshJob& given, const JobControl& control) {
   }
   if (job.exchange.shards <= 1) warnOfIdleInputs(job, sizes, input.coastline(), result);
   findTurned(result, loop);
-  result.step = measureOutcome(result.grid, job.sizes, loop, job.mesh.refine.goal);
+  result.step = measureOutcome(result.grid, job.sizes, loop, job.mesh.refine.goal, result.waters.too_small.count);
   std::ranges::copy(result.step.notes, std::back_inserter(result.read.notes));
   result.rasters_read = rasters.use();
   result.log.append(recorder.finish("grid"));

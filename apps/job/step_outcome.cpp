@@ -39,6 +39,15 @@ std::string causesText(const std::vector<Short>& found, const SizeOptions& sizes
   return text;
 }
 
+// Where larger sizes lengthen no edge, as the shores stay as they are.
+std::string smallWatersText(std::size_t small_waters, const char* option) {
+  if (small_waters == 0) return {};
+  return "; in the " + std::to_string(small_waters) + forCount(small_waters, " part", " parts") +
+         " narrower than an element, which " + forCount(small_waters, "stays", "stay") +
+         " as in the input, larger sizes do not help: a smaller " + option + " does, or leave " +
+         forCount(small_waters, "it", "them") + " out with --where";
+}
+
 // Edges so short that the requirement is missed: they cause the exit code.
 std::string missedText(const StepOutcome& outcome, const SizeOptions& sizes) {
   if (!outcome.least_missed) return {};
@@ -49,7 +58,8 @@ std::string missedText(const StepOutcome& outcome, const SizeOptions& sizes) {
          " times it (exit code 1)";
 }
 
-std::vector<std::string> warningsOf(const StepOutcome& outcome, const SizeOptions& sizes, QualityGoal goal) {
+std::vector<std::string> warningsOf(const StepOutcome& outcome, const SizeOptions& sizes, QualityGoal goal,
+                                    std::size_t small_waters) {
   const std::vector<ShortStep>& below_step = outcome.below_step;
   const std::vector<ShortEdge>& below_least = outcome.below_least;
   std::vector<std::string> all;
@@ -58,13 +68,15 @@ std::vector<std::string> warningsOf(const StepOutcome& outcome, const SizeOption
     all.push_back("--time-step " + amount("%g", sizes.time_step_s) + " at --courant " + amount("%g", sizes.courant) +
                   " does not hold in " + std::to_string(below_step.size()) +
                   forCount(below_step.size(), " triangle, at ", " triangles, the worst at ") + pointText(worst.place) +
-                  amount(" with %.3g s: ", worst.step_s * sizes.courant) + causesText(below_step, sizes, goal));
+                  amount(" with %.3g s: ", worst.step_s * sizes.courant) + causesText(below_step, sizes, goal) +
+                  smallWatersText(small_waters, "--time-step"));
   }
   if (!below_least.empty()) {
     all.push_back("edges shorter than " + amount("%g", StepOutcome::kUsualShare) + " times --size-min " +
                   amount("%g", sizes.least_m) + ": " + std::to_string(below_least.size()) + missedText(outcome, sizes) +
                   ", the shortest of " + amount("%.4g m at ", below_least.front().length_m) +
-                  pointText(below_least.front().place) + ": " + causesText(below_least, sizes, goal));
+                  pointText(below_least.front().place) + ": " + causesText(below_least, sizes, goal) +
+                  smallWatersText(small_waters, "--size-min"));
   }
   return all;
 }
@@ -111,7 +123,8 @@ double shareOfFineShore(const Grid& grid, const ItemLoop& loop) {
 
 }  // namespace
 
-StepOutcome measureOutcome(const Grid& grid, const SizeOptions& sizes, const ItemLoop& loop, QualityGoal goal) {
+StepOutcome measureOutcome(const Grid& grid, const SizeOptions& sizes, const ItemLoop& loop, QualityGoal goal,
+                           std::size_t small_waters) {
   StepOutcome outcome;
   outcome.step = measureStep(grid, loop);
   if (sizes.time_step_s > 0.0) outcome.below_step = stepsBelow(grid, sizes.time_step_s, sizes.courant, loop);
@@ -119,7 +132,7 @@ StepOutcome measureOutcome(const Grid& grid, const SizeOptions& sizes, const Ite
     outcome.below_least = edgesBelow(grid, StepOutcome::kUsualShare * sizes.least_m, loop);
   outcome.least_missed = sizes.coast == CoastDetail::Follow && !outcome.below_least.empty() &&
                          outcome.below_least.front().length_m < StepOutcome::kShareOfLeast * sizes.least_m;
-  outcome.warnings = warningsOf(outcome, sizes, goal);
+  outcome.warnings = warningsOf(outcome, sizes, goal, small_waters);
   if (isShortAtBorder(grid, outcome.step, sizes))
     outcome.warnings.push_back("the shortest edge, " + amount("%.3g m at ", outcome.step.shortest_edge_m) +
                                pointText(outcome.step.shortest_edge) +

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -25,9 +26,10 @@ struct StepOutcome {
   bool held() const { return below_step.empty() && !least_missed; }
 };
 
-// `goal` is that of the optimiser, which may have needed short edges.
+// `goal` is that of the optimiser, which may have needed short edges. `small_waters` were left as in the input, as no
+// element fits into them.
 StepOutcome measureOutcome(const Grid& grid, const SizeOptions& sizes, const ItemLoop& loop,
-                           QualityGoal goal = QualityGoal::Shape);
+                           QualityGoal goal = QualityGoal::Shape, std::size_t small_waters = 0);
 
 // A line for users: the shortest edge and the time step, with their places.
 std::string stepText(const StepReport& step, bool plane);

@@ -231,6 +231,17 @@ TEST_F(TimeStep, SizeMinThatTheCoastUndercutsIsSaid) {
   }
 }
 
+// Its shore stays as it is, so that the advice to request larger sizes would be of no use.
+TEST_F(TimeStep, ALakeWithoutRoomForAnElementNeedsASmallerSizeMin) {
+  const std::string pond =
+      write("pond.geojson", geoJsonPolygons({{{{10.0, 60.0}, {10.01, 60.0}, {10.01, 60.005}, {10.0, 60.005}}}}));
+  const ProgramRun run = runProgram(
+      {"mesh", pond, "--size", "3000", "--size-min", "2000", "--coast", "follow", "-o", file("pond.nc"), "--quiet"});
+  EXPECT_EQ(run.code, 1) << run.errors;
+  EXPECT_THAT(run.errors, HasSubstr("in the 1 part narrower than an element, which stays as in the input, larger "
+                                    "sizes do not help: a smaller --size-min does"));
+}
+
 // Two requested points are too near to one another.
 TEST_F(TimeStep, AQuietRunSaysThatSizeMinIsMissed) {
   const std::string points =

@@ -45,6 +45,23 @@ TEST(StepOutcome, CoastsFinerThanTheSizesAreNoted) {
   EXPECT_EQ(notes(3.0, 12).size(), 0u);
 }
 
+TEST(StepOutcome, LargerSizesAreNoAdviceForSmallWaters) {
+  SizeOptions sizes;
+  sizes.size_m = sizes.least_m = 3.0;
+  sizes.coast = CoastDetail::Follow;
+  const auto warning = [&](std::size_t small_waters) {
+    const std::vector<std::string> all =
+        measureOutcome(strip(10), sizes, inOrder, QualityGoal::Shape, small_waters).warnings;
+    return all.empty() ? std::string() : all.front();
+  };
+  EXPECT_EQ(warning(0).find("narrower than an element"), std::string::npos);
+  EXPECT_NE(warning(1).find("in the 1 part narrower than an element, which stays as in the input, larger sizes do not "
+                            "help: a smaller --size-min does, or leave it out with --where"),
+            std::string::npos)
+      << warning(1);
+  EXPECT_NE(warning(2).find("leave them out"), std::string::npos) << warning(2);
+}
+
 TEST(StepOutcome, OpenBoundariesAreNoCoast) {
   Grid grid = strip(10);
   for (Boundary& boundary : grid.boundaries) boundary.role = BoundaryRole::Open;
