@@ -41,6 +41,18 @@ std::string listed(const std::vector<std::string>& names) {
 
 std::string stemOf(const std::string& entry) { return std::filesystem::path(entry).stem(); }
 
+bool isStandardInput(const std::string& path) {
+  return path == "-" || path == "/dev/stdin" || path == "/vsistdin" || path == "/vsistdin/";
+}
+
+std::string nameOf(const std::string& path) { return isStandardInput(path) ? "standard input" : path; }
+
+// For a path without a layer.
+bool isStreamFile(const std::string& path) {
+  std::error_code error;
+  return isStandardInput(path) || std::filesystem::is_fifo(path, error);
+}
+
 // A folder of an archive as OGR opens it: the root needs the archive's path in braces.
 std::string folderInside(const std::string& archive, const std::string& folder) {
   if (!folder.empty()) return archive + "/" + folder;
@@ -48,9 +60,10 @@ std::string folderInside(const std::string& archive, const std::string& folder) 
   return archive.substr(0, path) + "{" + archive.substr(path) + "}";
 }
 
-// Of several files in an archive: the one named like the wanted layer, or the folder that has all wanted layers as
-// shapefiles. `archive` begins with "/vsizip/" or a similar prefix. Throws InputError if there is neither.
-std::string chosenInside(const std::string& archive, const std::vector<std::string>& found,
+// Of several files in an archive that is given as `given`: the one named like the wanted layer, or the folder that has
+// all wanted layers as shapefiles. `archive` begins with "/vsizip/" or a similar prefix. Throws InputError if there is
+// neither.
+std::string chosenInside(const std::string& archive, const std::string& given, const std::vector<std::string>& found,
                          const std::vector<std::string>& wanted) {
   namespace fs = std::filesystem;
   std::vector<std::string> stems, chosen;
@@ -67,19 +80,23 @@ std::string chosenInside(const std::string& archive, const std::vector<std::stri
   if (by_name && chosen.size() == wanted.size() && chosen.size() > 1 && folders.size() == 1 &&
       *folders.begin() != "no shapefile")
     return folderInside(archive, *folders.begin());
-  const std::string shown = archive.substr(archive.find('/', 1) + 1);
+  const std::string shown = nameOf(given);
   for (const std::string& name : wanted)
     if (!different.contains(name))
       throw InputError(shown + ": has no layer '" + name + "'; there are " + listed(by_name ? stems : found));
-  const std::string one = by_name ? shown + "|" + stems.front() : shown + "/" + found.front();
+  // Options take a single "-", but no layer after it. A stream is no folder.
+  const std::string file = isStandardInput(given) ? "/dev/stdin" : given;
+  const std::string one =
+      by_name ? file + "|" + stems.front() : (isStreamFile(given) ? "FILE" : file) + "/" + found.front();
   throw InputError(shown + ": holds " + std::to_string(found.size()) + (by_name ? " layers (" : " vector files (") +
-                   listed(by_name ? stems : found) + "): name one as '" + one + "'" +
-                   (by_name && wanted.empty() ? ", or choose one of the input's with --layer" : ""));
+                   listed(by_name ? stems : found) +
+                   "): " + (isStreamFile(given) && !by_name ? "save it to a file, and " : "") + "name one as '" + one +
+                   "'" + (by_name && wanted.empty() ? ", or choose one of the input's with --layer" : ""));
 }
 
 // The vector file in an archive, at any depth. If there are several, the file or folder with the wanted layers; if none
 // has a known ending, the archive itself, which OGR opens as a folder.
-std::string insideOf(const std::string& archive, const std::vector<std::string>& wanted) {
+std::string insideOf(const std::string& archive, const std::string& given, const std::vector<std::string>& wanted) {
   constexpr std::array<std::string_view, 8> kEndings = {".shp", ".gpkg", ".geojson", ".json",
                                                         ".fgb", ".gml",  ".kml",     ".osm"};
   const CPLStringList entries(VSIReadDirRecursive(archive.c_str()));
@@ -95,21 +112,32 @@ std::string insideOf(const std::string& archive, const std::vector<std::string>&
   // A .json beside a file of another kind is metadata.
   const auto isJson = [](const std::string& entry) { return endsWith(entry, ".json"); };
   if (!std::ranges::all_of(found, isJson)) std::erase_if(found, isJson);
-  if (found.size() > 1) return chosenInside(archive, found, wanted);
+  if (found.size() > 1) return chosenInside(archive, given, found, wanted);
   return found.empty() ? archive : archive + "/" + found.front();
 }
 
-bool isStandardInput(const std::string& path) { return path == "-" || path == "/dev/stdin"; }
-
-// For a path without a layer.
-bool isStreamFile(const std::string& path) {
-  std::error_code error;
-  return isStandardInput(path) || std::filesystem::is_fifo(path, error);
+// The ending of the kind of archive that a file holds; empty for any other file.
+std::string archiveEnding(const std::string& path) {
+  const auto beginOf = [](const std::string& file) {
+    constexpr std::size_t kBytes = 512;  // a header in a .tar
+    std::string bytes(kBytes, '\0');
+    const std::unique_ptr<VSILFILE, int (*)(VSILFILE*)> opened(VSIFOpenL(file.c_str(), "rb"), VSIFCloseL);
+    bytes.resize(opened ? VSIFReadL(bytes.data(), 1, kBytes, opened.get()) : 0);
+    return bytes;
+  };
+  const auto isTar = [](const std::string& bytes) {
+    constexpr std::size_t kMagic = 257;
+    return bytes.size() > kMagic && bytes.compare(kMagic, 5, "ustar") == 0;
+  };
+  const std::string bytes = beginOf(path);
+  if (bytes.starts_with("PK\x03\x04")) return ".zip";
+  if (bytes.starts_with("\x1f\x8b")) return isTar(beginOf("/vsigzip/" + path)) ? ".tgz" : ".gz";
+  return isTar(bytes) ? ".tar" : "";
 }
 
 // Copies a stream to a file in memory and returns its path: a pipe can be read only once, but drivers read repeatedly.
 std::string inMemory(const std::string& given) {
-  const std::string name = isStandardInput(given) ? "standard input" : given;
+  const std::string name = nameOf(given);
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> opened(
       isStandardInput(given) ? nullptr : std::fopen(given.c_str(), "rb"),
       [](std::FILE* file) { return std::fclose(file); });
@@ -133,11 +161,14 @@ std::string inMemory(const std::string& given) {
     std::replace(path.begin() + 8, path.end(), '/', '_');
   }
   if (head.starts_with("SQLite format 3")) path += ".gpkg";
-  if (head.starts_with("PK\x03\x04")) path += ".zip";
   VSILFILE* file = VSIFOpenL(path.c_str(), "wb");
   const bool written = file != nullptr && VSIFWriteL(bytes.data(), 1, bytes.size(), file) == bytes.size();
   if (file != nullptr) VSIFCloseL(file);
   if (!written) throw InputError(name + ": too large to be held in memory");
+  // Archives are opened by their endings.
+  const std::string plain = path;
+  path += archiveEnding(plain);
+  if (path != plain) VSIRename(plain.c_str(), path.c_str());
   return path;
 }
 
@@ -155,9 +186,9 @@ std::string pathForOgr(const std::string& path, const std::vector<std::string>& 
   }
   registerDrivers();
   if (endsWith(real, ".kmz") && GDALGetDriverByName("LIBKML") != nullptr) return real;
-  if (endsWith(real, ".zip") || endsWith(real, ".kmz")) return insideOf("/vsizip/" + real, wanted);
+  if (endsWith(real, ".zip") || endsWith(real, ".kmz")) return insideOf("/vsizip/" + real, path, wanted);
   if (endsWith(real, ".tar") || endsWith(real, ".tgz") || endsWith(real, ".tar.gz"))
-    return insideOf("/vsitar/" + real, wanted);
+    return insideOf("/vsitar/" + real, path, wanted);
   if (endsWith(real, ".gz")) return "/vsigzip/" + real;
   return real;
 }
@@ -165,6 +196,8 @@ std::string pathForOgr(const std::string& path, const std::vector<std::string>& 
 [[noreturn]] void refuse(const std::string& name, const std::string& path, const OgrErrors& errors) {
   std::string why;
   if (!errors.text().empty()) why.append(" (").append(errors.text()).append(")");
+  if (name.find("/vsistdin") != std::string::npos)
+    throw InputError(name + ": cannot be opened" + why + ": name standard input '-', which may hold an archive");
   VSIStatBufL stat;
   if (VSIStatL(path.c_str(), &stat) != 0) {
     throw InputError(name + ": no such file; check the path, or name a source that OGR can open" +
@@ -193,7 +226,7 @@ OpenSource openSource(const std::string& given, const std::vector<std::string>& 
   registerDrivers();
   const auto [file, layer_of_file] = splitLayer(given);
   OpenSource source;
-  source.name = isStandardInput(file) ? "standard input" : file;
+  source.name = nameOf(file);
   std::vector<std::string> names = wanted;
   if (!layer_of_file.empty()) names = {layer_of_file};
   source.names_layers = !names.empty();

@@ -267,6 +267,29 @@ TEST_F(Commands, PipesThatFormatsReadAreRead) {
   }
 }
 
+TEST_F(Commands, ArchivesOnStandardInputAreRead) {
+  const std::string pack = "cd '" + file("") + "' && cp '" + lake() +
+                           "' a.geojson && cp a.geojson b.geojson && tar czf one.tgz a.geojson && tar czf two.tgz "
+                           "a.geojson b.geojson && cat ";
+  for (const char* const name : {"-", "/dev/stdin", "/vsistdin/"}) {
+    const ProgramRun run = runShell(pack + "one.tgz | \"$0\" info " + name);
+    EXPECT_EQ(run.code, 0) << run.errors;
+  }
+  const ProgramRun two = runShell(pack + "two.tgz | \"$0\" clean - -o c.gpkg");
+  EXPECT_EQ(two.code, 3);
+  EXPECT_EQ(two.errors,
+            "coastmesh: error: standard input: holds 2 layers (a, b): name one as '/dev/stdin|a', or choose one of the "
+            "input's with --layer\n");
+  // GDAL has no names for all of these.
+  const ProgramRun chained = runShell(pack + "one.tgz | \"$0\" info /vsitar//vsistdin/");
+  EXPECT_EQ(chained.code, 3);
+  EXPECT_NE(chained.errors.find("name standard input '-'"), std::string::npos) << chained.errors;
+  for (const char* const named : {"'/dev/stdin|a'", "- --layer a"}) {
+    const ProgramRun run = runShell(pack + "two.tgz | \"$0\" clean --overwrite -o c.gpkg " + named);
+    EXPECT_EQ(run.code, 0) << run.errors;
+  }
+}
+
 }  // namespace
 
 }  // namespace coastmesh::test

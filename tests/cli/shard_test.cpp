@@ -273,6 +273,7 @@ TEST_F(Shard, WhatDoesNotGoTogetherIsRefused) {
   expectRefused(gather(3, {"-o", input, "--overwrite", "--format", "geojson"}), 2, "input and output at once");
   expectRefused({"mesh", "-", "--shard", "1/2", "-o", file("a.shard")}, 2, "standard input");
   expectRefused({"mesh", "/dev/stdin", "--shard", "1/1", "-o", file("a.shard")}, 2, "standard input");
+  expectRefused({"mesh", "/vsistdin/", "--shard", "1/1", "-o", file("a.shard")}, 2, "standard input");
   ASSERT_EQ(mkfifo(file("pipe").c_str(), 0600), 0);
   expectRefused({"mesh", file("pipe"), "--shard", "1/1", "-o", file("a.shard")}, 2, "other pipes");
   for (const std::string wrong : {"0/3", "4/3", "1", "1/", "/3", "1/3x", "-1/3", "1/9999999"})

@@ -394,6 +394,34 @@ TEST_F(ReadCoastline, Archives) {
   EXPECT_THROW(readCoastline({path("two.zip")}, report), InputError);
 }
 
+// A pipe has no ending that tells what is in it.
+TEST_F(ReadCoastline, ArchivesFromPipes) {
+  geojson("lake.geojson", {squareAt(0)});
+  ASSERT_EQ(std::system(("cd '" + path("") + "' && mkdir -p a b && cp lake.geojson a && cp lake.geojson b && " +
+                         "gzip -k lake.geojson && tar cf lake.tar a && tar czf lake.tgz a && mkfifo pipe")
+                            .c_str()),
+            0);
+  for (const char* const name : {"a/lake.geojson", "b/lake.geojson"}) {
+    const std::string target = "/vsizip/" + path("two.zip") + "/" + name;
+    ASSERT_EQ(CPLCopyFile(target.c_str(), path("lake.geojson").c_str()), 0);
+  }
+  ReadReport report;
+  const auto readFromPipe = [&](const std::string& archive) {
+    EXPECT_EQ(std::system(("cat '" + path(archive) + "' > '" + path("pipe") + "' &").c_str()), 0);
+    return readCoastline({path("pipe")}, report).features.size();
+  };
+  for (const std::string archive : {"lake.geojson.gz", "lake.tar", "lake.tgz"})
+    EXPECT_EQ(readFromPipe(archive), 1u) << archive;
+  try {
+    readFromPipe("two.zip");
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    EXPECT_TRUE(text.starts_with(path("pipe") + ": holds 2 vector files (")) << text;
+    EXPECT_TRUE(text.ends_with("save it to a file, and name one as 'FILE/a/lake.geojson'")) << text;
+  }
+}
+
 // A .dbf of an old program, which does not state its encoding.
 TEST_F(ReadCoastline, TextsWithoutAnEncodingBecomeUtf8) {
   GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("ESRI Shapefile");
