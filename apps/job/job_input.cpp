@@ -12,6 +12,7 @@
 #include "core/delaunay.hpp"
 #include "gis/clean/geodesic_area.hpp"
 #include "gis/coast/feature_bounds.hpp"
+#include "gis/coast/feature_names.hpp"
 #include "gis/coast/group_features.hpp"
 #include "gis/coast/guests.hpp"
 #include "gis/crs/geodesy.hpp"
@@ -82,7 +83,7 @@ void forgetImpossibleCrs(Coastline& coastline, ReadReport& report) {
     for (const auto& line : feature.lines) look(feature, line);
   }
   if (odd == nullptr) return;
-  report.warnings.push_back(featureText(*odd) + ": has coordinates that are not longitudes and latitudes of " +
+  report.warnings.push_back(featureInWords(*odd) + ": has coordinates that are not longitudes and latitudes of " +
                             nameOf(coastline.crs) + ": all are taken as metres in a plane");
   coastline.crs = {};
 }

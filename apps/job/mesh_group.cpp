@@ -204,7 +204,7 @@ void requireSound(const MeshedRegion& region, const Domain& domain, std::span<co
   if (domain.closed() && !isClosed(mesh)) defects.push_back({DefectKind::BrokenTopology, {}});
   if (defects.empty()) return;
   const MeshDefect& defect = defects.front();
-  throw BadMesh("the mesh of " + featureText(first) + " has " + std::to_string(defects.size()) +
+  throw BadMesh("the mesh of " + featureInWords(first) + " has " + std::to_string(defects.size()) +
                 " defects, the first one " + std::string(toString(defect.kind)) + " at " +
                 pointText(domain.projection.inverse(defect.place)) + "; " + dumpRegion(domain.pslg, digestOf(mesh)));
 }
@@ -412,7 +412,7 @@ MeshedRegion meshStage(const GroupTask& task, const Domain& domain, MeshOptions&
   } catch (const OutOfRoom& error) {
     result.refusal_place = domain.projection.inverse(error.place);
     result.lacks_memory = most < kMostVertices;
-    throw InputError(featureText(task.firstFeature()) + ": the bounds on angles and lengths take more than " +
+    throw InputError(featureInWords(task.firstFeature()) + ": the bounds on angles and lengths take more than " +
                      amount("%.2g", static_cast<double>(most)) +
                      " vertices, the most that fit in memory, the last of them near " +
                      pointText(*result.refusal_place) +
@@ -518,7 +518,8 @@ void refuse(const BadPslg& error, const GroupTask& task, GroupResult& result) {
   CleanReport ignored;
   const Projection projection = task.input.domain(task.group, ignored).projection;
   result.refusal_place = projection.inverse(error.defect.place);
-  result.refusal = featureText(task.firstFeature()) + ": " + error.what() + " at " + pointText(*result.refusal_place);
+  result.refusal =
+      featureInWords(task.firstFeature()) + ": " + error.what() + " at " + pointText(*result.refusal_place);
   if (task.input.isPoly()) result.refusal += segmentsOf(error.defect);
 }
 
@@ -528,7 +529,7 @@ void refuse(const TooManyVertices& error, const GroupTask& task, GroupResult& re
   result.over_budget = kClearlyMore * static_cast<double>(task.room.vertices) <= possible;
   result.lacks_memory = !result.over_budget && possible < static_cast<double>(kMostVertices);
   result.refusal_place = error.demand.place;
-  result.refusal = featureText(task.firstFeature()) + ": " + demandText(error, task, result);
+  result.refusal = featureInWords(task.firstFeature()) + ": " + demandText(error, task, result);
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ bool isNameAttribute(std::string_view attribute) {
 }
 
 std::string featureInWords(const Feature& feature) {
-  return feature.source + ", feature " + std::to_string(feature.fid);
+  return "'" + feature.source + "'" + (feature.fid < 0 ? "" : ", feature " + std::to_string(feature.fid));
 }
 
 std::string featuresInWords(const Coastline& coastline, const std::vector<std::size_t>& members) {

@@ -22,7 +22,8 @@ std::string placeInWords(const Point& place);
 // The same with fewer digits, where some metres, or a unit of a plane, are precise enough.
 std::string roughPlaceInWords(const Point& place);
 
-// "lakes.gpkg, feature 12", and the same for features that are meshed together: "… and 3 meshed with it".
+// "'lakes.gpkg', feature 12", and the same for features that are meshed together: "… and 3 meshed with it". Without a
+// number for a source that has no features, such as a .poly.
 std::string featureInWords(const Feature& feature);
 std::string featuresInWords(const Coastline& coastline, const std::vector<std::size_t>& members);
 

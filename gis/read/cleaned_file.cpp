@@ -106,7 +106,8 @@ class ShapeReader {
     if (!geometry || geometry->IsEmpty()) {
       ++report_.skipped_empty;
     } else if (wkbFlatten(geometry->getGeometryType()) == type) {
-      takeApart(*geometry, source_ + "|" + row.GetDefnRef()->GetName() + ", feature " + std::to_string(row.GetFID()),
+      takeApart(*geometry,
+                "'" + source_ + "|" + row.GetDefnRef()->GetName() + "', feature " + std::to_string(row.GetFID()),
                 parts);
     }
     return parts;

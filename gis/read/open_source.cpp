@@ -206,7 +206,7 @@ std::string pathForOgr(const std::string& path, const std::vector<std::string>& 
   if (!VSI_ISDIR(stat.st_mode) && stat.st_size == 0) throw InputError(name + ": the file is empty");
   // GDAL does not open a file that is one odd geometry, and does not report where it is odd.
   if (const std::optional<std::string> odd = why.empty() ? std::nullopt : oddGeojson(path))
-    throw InputError(name + ", " + *odd + ": repair or remove this feature");
+    throw InputError("'" + name + "', " + *odd + ": repair or remove this feature");
   throw NotVectorError(name, name + ": not a vector file that GDAL can read" + why);
 }
 
@@ -259,7 +259,7 @@ void refuseOddGeojson(const OpenSource& source, const OgrErrors& errors) {
   if (!errors.failed() && errors.leftOut().empty()) return;
   if (source.dataset->GetDriverName() != std::string_view("GeoJSON")) return;
   if (const std::optional<std::string> odd = oddGeojson(source.dataset->GetDescription())) {
-    throw InputError(source.name + ", " + *odd + ": repair or remove this feature");
+    throw InputError("'" + source.name + "', " + *odd + ": repair or remove this feature");
   }
 }
 

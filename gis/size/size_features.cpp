@@ -239,7 +239,7 @@ class FeatureReader {
     layer.ResetReading();
     for (const OGRFeatureUniquePtr& feature : layer) {
       const OGRGeometry* geometry = feature->GetGeometryRef();
-      const std::string what = source + ", feature " + std::to_string(feature->GetFID());
+      const std::string what = "'" + source + "', feature " + std::to_string(feature->GetFID());
       const std::optional<double> size = numberOf(*feature, size_field, std::numeric_limits<double>::min(), what);
       if (!geometry || geometry->IsEmpty() || !size) continue;
       GeometryParts parts;

@@ -153,7 +153,7 @@ TEST_F(Coordinates, ACrsThatTearsTheInputIsRefused) {
     const ProgramRun run = runProgram({"mesh", lake, "--crs", crs, "-o", file("m.nc"), "--quiet"});
     EXPECT_EQ(run.code, 3) << crs << run.errors;
     EXPECT_TRUE(isOneErrorLine(run.errors)) << run.errors;
-    for (const char* part : {"across.geojson, feature 0", crs, "tears it apart between", "leave out --crs"})
+    for (const char* part : {"across.geojson', feature 0", crs, "tears it apart between", "leave out --crs"})
       EXPECT_NE(run.errors.find(part), std::string::npos) << run.errors;
     EXPECT_FALSE(names().contains("m.nc"));
   }

@@ -166,7 +166,7 @@ TEST_P(CleanedFileBeyondAllPlaces, IsRefused) {
   const auto& [layer, wkt] = GetParam();
   addLake(1);
   addRow(layer, wkt, {});
-  EXPECT_THAT(refusal(), AllOf(HasSubstr(std::string("cleaned.gpkg|") + layer + ", feature "),
+  EXPECT_THAT(refusal(), AllOf(HasSubstr(std::string("cleaned.gpkg|") + layer + "', feature "),
                                HasSubstr("is not a place (1e+300, 2)")));
 }
 

@@ -172,7 +172,7 @@ TEST_F(ReadCoastline, RefusesPartsOfGeojsonThatAreNoGeometry) {
         {text, R"(outer ring, vertex 2, is not a place (["9", 0]))"},
         {type, "of the type 'Polygn'"}}) {
     const std::string file = geojson("odd.geojson", {kSquare, geometry});
-    expectRefused({file}, {"odd.geojson, feature 1: " + what, "repair or remove this feature"});
+    expectRefused({file}, {"odd.geojson', feature 1: " + what, "repair or remove this feature"});
   }
 }
 
@@ -181,7 +181,7 @@ TEST_F(ReadCoastline, NamesThePlaceInABareGeometry) {
   const std::string bare = R"({"type":"Polygon","coordinates":[[[0,0],[9,0],["x",9],[0,0]]]})";
   expectRefused(
       {write("bare.geojson", bare)},
-      {"bare.geojson, feature 0: outer ring, vertex 3, is not a place ([\"x\", 9])", "repair or remove this feature"});
+      {"bare.geojson', feature 0: outer ring, vertex 3, is not a place ([\"x\", 9])", "repair or remove this feature"});
   expectRefused({write("cut.geojson", R"({"type":"Polygon","coordinates":[[[0,0],[9,0])")},
                 {"cut.geojson: not a vector file that GDAL can read"});
 }
@@ -190,7 +190,7 @@ TEST_F(ReadCoastline, RefusesTextsThatAreNoWkt) {
   const std::string square = "\"POLYGON((0 0,1 0,1 1,0 0))\"";
   for (const std::string odd : {"POLYGN((5 5,6 5,6 6,5 5))", "POLYGON((5 5,6 x,6 6,5 5))", "none"}) {
     const std::string rest = ",name\n" + square + ",a\n\"" + odd + "\",b\n";
-    expectRefused({write("odd.csv", "wkt" + rest)}, {"odd.csv, feature 2: its wkt is not a geometry (" + odd + ")"});
+    expectRefused({write("odd.csv", "wkt" + rest)}, {"odd.csv', feature 2: its wkt is not a geometry (" + odd + ")"});
     expectRefused({write("odd.csv", "_WKTcoast" + rest)}, {"feature 2: its _WKTcoast is not a geometry (" + odd + ")"});
   }
   // An empty text is an empty geometry, as elsewhere.
