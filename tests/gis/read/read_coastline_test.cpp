@@ -144,7 +144,7 @@ TEST_F(ReadCoastline, ARowStaysOneFeature) {
       {"type":"Feature","id":7,"properties":{},)" + two +
                                                      R"(},{"type":"Feature","id":8,"properties":{},)" + two + "}]}");
   ReadReport report;
-  const Coastline left = readCoastline({Source{.path = rows}}, ReadFilter{.where = "fid = 8"}, report);
+  const Coastline left = readCoastline({Source{.path = rows}}, ReadFilter{.layers = {}, .where = "fid = 8"}, report);
   ASSERT_EQ(left.features.size(), 1u);
   EXPECT_EQ(left.features[0].fid, 8);
 }
