@@ -326,7 +326,7 @@ bool relaxTriangle(RepairState& state, std::uint32_t t) {
 bool shareSmallAngle(RepairState& state, std::uint32_t t) {
   constexpr int kRings = 3, kMostSweeps = 80;
   constexpr double kBeyondDeg = 1.0;  // above the bound: larger angles are free to become smaller
-  constexpr double kHardly = 0.99;    // sweeps that leave more of the lack than this lead nowhere
+  constexpr double kHardly = 0.998;   // sweeps that leave more of the lack than this lead nowhere
   const RepairView view = state.view();
   const double bound = state.options.min_angle_deg - kAngleSlackDeg, goal = state.options.min_angle_deg + kBeyondDeg;
   std::vector<std::uint32_t> around{t};
