@@ -21,9 +21,11 @@ bool isNameAttribute(std::string_view attribute) {
   return lowerCase(std::string(attribute)).find("name") != std::string::npos;
 }
 
-std::string featureInWords(const Feature& feature) {
-  return "'" + feature.source + "'" + (feature.fid < 0 ? "" : ", feature " + std::to_string(feature.fid));
+std::string featureInWords(const std::string& source, std::int64_t fid) {
+  return "'" + source + "'" + (fid < 0 ? "" : ", feature " + std::to_string(fid));
 }
+
+std::string featureInWords(const Feature& feature) { return featureInWords(feature.source, feature.fid); }
 
 std::string featuresInWords(const Coastline& coastline, const std::vector<std::size_t>& members) {
   if (members.empty()) return "the input";

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -25,6 +26,7 @@ std::string roughPlaceInWords(const Point& place);
 // "'lakes.gpkg', feature 12", and the same for features that are meshed together: "… and 3 meshed with it". Without a
 // number for a source that has no features, such as a .poly.
 std::string featureInWords(const Feature& feature);
+std::string featureInWords(const std::string& source, std::int64_t fid);
 std::string featuresInWords(const Coastline& coastline, const std::vector<std::size_t>& members);
 
 // The name of a region: its attribute "tag", "region" or "name", else the number of its feature.

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -48,6 +49,25 @@ struct Pair {
   Transformation forward, inverse;
 };
 
+// The last four things that a thread made, since a run alternates between a few.
+template <typename Made>
+class LastFour {
+ public:
+  // The first that passes the test, or null.
+  template <typename Test>
+  Made* find(const Test& test) {
+    const auto found = std::ranges::find_if(made_, [&](const auto& one) { return one && test(*one); });
+    return found == made_.end() ? nullptr : &**found;
+  }
+  Made& add(Made&& made) {
+    return made_[std::exchange(oldest_, (oldest_ + 1) % made_.size())].emplace(std::move(made));
+  }
+
+ private:
+  std::array<std::optional<Made>, 4> made_;
+  std::size_t oldest_ = 0;
+};
+
 }  // namespace
 
 // What a thread needs to make its own transformation.
@@ -70,7 +90,7 @@ Pair makePair(const CrsMap::Ends& ends) {
   return pair;
 }
 
-// The transformations of one thread. Keeps four, since a run alternates between a few.
+// The transformations of one thread.
 class Kept {
  public:
   // Makes the thread's PROJ context first, so that it outlives the transformations; otherwise their destruction would
@@ -78,17 +98,14 @@ class Kept {
   Kept() { OGRSpatialReference().SetWellKnownGeogCS("WGS84"); }
 
   const Pair& get(const std::shared_ptr<const CrsMap::Ends>& ends) {
-    for (const Entry& entry : entries_)
-      if (entry.ends == ends) return entry.pair;
-    for (Entry& entry : entries_) {
-      if (!entry.ends || *entry.ends != *ends) continue;
-      entry.ends = ends;  // of another map between the same CRS
-      return entry.pair;
+    if (const Entry* const same = entries_.find([&](const Entry& entry) { return entry.ends == ends; }))
+      return same->pair;
+    // Of another map between the same CRS.
+    if (Entry* const equal = entries_.find([&](const Entry& entry) { return *entry.ends == *ends; })) {
+      equal->ends = ends;
+      return equal->pair;
     }
-    Entry& entry = entries_[oldest_];
-    oldest_ = (oldest_ + 1) % entries_.size();
-    entry = {ends, makePair(*ends)};
-    return entry.pair;
+    return entries_.add({ends, makePair(*ends)}).pair;
   }
 
  private:
@@ -96,8 +113,7 @@ class Kept {
     std::shared_ptr<const CrsMap::Ends> ends;
     Pair pair;
   };
-  std::array<Entry, 4> entries_;
-  std::size_t oldest_ = 0;
+  LastFour<Entry> entries_;
 };
 
 const Pair& pairOfThread(const std::shared_ptr<const CrsMap::Ends>& ends) {
@@ -152,14 +168,10 @@ std::shared_ptr<const CrsMap> mapToGeographic(const Crs& crs) {
     std::string authority, wkt;
     std::shared_ptr<const CrsMap> map;
   };
-  thread_local std::array<Entry, 4> kept;
-  thread_local std::size_t oldest = 0;
-  for (const Entry& entry : kept)
-    if (entry.map && entry.authority == crs.authority && entry.wkt == crs.wkt) return entry.map;
-  auto map = std::make_shared<const CrsMap>(toOgr(crs), geographicBase(crs));
-  kept[oldest] = {crs.authority, crs.wkt, map};
-  oldest = (oldest + 1) % kept.size();
-  return map;
+  thread_local LastFour<Entry> kept;
+  const auto isOfCrs = [&](const Entry& entry) { return entry.authority == crs.authority && entry.wkt == crs.wkt; };
+  if (const Entry* const known = kept.find(isOfCrs)) return known->map;
+  return kept.add({crs.authority, crs.wkt, std::make_shared<const CrsMap>(toOgr(crs), geographicBase(crs))}).map;
 }
 
 OGRSpatialReference geographicBase(const Crs& crs) {

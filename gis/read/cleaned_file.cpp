@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "gis/coast/feature_names.hpp"
 #include "gis/coast/join_lines.hpp"
 #include "gis/coast/nest_rings.hpp"
 #include "gis/crs/crs_from_ogr.hpp"
@@ -106,9 +107,7 @@ class ShapeReader {
     if (!geometry || geometry->IsEmpty()) {
       ++report_.skipped_empty;
     } else if (wkbFlatten(geometry->getGeometryType()) == type) {
-      takeApart(*geometry,
-                "'" + source_ + "|" + row.GetDefnRef()->GetName() + "', feature " + std::to_string(row.GetFID()),
-                parts);
+      takeApart(*geometry, featureInWords(source_ + "|" + row.GetDefnRef()->GetName(), row.GetFID()), parts);
     }
     return parts;
   }

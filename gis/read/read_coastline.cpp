@@ -61,9 +61,8 @@ class Reprojection {
     transformation_->Transform(static_cast<int>(chain.size()), x.data(), y.data());
     for (std::size_t i = 0; i < chain.size(); ++i) {
       if (!std::isfinite(x[i]) || !std::isfinite(y[i])) {
-        throw InputError("'" + source_ + "', feature " + std::to_string(fid) + ": the point " +
-                         std::to_string(chain[i].x) + ", " + std::to_string(chain[i].y) + " has no place in " + name_ +
-                         ", the CRS of the first source");
+        throw InputError(featureInWords(source_, fid) + ": the point " + std::to_string(chain[i].x) + ", " +
+                         std::to_string(chain[i].y) + " has no place in " + name_ + ", the CRS of the first source");
       }
       chain[i] = {x[i], y[i]};
     }

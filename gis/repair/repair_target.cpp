@@ -26,8 +26,9 @@ namespace {
 
 constexpr int kMostRounds = 40;
 constexpr int kRelaxRounds = 12;
-constexpr double kRelaxFrom = 0.9;        // share of the progress when all rounds are done
-constexpr std::size_t kMostShared = 100;  // triangles: each takes some milliseconds
+constexpr double kRelaxFrom = 0.9;  // share of the progress when all rounds are done
+// Triangles: each takes milliseconds, among many small angles tenths of a second.
+constexpr std::size_t kMostShared = 100;
 
 // A round takes about half the time of the one before.
 RunControl roundOf(const RunControl& control, int round) {
