@@ -13,6 +13,7 @@ struct LinkedGrid {
   std::vector<EdgeConflict> conflicts;  // edges that cannot be linked; `mesh` has a boundary there
 };
 
+// Links the triangles of `grid`; its nodes stay in its CRS. `loop` may use threads: the links are the same.
 inline LinkedGrid linkGrid(const Grid& grid, const ItemLoop& loop = inOrder) {
   LinkedGrid linked;
   linked.mesh = linkTriangles(grid.nodes, grid.triangles, linked.conflicts, loop);

@@ -17,6 +17,7 @@
 #include "gis/grid/boundary_kinds.hpp"
 #include "gis/grid/grid.hpp"
 #include "gis/grid/grid_parts.hpp"
+#include "gis/grid/linked_grid.hpp"
 #include "gis/model/apart_waters.hpp"
 #include "gis/model/assign_boundaries.hpp"
 #include "gis/model/boundary_edges.hpp"
@@ -152,6 +153,19 @@ TEST_F(GisGridExamples, GridParts) {
   //! [gis/grid/grid_parts.hpp]
   EXPECT_FALSE(rivers);
   EXPECT_TRUE(kept.has(GridPart::Title));
+}
+
+// gis/grid/linked_grid.hpp: A grid's triangles with their neighbours.
+TEST_F(GisGridExamples, LinkedGrid) {
+  //! [gis/grid/linked_grid.hpp]
+  Grid grid;
+  grid.nodes = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  grid.triangles = {{0, 1, 2}, {0, 2, 3}};
+  const LinkedGrid linked = linkGrid(grid);
+  const std::vector<std::vector<VertexId>> loops = boundaryLoops(linked.mesh);
+  //! [gis/grid/linked_grid.hpp]
+  EXPECT_TRUE(linked.conflicts.empty());
+  EXPECT_EQ(loops, (std::vector<std::vector<VertexId>>{{0, 1, 2, 3}}));
 }
 
 // gis/model/apart_waters.hpp: Water without a connection to an open boundary.
