@@ -453,12 +453,12 @@ void EditMesh::restoreDelaunay(std::vector<TriId>& touched) {
   flipStack(touched);
 }
 
-void EditMesh::restoreDelaunayRound(VertexId v, std::vector<TriId>& touched) {
+void EditMesh::restoreDelaunayRound(VertexId v, std::vector<TriId>& touched, bool spokes_are) {
   stack_.clear();
   for (const TriId t : touched) {
     const unsigned i = cornerOf(t, v);
     stack_.push_back(edgeRef(t, i));
-    stack_.push_back(edgeRef(t, next3(i)));
+    if (!spokes_are) stack_.push_back(edgeRef(t, next3(i)));
   }
   flipStack(touched);
 }

@@ -153,8 +153,8 @@ class EditMesh : private LinkedTriangles {
   // Lawson's flips, starting with all edges of the triangles in `touched`; appends the triangles that change.
   void restoreDelaunay(std::vector<TriId>& touched);
 
-  // The same if `touched` is the closed star of v.
-  void restoreDelaunayRound(VertexId v, std::vector<TriId>& touched);
+  // The same if `touched` is the closed star of v. `spokes_are`: the edges from v certainly are Delaunay.
+  void restoreDelaunayRound(VertexId v, std::vector<TriId>& touched, bool spokes_are = false);
 
  private:
   TriId newTriangle();

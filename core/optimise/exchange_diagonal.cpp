@@ -14,7 +14,6 @@ namespace {
 
 // Passes over the four corners; further ones move them by less than a hundredth of an edge.
 constexpr int kTurns = 6;
-constexpr std::uint32_t kMoved = 4;
 // Largest ratio of costs after and before; later moves gain more.
 constexpr double kMostCost = 1.1;
 
@@ -33,7 +32,13 @@ std::uint32_t DiagonalExchange::numberOf(VertexId v) {
 
 void DiagonalExchange::number() {
   numbered_.clear();
-  for (const Corners& v : fresh_) numbered_.push_back({numberOf(v[0]), numberOf(v[1]), numberOf(v[2])});
+  for (std::vector<std::uint32_t>& around : around_) around.clear();
+  for (const Corners& v : fresh_) {
+    const auto at = static_cast<std::uint32_t>(numbered_.size());
+    numbered_.push_back({numberOf(v[0]), numberOf(v[1]), numberOf(v[2])});
+    for (const std::uint32_t n : numbered_.back())
+      if (n < kMoved) around_[n].push_back(at);
+  }
 }
 
 double DiagonalExchange::costBefore() const {
@@ -65,9 +70,8 @@ void DiagonalExchange::relax() {
       Point& place = seen_[moved];
       Point sum;
       double weight = 0.0;
-      for (std::size_t i = 0; i < fresh_.size(); ++i) {
+      for (const std::uint32_t i : around_[moved]) {
         const Corners& n = numbered_[i];
-        if (n[0] != moved && n[1] != moved && n[2] != moved) continue;
         const Point &a = seen_[n[0]], &b = seen_[n[1]], &c = seen_[n[2]];
         const double size = wantedIn(fresh_[i]);
         const double own = std::abs(cross(b - a, c - a)) / (size * size);

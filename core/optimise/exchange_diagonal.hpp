@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -24,6 +25,8 @@ class DiagonalExchange {
   bool tryExchange(VertexId v, VertexId w, VertexId c, VertexId d, std::vector<TriId>& touched);
 
  private:
+  static constexpr std::uint32_t kMoved = 4;
+
   void number();
   std::uint32_t numberOf(VertexId v);
   double wantedIn(const Corners& t) const { return meanOf(wanted_[t[0]], wanted_[t[1]], wanted_[t[2]]); }
@@ -41,10 +44,11 @@ class DiagonalExchange {
   Frame frame_{{}, {}};         // on a sphere, at the first of the four
 
   // The vertices of `fresh_`, numbered locally with the four first; their new positions, in the frame and in the plane;
-  // and the triangles with these numbers.
+  // the triangles with these numbers; and those around each of the four.
   std::vector<VertexId> vertices_;
   std::vector<Point> seen_, in_plane_;
   std::vector<Corners> numbered_;
+  std::array<std::vector<std::uint32_t>, kMoved> around_;
 };
 
 }  // namespace coastmesh

@@ -52,7 +52,8 @@ Optimiser::Optimiser(const Submesh& patch, const Optimiser& parent)
       flips_may_harm_(parent.flips_may_harm_),
       is_submesh_(true),
       mends_poor_(true),
-      active_(mesh_.vertexSlots(), 1) {
+      active_(mesh_.vertexSlots(), 1),
+      futile_(mesh_.vertexSlots(), 0) {
   ops_.keepClearOfFrozen();
   for (const VertexId v : patch.parent) wanted_.push_back(parent.wanted_[v]);
 }
@@ -117,8 +118,10 @@ double Optimiser::goalOfAll() const {
 void Optimiser::noteAdded(VertexId v) {
   wanted_.resize(mesh_.vertexSlots());
   active_.resize(mesh_.vertexSlots(), 1);
+  futile_.resize(mesh_.vertexSlots(), 0);
   if (!due_.empty()) due_.resize(mesh_.vertexSlots(), 1);
   active_[v] = 1;
+  futile_[v] = 0;
   if (!due_.empty()) due_[v] = 1;
   wanted_[v] = wantedAt(v);
 }

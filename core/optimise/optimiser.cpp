@@ -16,6 +16,7 @@ constexpr double kShortest = 0.7;
 constexpr int kAttempts = 3;
 // Vertices with more triangles are skipped.
 constexpr std::size_t kMostRound = 64;
+static_assert(kMostRound <= 64, "StarCost::poor has a bit for each");
 // Moves by less than kStill of the requested length are skipped; after moves by less than kStirs the neighbours stay at
 // rest.
 constexpr double kStill = 0.02, kStirs = 0.05;
@@ -28,6 +29,13 @@ constexpr int kFirstBalance = 1, kSettle = 2;
 // Poor triangles are improved in the second half of the sweeps, if they gain at least kLeastGain and their star costs
 // at most kMostCost times as much.
 constexpr double kLeastGain = 0.002, kMostCost = 1.005;
+// Moves to try for them, as shares of the way to the triangle's equilateral apex; 0.4 serves one in forty.
+constexpr double kPulls[] = {0.15, 0.05};
+
+// Triangles of a better shape have acute angles only in the frame (90 degrees give at most 0.866): edges between two of
+// them are Delaunay there and in the plane, since circles of one are circles of the other.
+constexpr double kAcuteShape = 0.87;
+constexpr double kPoorFlatness = 2.0 * kRootOfThree / kPoorShape;
 
 // Increase of the square of a vertex's excess if it gets `more` triangles.
 int imbalanceAdded(int excess, int more) { return more * (2 * excess + more); }
@@ -55,7 +63,8 @@ Optimiser::Optimiser(TriMesh&& mesh, const Pslg& pslg, const RefineOptions& opti
       clear_shape_(clearShapeOf(bound_)),
       flips_may_harm_(bound_.max_angle < std::numbers::pi || !std::isinf(bound_.squared_size)),
       wanted_(mesh_.vertexSlots(), 0.0),
-      active_(mesh_.vertexSlots(), 1) {
+      active_(mesh_.vertexSlots(), 1),
+      futile_(mesh_.vertexSlots(), 0) {
   ops_.keepBadInPlace();
   noteWanted();
   for (TriId t = 0; t < mesh_.triangleSlots() && !any_bad_; ++t)
@@ -76,7 +85,8 @@ void Optimiser::run(int sweeps, const RunControl& control) {
     mends_poor_ = k >= sweeps / 2;
     if (k == sweeps / 2) wakePoor();
     goes_far_ = k < kFarSweeps;
-    const bool merges = k + 1 < sweeps;  // vertices around a merge must still move
+    if (k + 2 == sweeps) std::ranges::fill(futile_, 0);  // vertices have moved since: once more
+    const bool merges = k + 1 < sweeps;                  // vertices around a merge must still move
     sweep(merges, k >= kFirstBalance && k + kSettle < sweeps, control, shareOf(k), shareOf(k + 1));
   }
   goes_far_ = false;
@@ -97,7 +107,7 @@ void Optimiser::sweep(bool merges, bool balances, const RunControl& control, dou
     }
     if (!gatherRing(v) || (merges && mergeShort(v))) continue;
     const bool moved = move(v);
-    if (balances && (!moved || gatherRing(v))) balance(v);
+    if (balances && mesh_.trianglesRound(v) != 6 && !(futile_[v] & kBalancing) && (!moved || gatherRing(v))) balance(v);
   }
 }
 
@@ -113,10 +123,11 @@ bool Optimiser::gatherRing(VertexId v) {
 // Sets the frame at v and the ring's corners in it. False if a frozen edge is opposite.
 bool Optimiser::look(VertexId v) {
   frame_ = Frame(bound_.surface, mesh_.point(v));
-  if (frame_.isCurved()) {
-    seen_.clear();
-    for (const VertexId w : ring_.corners) seen_.push_back(frame_.to(mesh_.point(w)));
-  }
+  seen_.clear();
+  for (const VertexId w : ring_.corners) seen_.push_back(frame_.to(mesh_.point(w)));
+  // Once around, so that no index wraps.
+  if (!is_open_)
+    for (const std::size_t i : {0U, 1U}) seen_.push_back(Point(seen_[i]));
   const auto isFrozen = [&](TriId t) { return mesh_.segment(edgeRef(t, mesh_.cornerOf(t, v))) == kFrozen; };
   return !is_submesh_ || std::ranges::none_of(ring_.triangles, isFrozen);
 }
@@ -183,83 +194,95 @@ double Optimiser::wantedAt(VertexId v) {
   return count == 0 ? wanted : std::min(wanted, sum / count);
 }
 
-// Cost of the triangles around a vertex if it is at `place` of the frame; infinite if a bound is violated or the cost
-// exceeds `limit`.
-Optimiser::StarCost Optimiser::costRound(const Point& place, double wanted, double limit) const {
-  constexpr StarCost kTooMuch{std::numeric_limits<double>::infinity(), 0.0};
-  const Point in_plane = frame_.from(place);
-  double sum = 0.0, worst = 0.0;
-  Point a = seen(0);
+// Sets what the costs of the ring's triangles share at all places of a vertex.
+void Optimiser::noteSectors(VertexId v) {
+  sectors_.clear();
   double size = wantedOf(0);
   for (std::size_t i = 0; i < ring_.triangles.size(); ++i) {
-    const Point& b = seen(i + 1);
-    const double next = wantedOf(i + 1), doubled = cross(b - a, place - a), squares = squaresOf(a, b, place);
-    if (doubled <= 0.0) return kTooMuch;
-    if (!isClear(doubled, squares) &&
-        (orient2d(corner(i), corner(i + 1), in_plane) <= 0 || isBad(corner(i), corner(i + 1), in_plane, bound_)))
-      return kTooMuch;
-    const TriangleCost own = costWithParts(doubled, squares, meanOf(wanted, size, next));
-    sum += own.cost;
-    if (sum > limit) return kTooMuch;
-    worst = std::max(worst, own.flatness);
-    a = b;
+    const double next = wantedOf(i + 1), ideal = idealDoubled(meanOf(wanted_[v], size, next));
+    const Point along = seen_[i + 1] - seen_[i];
+    sectors_.push_back({along, dot(along, along), ideal, 1.0 / ideal});
     size = next;
   }
-  return {sum, 2.0 * kRootOfThree / worst};
+}
+
+// Cost of the triangles around a vertex if it is at `place` of the frame; infinite if a bound is violated or the cost
+// exceeds `limit`.
+Optimiser::StarCost Optimiser::costRound(const Point& place, double limit) const {
+  constexpr StarCost kTooMuch{std::numeric_limits<double>::infinity(), 0.0, 0};
+  StarCost all{0.0, 0.0, 0};
+  double worst = 0.0, spoke = squaredDistance(seen_[0], place);
+  for (std::size_t i = 0; i < sectors_.size(); ++i) {
+    const Sector& sector = sectors_[i];
+    const double next = squaredDistance(seen_[i + 1], place);
+    const double doubled = cross(sector.along, place - seen_[i]), squares = sector.squared + spoke + next;
+    if (doubled <= 0.0) return kTooMuch;
+    if (!isClear(doubled, squares)) {
+      const Point in_plane = frame_.from(place);
+      if (orient2d(corner(i), corner(i + 1), in_plane) <= 0 || isBad(corner(i), corner(i + 1), in_plane, bound_))
+        return kTooMuch;
+    }
+    const double inverse = 1.0 / doubled, flatness = squares * inverse;
+    all.sum += costOfParts(flatness, doubled * sector.inverse_ideal, sector.ideal * inverse);
+    if (all.sum > limit) return kTooMuch;
+    worst = std::max(worst, flatness);
+    all.poor |= std::uint64_t{flatness > kPoorFlatness} << i;
+    spoke = next;
+  }
+  all.least_shape = 2.0 * kRootOfThree / worst;
+  return all;
 }
 
 // The same at its present place. `centre` receives the mean of the centroids in the frame, each weighted by its
-// triangle's area over the requested one.
-Optimiser::StarCost Optimiser::costHere(VertexId v, Point& centre) const {
+// triangle's area over the requested one; `poorest` the triangle of the poorest shape, by its index in the ring.
+Optimiser::StarCost Optimiser::costHere(VertexId v, Point& centre, std::size_t& poorest) const {
   constexpr double kTooMuch = std::numeric_limits<double>::infinity();
   const Point here = frame_.to(mesh_.point(v));
-  Point mean, a = seen(0);
-  double sum = 0.0, worst = 0.0, weight = 0.0, size = wantedOf(0);
-  const double own_size = wanted_[v];
+  StarCost all{0.0, 0.0, 0};
+  Point mean;
+  double worst = 0.0, weight = 0.0, spoke = squaredDistance(seen_[0], here);
   bool breaks = false;
-  for (std::size_t i = 0; i < ring_.triangles.size(); ++i) {
-    const Point& b = seen(i + 1);
-    const double next = wantedOf(i + 1), wanted = meanOf(own_size, size, next);
-    const double doubled = cross(b - a, here - a), squares = squaresOf(a, b, here);
+  for (std::size_t i = 0; i < sectors_.size(); ++i) {
+    const Sector& sector = sectors_[i];
+    const Point from = here - seen_[i];
+    const double next = squaredDistance(seen_[i + 1], here);
+    const double doubled = cross(sector.along, from), squares = sector.squared + spoke + next;
     breaks = breaks || (!isClear(doubled, squares) && isBad(corner(i), corner(i + 1), mesh_.point(v), bound_));
-    TriangleCost own = costWithParts(doubled, squares, wanted);
-    if (!(doubled > 0.0)) own = {kTooMuch, kTooMuch, doubled / (0.5 * kRootOfThree * wanted * wanted)};
-    sum += own.cost;
-    worst = std::max(worst, own.flatness);
-    mean = mean + own.area_share * (a - here + (b - here));
-    weight += own.area_share;
-    a = b;
-    size = next;
-  }
-  centre = here + (1.0 / (3.0 * weight)) * mean;
-  return {breaks ? kTooMuch : sum, 2.0 * kRootOfThree / worst};
-}
-
-// The triangle of the poorest shape if the vertex is at `place`, by its index in the ring; the first of equal ones.
-std::size_t Optimiser::poorestAt(const Point& place) const {
-  std::size_t poorest = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < ring_.triangles.size(); ++i) {
-    const double shape = shapeOf(seen(i), seen(i + 1), place);
-    if (shape < least) {
-      least = shape;
+    const double inverse = 1.0 / doubled, area_share = doubled * sector.inverse_ideal;
+    const double flatness = doubled > 0.0 ? squares * inverse : kTooMuch;
+    all.sum += doubled > 0.0 ? costOfParts(flatness, area_share, sector.ideal * inverse) : kTooMuch;
+    if (flatness > worst) {
+      worst = flatness;
       poorest = i;
     }
+    all.poor |= std::uint64_t{flatness > kPoorFlatness} << i;
+    mean = mean + area_share * (seen_[i + 1] - here - from);
+    weight += area_share;
+    spoke = next;
   }
-  return poorest;
+  centre = here + (1.0 / (3.0 * weight)) * mean;
+  if (breaks) all.sum = kTooMuch;
+  all.least_shape = 2.0 * kRootOfThree / worst;
+  return all;
 }
 
-// The smallest value of the goal around a vertex at `place`, as a share of the required value; at most 1. REQUIRES:
-// every triangle of the star is counter-clockwise there.
-double Optimiser::goalAt(VertexId v, const Point& place) const {
+// The smallest value of the goal around a vertex at `place`, as a share of the required value; at most 1. Of links only
+// those of the triangles in `poor` count, unless the goal is Links: others are long enough. REQUIRES: every triangle of
+// the star is counter-clockwise there.
+double Optimiser::goalAt(VertexId v, const Point& place, std::uint64_t poor) const {
   double least = 1.0;
-  for (std::size_t i = 0; i < ring_.triangles.size(); ++i) {
-    const Point &a = seen(i), &b = seen(i + 1);
+  const std::size_t count = ring_.triangles.size();
+  const auto counts = [&](std::size_t i) { return goal_ == QualityGoal::Links || (poor >> i & 1) != 0; };
+  for (std::size_t i = 0; i < count; ++i) {
+    const Point &a = seen_[i], &b = seen_[i + 1];
     if (goal_ == QualityGoal::Centred) {
       least = std::min(least, centrednessOf(place, a, b) / kEnoughCentred);
       continue;
     }
-    if (!is_open_ || i + 1 < ring_.triangles.size()) least = std::min(least, linkGoal(place, b, seen(i + 2), a));
+    const std::size_t after = i + 1 < count ? i + 1 : 0;
+    if ((!is_open_ || after > 0) && (counts(i) || counts(after)))
+      least = std::min(least, linkGoal(place, b, seen_[i + 2], a));
+    if (!counts(i)) continue;
     const EdgeRef beyond = mesh_.twin(edgeRef(ring_.triangles[i], mesh_.cornerOf(ring_.triangles[i], v)));
     if (beyond == kNone) continue;
     least = std::min(least, linkGoal(a, b, place, frame_.to(mesh_.point(mesh_.apex(beyond)))));
@@ -268,21 +291,23 @@ double Optimiser::goalAt(VertexId v, const Point& place) const {
 }
 
 // The best of some places of the frame for the goal, at which the star costs little more; nullopt if none is better.
-std::optional<Point> Optimiser::placeForGoal(VertexId v, double cost) const {
+std::optional<Optimiser::Move> Optimiser::placeForGoal(VertexId v, const StarCost& now) const {
   constexpr int kDirections = 8;
   constexpr double kMostGoalCost = 1.1;
   const Point here = frame_.to(mesh_.point(v));
-  double best = goalAt(v, here) + kLeastGain;
+  const double most = kMostGoalCost * now.sum;
+  double best = goalAt(v, here, now.poor) + kLeastGain;
   for (const double step : {0.2, 0.1, 0.05, 0.025}) {
-    std::optional<Point> place;
+    std::optional<Move> place;
     for (int k = 0; k < kDirections; ++k) {
       const double angle = 2.0 * std::numbers::pi * k / kDirections;
       const Point to = here + step * wanted_[v] * Point{std::cos(angle), std::sin(angle)};
-      if (!(costRound(to, wanted_[v], kMostGoalCost * cost).sum < kMostGoalCost * cost)) continue;
-      const double then = goalAt(v, to);
-      if (then <= best) continue;
-      best = then;
-      place = to;
+      const StarCost then = costRound(to, most);
+      if (!(then.sum < most)) continue;
+      const double goal = goalAt(v, to, then.poor);
+      if (goal <= best) continue;
+      best = goal;
+      place = Move{to, then.least_shape};
     }
     if (place) return place;
   }
@@ -292,72 +317,74 @@ std::optional<Point> Optimiser::placeForGoal(VertexId v, double cost) const {
 // True if a move to `place`, where the star has the measures `then`, keeps the goal, which was at `held`. Links beside
 // triangles that are not poor are long enough unless the goal is Links.
 bool Optimiser::keepsGoal(VertexId v, const Point& place, const StarCost& then, double held) const {
-  return !mends_poor_ || (goal_ == QualityGoal::Shape && then.least_shape >= kPoorShape) || goalAt(v, place) >= held;
+  return !mends_poor_ || (goal_ == QualityGoal::Shape && then.least_shape >= kPoorShape) ||
+         goalAt(v, place, then.poor) >= held;
 }
 
 // The place in the frame where a vertex's star costs less or, in later sweeps, its poorest triangle gains at next to no
 // cost; nullopt if there is none.
-std::optional<Point> Optimiser::betterPlace(VertexId v) const {
+std::optional<Optimiser::Move> Optimiser::betterPlace(VertexId v) {
   const Point here = frame_.to(mesh_.point(v));
   Point to;
-  const StarCost now = costHere(v, to);
+  std::size_t poorest = 0;
+  noteSectors(v);
+  const StarCost now = costHere(v, to, poorest);
   if (!std::isfinite(to.x) || !std::isfinite(to.y)) return std::nullopt;
   if (segment_ != kNone) return betterPlaceOnSegment(v, to, now);
   const double cost = now.sum;
   const bool may_lack = mends_poor_ && (goal_ != QualityGoal::Shape || now.least_shape < kPoorShape);
-  const double held = may_lack ? goalAt(v, here) : 1.0;
+  const double held = may_lack ? goalAt(v, here, now.poor) : 1.0;
   if (held < 1.0)
-    if (const std::optional<Point> place = placeForGoal(v, cost)) return place;
+    if (const std::optional<Move> place = placeForGoal(v, now)) return place;
+  StarCost then;
   const auto isBetter = [&](const Point& place) {
-    const StarCost then = costRound(place, wanted_[v], cost);
+    then = costRound(place, cost);
     return then.sum < cost && keepsGoal(v, place, then, held);
   };
   const double still = kStill * wanted_[v];
   if (goes_far_ && squaredDistance(here, to) >= still * still) {
     const Point beyond = here + kBeyond * (to - here);
-    if (isBetter(beyond)) return beyond;
+    if (isBetter(beyond)) return Move{beyond, then.least_shape};
   }
   for (int attempt = 0; attempt < kAttempts && squaredDistance(here, to) >= still * still; ++attempt) {
-    if (isBetter(to)) return to;
+    if (isBetter(to)) return Move{to, then.least_shape};
     to = midpoint(here, to);
   }
   if (!mends_poor_ || now.least_shape >= kPoorShape) return std::nullopt;
-  const std::size_t poorest = poorestAt(here);
-  const Point &a = seen(poorest), &b = seen(poorest + 1);
+  const Point &a = seen_[poorest], &b = seen_[poorest + 1];
   const Point apex = midpoint(a, b) + 0.5 * kRootOfThree * Point{a.y - b.y, b.x - a.x};  // equilateral
-  double share = 0.4;
-  for (int attempt = 0; attempt < kAttempts; ++attempt, share *= 0.5) {
+  for (const double share : kPulls) {
     to = here + share * (apex - here);
-    const StarCost then = costRound(to, wanted_[v], kMostCost * cost);
+    then = costRound(to, kMostCost * cost);
     if (then.sum < kMostCost * cost && then.least_shape > now.least_shape + kLeastGain && keepsGoal(v, to, then, held))
-      return to;
+      return Move{to, then.least_shape};
   }
   return std::nullopt;
 }
 
 // The same along the vertex's segment; `to` is the target that it would have if it were free.
-std::optional<Point> Optimiser::betterPlaceOnSegment(VertexId v, Point to, const StarCost& now) const {
+std::optional<Optimiser::Move> Optimiser::betterPlaceOnSegment(VertexId v, Point to, const StarCost& now) const {
   const Point here = frame_.to(mesh_.point(v));
   // On the input segment itself, so that rounding errors do not add up.
   const Point &from = pslg_.points[pslg_.segments[segment_].a], &end = pslg_.points[pslg_.segments[segment_].b];
   const auto onSegment = [&](const Point& place) { return frame_.to(projectedOnLine(frame_.from(place), from, end)); };
-  const double cost = now.sum, held = mends_poor_ ? goalAt(v, here) : 1.0, still = kStill * wanted_[v];
+  const double cost = now.sum, held = mends_poor_ ? goalAt(v, here, now.poor) : 1.0, still = kStill * wanted_[v];
   to = onSegment(to);
   for (int attempt = 0; attempt < kAttempts && squaredDistance(here, to) >= still * still; ++attempt) {
-    const StarCost then = costRound(to, wanted_[v], cost);
-    if (then.sum < cost && keepsGoal(v, to, then, held)) return to;
+    const StarCost then = costRound(to, cost);
+    if (then.sum < cost && keepsGoal(v, to, then, held)) return Move{to, then.least_shape};
     to = onSegment(midpoint(here, to));
   }
   if (!mends_poor_ || now.least_shape >= kPoorShape) return std::nullopt;
   double best = now.least_shape + kLeastGain;
-  const Point along = seen(along_[1]) - seen(along_[0]);
-  std::optional<Point> place;
+  const Point along = seen_[along_[1]] - seen_[along_[0]];
+  std::optional<Move> place;
   for (const double share : {0.2, -0.2, 0.1, -0.1, 0.05, -0.05}) {
     to = onSegment(here + share * along);
-    const StarCost then = costRound(to, wanted_[v], kMostCost * cost);
+    const StarCost then = costRound(to, kMostCost * cost);
     if (!(then.sum < kMostCost * cost) || then.least_shape <= best || !keepsGoal(v, to, then, held)) continue;
     best = then.least_shape;
-    place = to;
+    place = Move{to, then.least_shape};
   }
   return place;
 }
@@ -380,9 +407,9 @@ bool Optimiser::flipsAt(VertexId v, const Point& place) const {
 
 // Returns whether the vertex has moved.
 bool Optimiser::move(VertexId v) {
-  const std::optional<Point> better = betterPlace(v);
+  const std::optional<Move> better = betterPlace(v);
   if (!better) return false;
-  const Point to = frame_.from(*better);
+  const Point to = frame_.from(better->to);
   const auto isBesideBad = [&](TriId t) { return ops_.isBadBeyond(mesh_.twin(edgeRef(t, mesh_.cornerOf(t, v)))); };
   if ((any_bad_ && std::ranges::any_of(ring_.triangles, isBesideBad)) || (flips_may_harm_ && flipsAt(v, to)))
     return false;
@@ -396,10 +423,11 @@ bool Optimiser::move(VertexId v) {
   }
   touched_.assign(ring_.triangles.begin(), ring_.triangles.end());
   if (segment_ == kNone)
-    mesh_.restoreDelaunayRound(v, touched_);
+    mesh_.restoreDelaunayRound(v, touched_, better->least_shape > kAcuteShape);
   else
     mesh_.restoreDelaunay(touched_);
   ++stats_.relocations;
+  if (touched_.size() > ring_.triangles.size()) clearFutile();
   if (is_far)
     wake();
   else
@@ -413,14 +441,17 @@ bool Optimiser::mergeInto(VertexId v, VertexId stays) {
   wanted_[stays] = wantedAt(stays);
   ++stats_.merges;
   wake();
+  clearFutile();
   return true;
 }
 
 bool Optimiser::mergeShort(VertexId v) {
+  if (futile_[v] & kMerging) return false;
   for (const VertexId w : ring_.corners) {
     const double shortest = kShortest * 0.5 * (wanted_[v] + wanted_[w]);
     if (squaredLengthOf(v, w) > shortest * shortest || mesh_.kind(w) == VertexKind::Input) continue;
     if (mergeInto(v, w)) return true;
+    futile_[v] |= kMerging;
   }
   return false;
 }
@@ -428,6 +459,7 @@ bool Optimiser::mergeShort(VertexId v) {
 // The number of triangles around a vertex minus six, or on the boundary minus one for each 60 degrees.
 int Optimiser::excess(VertexId v) {
   int ideal = 6;
+  if (mesh_.kind(v) == VertexKind::Free) return static_cast<int>(mesh_.trianglesRound(v)) - ideal;
   if (mesh_.star(v, star_) == StarKind::Open) {
     const Point here = mesh_.point(v);
     double angle = 0.0;
@@ -471,7 +503,7 @@ void Optimiser::mergeTooFew(VertexId v) {
       with = w;
     }
   }
-  if (with != kNone) mergeInto(v, with);
+  if (with != kNone && !mergeInto(v, with)) futile_[v] |= kBalancing;
 }
 
 void Optimiser::exchangeTooMany(VertexId v) {
@@ -489,12 +521,16 @@ void Optimiser::exchangeTooMany(VertexId v) {
         0)
       continue;
     touched_.clear();
-    if (!exchange_.tryExchange(v, w, left, right, touched_)) continue;
+    if (!exchange_.tryExchange(v, w, left, right, touched_)) {
+      futile_[v] |= kBalancing;
+      continue;
+    }
     for (const VertexId u : {v, w, left, right}) {
       if (size_ != nullptr) wanted_[u] = wantedAt(u);
       ++stats_.relocations;
     }
     wake();
+    clearFutile();
     return;
   }
 }
@@ -511,6 +547,13 @@ void Optimiser::wake() {
   for (const TriId t : touched_)
     if (mesh_.isLive(t))
       for (const VertexId w : mesh_.triangle(t).v) active_[w] = 1;
+}
+
+// Lets the corners of all changed triangles merge and be balanced again.
+void Optimiser::clearFutile() {
+  for (const TriId t : touched_)
+    if (mesh_.isLive(t))
+      for (const VertexId w : mesh_.triangle(t).v) futile_[w] = 0;
 }
 
 }  // namespace coastmesh

@@ -41,6 +41,9 @@ class Optimiser {
   RefineStats& stats() { return stats_; }
 
  private:
+  // What failed at a vertex. It is tried again once triangles around it change other than by moves: of attempts without
+  // that, one in a hundred succeeds.
+  static constexpr std::uint8_t kMerging = 1, kBalancing = 2;
   // An attempt to improve a poor triangle, at one of its corners or at the edge opposite.
   enum class Change { None, Remove, Insert, Split, RemoveShort };
   struct Trial {
@@ -51,6 +54,19 @@ class Optimiser {
   struct StarCost {
     double sum;          // sum of their costs
     double least_shape;  // quality of the poorest
+    std::uint64_t poor;  // bit i: triangle i of the ring is poor
+  };
+  // What a triangle of the ring has in common at all places of the vertex.
+  struct Sector {
+    Point along;     // the edge opposite the vertex
+    double squared;  // its squared length
+    double ideal;    // twice the area of an equilateral triangle of the requested length
+    double inverse_ideal;
+  };
+  // A place of the frame to move to, and the quality of the poorest triangle there.
+  struct Move {
+    Point to;
+    double least_shape;
   };
   // By how much edges are shorter than the least length.
   struct Shortness {
@@ -76,17 +92,17 @@ class Optimiser {
 
   void noteWanted();
   double wantedAt(VertexId v);
-  StarCost costRound(const Point& place, double wanted, double limit) const;
-  StarCost costHere(VertexId v, Point& centre) const;
-  double goalAt(VertexId v, const Point& place) const;
+  void noteSectors(VertexId v);
+  StarCost costRound(const Point& place, double limit) const;
+  StarCost costHere(VertexId v, Point& centre, std::size_t& poorest) const;
+  double goalAt(VertexId v, const Point& place, std::uint64_t poor) const;
   double linkGoal(const Point& p, const Point& q, const Point& left, const Point& right) const {
     return isLinkClearOf(enoughLink(), p, q, left, right) ? 1.0 : linkShareOf(p, q, left, right) / enoughLink();
   }
   double enoughLink() const { return goal_ == QualityGoal::Links ? 0.22 : 0.12; }
-  std::optional<Point> placeForGoal(VertexId v, double cost) const;
-  std::size_t poorestAt(const Point& place) const;
-  std::optional<Point> betterPlace(VertexId v) const;
-  std::optional<Point> betterPlaceOnSegment(VertexId v, Point to, const StarCost& now) const;
+  std::optional<Move> placeForGoal(VertexId v, const StarCost& now) const;
+  std::optional<Move> betterPlace(VertexId v);
+  std::optional<Move> betterPlaceOnSegment(VertexId v, Point to, const StarCost& now) const;
   bool keepsGoal(VertexId v, const Point& place, const StarCost& then, double held) const;
   bool flipsAt(VertexId v, const Point& place) const;
   bool move(VertexId v);
@@ -99,6 +115,7 @@ class Optimiser {
   void exchangeTooMany(VertexId v);
   void wakePoor();
   void wake();
+  void clearFutile();
 
   void mendPoorest(const RunControl& control, double share);
   // Returns the best result for a patch, and the change that it begins with; nullopt if nothing improves it.
@@ -139,10 +156,6 @@ class Optimiser {
   const Point& corner(std::size_t i) const {
     return mesh_.point(ring_.corners[i < ring_.corners.size() ? i : i - ring_.corners.size()]);
   }
-  // The same in the frame.
-  const Point& seen(std::size_t i) const {
-    return frame_.isCurved() ? seen_[i < seen_.size() ? i : i - seen_.size()] : corner(i);
-  }
   double squaredLengthOf(VertexId v, VertexId w) const {
     return bound_.surface.squaredChord(mesh_.point(v), mesh_.point(w));
   }
@@ -167,6 +180,7 @@ class Optimiser {
   RefineStats stats_;
   std::vector<double> wanted_;        // the requested length at each vertex
   std::vector<std::uint8_t> active_;  // for each vertex: whether its surroundings changed since its last turn
+  std::vector<std::uint8_t> futile_;  // for each vertex: kMerging, kBalancing, or both
   std::vector<std::uint8_t> due_;     // one for each vertex; empty if all are
   std::vector<VertexId> waiting_;     // corners of poor triangles, for the next round
 
@@ -174,7 +188,8 @@ class Optimiser {
   Ring ring_;  // of the current vertex; on the boundary it has one corner more than triangles
   // Position of that vertex when the ring was gathered: the frame in which positions and costs are computed.
   Frame frame_{{}, {}};
-  std::vector<Point> seen_;             // the ring's corners in the frame, on a sphere
+  std::vector<Point> seen_;             // the ring's corners in the frame; of a closed ring the first two follow again
+  std::vector<Sector> sectors_;         // for each triangle of the ring
   bool is_open_ = false;                // whether that vertex is on the boundary
   SegmentId segment_ = kNone;           // its segment; kNone if it is free
   std::array<std::size_t, 2> along_{};  // the ends of its two subsegments, as indices in the ring

@@ -20,24 +20,21 @@ inline double shapeOf(const Point& a, const Point& b, const Point& c) {
 // The weight of sizes in the following cost, and its smallest possible value.
 inline constexpr double kSizeShare = 0.1, kLeastTriangleCost = 1.0 + 2.0 * kSizeShare;
 
-// The cost of a triangle, and its parts.
-struct TriangleCost {
-  double cost;
-  double flatness;    // Σ edge² over twice the area: 2 √3 for an equilateral triangle
-  double area_share;  // of an equilateral triangle of the requested length
-};
-
 // The cost whose sum the optimiser reduces: the inverse of the shape, and with a smaller weight the deviation of the
-// area from that of an equilateral triangle of the requested length. Arguments: twice the area (`doubled`), above 0,
-// and the sum of the squared edges. A single division: they take longer than the rest.
-inline TriangleCost costWithParts(double doubled, double squares, double wanted) {
-  const double ideal = 0.5 * kRootOfThree * wanted * wanted, inverse = 1.0 / (doubled * ideal);
-  const double flatness = squares * (ideal * inverse), area_share = doubled * (doubled * inverse);
-  return {flatness * (0.5 / kRootOfThree) + kSizeShare * (area_share + ideal * (ideal * inverse)), flatness,
-          area_share};
+// area from that of an equilateral triangle of the requested length. Arguments: Σ edge² over twice the area, and the
+// ratio of the two areas and its inverse.
+inline double costOfParts(double flatness, double area_share, double inverse_share) {
+  return flatness * (0.5 / kRootOfThree) + kSizeShare * (area_share + inverse_share);
 }
+
+// Twice the area of an equilateral triangle.
+inline double idealDoubled(double length) { return 0.5 * kRootOfThree * length * length; }
+
+// The same from twice the area (`doubled`), above 0, and the sum of the squared edges. A single division: they take
+// longer than the rest.
 inline double costOf(double doubled, double squares, double wanted) {
-  return costWithParts(doubled, squares, wanted).cost;
+  const double ideal = idealDoubled(wanted), inverse = 1.0 / (doubled * ideal);
+  return costOfParts(squares * (ideal * inverse), doubled * (doubled * inverse), ideal * (ideal * inverse));
 }
 
 // The length requested in a triangle from those at its corners.
@@ -72,12 +69,15 @@ inline double linkShareOf(const Point& p, const Point& q, const Point& left, con
   return length / (0.5 * roots);
 }
 
-// True if that is certainly at least `share`, without square roots; false means unknown. By (√a + √b)² ≤ 2 (a + b).
+// True if that is certainly at least `share`, without square roots and divisions; false means unknown. By
+// (√a + √b)² ≤ 2 (a + b).
 inline bool isLinkClearOf(double share, const Point& p, const Point& q, const Point& left, const Point& right) {
   const double at_left = cross(p - left, q - left), at_right = cross(q - right, p - right);
   if (at_left <= 0.0 || at_right <= 0.0) return false;
-  const double cotangents = dot(p - left, q - left) / at_left + dot(q - right, p - right) / at_right;
-  return cotangents > 0.0 && squaredDistance(p, q) * cotangents * cotangents > share * share * (at_left + at_right);
+  // The sum of the cotangents, times the product of the areas.
+  const double cotangents = dot(p - left, q - left) * at_right + dot(q - right, p - right) * at_left;
+  const double limit = share * at_left * at_right;
+  return cotangents > 0.0 && squaredDistance(p, q) * cotangents * cotangents > limit * limit * (at_left + at_right);
 }
 
 }  // namespace coastmesh
