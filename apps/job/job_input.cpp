@@ -197,6 +197,8 @@ JobInput::JobInput(const InputOptions& options, const ItemLoop& loop) : options_
   frame.in_plane = options_.crs == "plane";
   FrameReport framed = frameCoastline(coastline_, frame);
   report_.beyond_frame = framed.beyond_frame;
+  for (std::size_t f = 0; f < coastline_.features.size(); ++f)
+    if (coastline_.features[f].use == FeatureUse::Frame) frames_.push_back(f);
   std::ranges::move(framed.notes, std::back_inserter(report_.notes));
   if (options_.crs == "plane" && coastline_.crs.geographic)
     report_.warnings.push_back("--crs plane takes coordinates as they are, in the degrees of " +

@@ -77,6 +77,8 @@ class JobInput {
   bool isPoly() const { return poly_.has_value(); }
   std::size_t groups() const { return groups_.size(); }
   const std::vector<std::size_t>& members(std::size_t group) const { return groups_[group]; }
+  // The features that are frames.
+  const std::vector<std::size_t>& frames() const { return frames_; }
   std::size_t pointsOf(std::size_t group) const;
   // Of the groups that do not lie beyond the frame, by their extents: the others will not be meshed.
   std::size_t pointsInFrame() const;
@@ -112,6 +114,7 @@ class JobInput {
   ReadReport report_;
   BoundaryRules boundaries_;
   std::vector<std::vector<std::size_t>> groups_;
+  std::vector<std::size_t> frames_;
   std::optional<Pslg> poly_;
   std::optional<Projection> chosen_;  // if the user chose one; the same for all groups
 };

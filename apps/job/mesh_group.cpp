@@ -18,6 +18,7 @@
 #include "core/run_control.hpp"
 #include "core/size/estimate_vertices.hpp"
 #include "core/sphere/close_sphere.hpp"
+#include "gis/clean/frame_sides.hpp"
 #include "gis/clean/geodesic_area.hpp"
 #include "gis/coast/feature_names.hpp"
 #include "gis/crs/geodesy.hpp"
@@ -375,6 +376,7 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
     if (const double least = leastWanted(wanted, sizes); least > 0.0)
       domain = thinToLeast(std::move(domain), least, follow, input.coastline(), guides, coarser, start, loop);
     if (sizes.opened) domain = sizes.opened(std::move(domain), wanted, loop);
+    domain.frame = frameSidesNear(input.coastline(), input.frames(), domain);
     sized = makeSizes(domain, SizeAccuracy::Rough);
     domain = followShore(std::move(domain), sized, makeSizes, follow, wishes, guides, input.coastline(), followed,
                          std::move(start), loop);

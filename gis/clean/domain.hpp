@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/pslg.hpp"
@@ -27,7 +28,8 @@ struct Domain {
   Projection projection = Projection::plane();
   std::vector<VertexId> asked{};    // points of the PSLG that the user requested as vertices, on segments or not
   std::vector<DomainLine> lines{};  // the lines that tags of segments refer to: see segment_tags.hpp
-  Resolution resolution;            // to be kept by later changes of the domain
+  std::vector<std::pair<Point, Point>> frame{};  // sides of the frame, in the plane, which moving shores may reach
+  Resolution resolution;                         // to be kept by later changes of the domain
   // For a whole globe, where no side of a segment is outside: the label of places in no feature, and the label at the
   // plane's point at infinity.
   RegionId rest = kOutside, beyond = kOutside;

@@ -174,6 +174,7 @@ Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOpti
   addLoose(in_water, asked.missingFrom(together(graph.source, in_water.source)));
   returnLines(graph, std::move(in_water), sizes, options.channel_min, lost);
   ShoreChains chains = chainsOf(std::move(graph), size, loop, even);
+  chains.frame = ShoreFrame(domain.frame);
   keepAsked(chains, asked.sources());
   dropSamples(chains);
   limitToNarrowWaters(chains);
@@ -221,6 +222,7 @@ SizeGrowth growthOf(const Pslg& pslg, const SizeFunction& before, const SizeFunc
 Domain coarsenFurther(Domain&& domain, const SizeFunction& size, const Coastline& coastline, CleanReport& report) {
   const SizesInPlane in_plane(size, domain);
   ShoreChains chains = chainsOf(takeGraph(domain), in_plane.get());
+  chains.frame = ShoreFrame(domain.frame);
   keepAsked(chains, domain.asked);
   limitToNarrowWaters(chains);
   const EditLog log{domain, coastline, report};

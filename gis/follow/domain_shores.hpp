@@ -46,6 +46,7 @@ inline ShoreGraph takeGraph(Domain& domain) {
 inline Domain domainOf(ShoreGraph&& graph, Domain&& before) {
   Domain made;
   made.projection = before.projection;
+  made.frame = std::move(before.frame);
   made.resolution = before.resolution;
   made.lines = std::move(before.lines);
   std::vector<char> is_asked(before.input_points.size(), 0);

@@ -44,6 +44,7 @@ Domain lengthenShores(Domain&& domain, const EdgeWishes& wishes, const SizeFunct
   const ScaleTable scales(domain.projection, box);
   const SizesInPlane in_plane(size, domain);
   ShoreChains chains = chainsOf(takeGraph(domain), in_plane.get(), loop);
+  chains.frame = ShoreFrame(domain.frame);
   keepAsked(chains, domain.asked);
   for (const Point& p : chains.at) chains.least.push_back(wishes.least_m * scales.at(p));
   limitToNarrowWaters(chains);

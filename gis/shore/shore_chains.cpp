@@ -109,6 +109,19 @@ double waterAngle(const Point& a, const Point& b, const Point& c) {
   return angle < 0.0 ? angle + 2.0 * std::numbers::pi : angle;
 }
 
+bool leavesFrame(const ShoreChains& chains, VertexId v, const Point& x) {
+  if (chains.frame.empty()) return false;
+  constexpr double kOfSize = 1e-3, kOfSegments = 0.1;
+  const Point &a = chains.at[chains.prev[v]], &from = chains.at[v], &b = chains.at[chains.next[v]];
+  const double out = distance(from, b), least = std::min(distance(a, from), out);
+  if (!(least > 0.0)) return false;
+  // A vertex on the frame may be outside of it by rounding: the way begins in the water beside it.
+  const double angle = 0.5 * waterAngle(a, from, b), c = std::cos(angle), s = std::sin(angle);
+  const double share = std::min(kOfSize * chains.size[v], kOfSegments * least) / out;
+  const Point along = share * (b - from);
+  return chains.frame.parts(from + Point{c * along.x - s * along.y, s * along.x + c * along.y}, x);
+}
+
 bool canTakeOut(const ShoreChains& chains, VertexId v) {
   if (chains.stays[v] || chains.next[v] == kNone || chains.prev[v] == kNone) return false;
   const VertexId p = chains.prev[v], q = chains.next[v];

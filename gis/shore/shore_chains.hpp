@@ -7,6 +7,7 @@
 #include "core/item_loop.hpp"
 #include "core/size_function.hpp"
 #include "gis/shore/even_sizes.hpp"
+#include "gis/shore/shore_frame.hpp"
 #include "gis/shore/shore_graph.hpp"
 
 namespace coastmesh {
@@ -28,6 +29,7 @@ struct ShoreChains {
   // At each vertex, the least length of segments if more than half the size; water is kept wider than it by some.
   // Empty: only sizes count.
   std::vector<double> least{};
+  ShoreFrame frame{};           // vertices do not move across its sides
   bool no_square_ends = false;  // makes ends of water about as wide as the size pointed or round
 };
 
@@ -45,6 +47,9 @@ void keepAsked(ShoreChains& chains, const std::vector<VertexId>& asked);
 
 // The angle on the water's side at b, with the water to the left of the way a, b, c: 0 to 2 pi.
 double waterAngle(const Point& a, const Point& b, const Point& c);
+
+// True if moving v to x would take it out of the frame. REQUIRES: v has both neighbours.
+bool leavesFrame(const ShoreChains& chains, VertexId v, const Point& x);
 
 // True if v may be removed and its neighbours joined: not if they are joined already, by a boundary or a line.
 bool canTakeOut(const ShoreChains& chains, VertexId v);

@@ -108,7 +108,7 @@ class Mender {
         if (squaredDistance(x, from_[v]) > kMoved * kMoved * size * size) continue;
         const double after = near_.qualityOf(v, x);
         const bool is_better = found ? after > best.quality + kBetter : after >= best.quality;
-        if (is_better && near_.canMove(v, x)) best = {x, after}, found = true;
+        if (is_better && !leavesFrame(c_, v, x) && near_.canMove(v, x)) best = {x, after}, found = true;
       }
     }
     if (!found) return false;

@@ -59,6 +59,7 @@ class Shifter {
     const Point out{(b - a).y / across, (a - b).x / across};
     const Point x = c_.at[v] + share * size * out;
     if (squaredDistance(x, from_[v]) > kMost * kMost * size * size * 1.0001) return;
+    if (leavesFrame(c_, v, x)) return;
     near_.gather(v, 3.0 * kMost);
     if (!near_.canMove(v, x)) return;
     if (near_.qualityOf(v, x) < near_.qualityOf(v, c_.at[v])) return;

@@ -79,6 +79,22 @@ TEST_F(Frame, NothingReachesPastTheBox) {
   EXPECT_EQ(north, 64.0);
 }
 
+// A corner of the lake reaches over the southern side along less than half an element, too little for an opening.
+TEST_F(Frame, AShoreThatTheBoxGrazesStaysInIt) {
+  const LonLatRing shore{{5.16, 60.0391},   {5.1635, 60.0459}, {5.1638, 60.0533}, {5.1574, 60.0599}, {5.1412, 60.062},
+                         {5.125, 60.0608},  {5.1071, 60.0501}, {5.1021, 60.0492}, {5.0969, 60.0537}, {5.0861, 60.0605},
+                         {5.0702, 60.0649}, {5.0575, 60.0627}, {5.042, 60.0602},  {5.0312, 60.0544}, {5.0417, 60.0453},
+                         {5.0619, 60.0391}, {5.0741, 60.0363}, {5.087, 60.0362},  {5.0841, 60.0333}, {5.0751, 60.0253},
+                         {5.0701, 60.0132}, {5.0811, 60.0099}, {5.0917, 59.9995}, {5.1076, 60.0028}, {5.1196, 60.009},
+                         {5.1255, 60.017},  {5.116, 60.0302},  {5.1125, 60.0346}, {5.12, 60.0347},   {5.1326, 60.0356}};
+  const ProgramRun run = runProgram({"mesh", write("lake.geojson", geoJsonPolygons({{shore}})), "--bbox=5,60,5.3,60.09",
+                                     "--size", "2000", "--coast", "follow", "-o", file("lake.14")});
+  ASSERT_EQ(run.code, 0) << run.errors;
+  const Fort14 grid = read(file("lake.14"));
+  EXPECT_TRUE(grid.open.empty());
+  for (const auto& [x, y, depth] : grid.nodes) EXPECT_GE(y, 60.0) << x;
+}
+
 // Moving nodes onto the box used to leave an angle of 32.89 degrees, and the report had that of before.
 TEST_F(Frame, NodesStayBesideTheBoxWhereAnglesWouldBreakTheBound) {
   const ProgramRun run = runProgram({"mesh", island(), "--domain", "outside", "--bbox=0,60.5,4,61.61", "--size",

@@ -51,6 +51,22 @@ TEST(MendShores, WidensWhatIsOnlyJustTooNarrow) {
   }
 }
 
+TEST(MendShores, MovesNothingOutOfTheFrame) {
+  for (const bool framed : {false, true}) {
+    for (const double width : {0.3, 0.4, 0.45}) {
+      ShoreChains chains = headland(width);
+      // The straight shore is on the frame, but for rounding.
+      if (framed) chains.frame = ShoreFrame({{{-9.0, 1e-13}, {0.5, -1e-13}}, {{0.5, -1e-13}, {9.0, 0.0}}});
+      mendShores(
+          chains, [](VertexId) {}, [](VertexId, const Point&) {});
+      double lowest = 0.0;
+      for (const Point& p : chains.at) lowest = std::min(lowest, p.y);
+      EXPECT_EQ(lowest > -1e-9, framed) << lowest;
+      EXPECT_GE(narrowest(chains), 0.5) << width;
+    }
+  }
+}
+
 TEST(ShorePieces, WhatIsFineAtAGlanceIsAsWanted) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> off(-0.6, 0.6);
