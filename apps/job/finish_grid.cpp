@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "apps/job/places.hpp"
 #include "core/run_control.hpp"
@@ -45,6 +46,22 @@ std::string textOf(const DroppedWaters& dropped) {
          ": the largest at " + pointText(dropped.place) + "; --keep-water all keeps them";
 }
 
+double sumOf(const std::vector<double>& areas) { return std::accumulate(areas.begin(), areas.end(), 0.0); }
+
+RepairLoss lossOf(double before_m2, const Grid& grid) {
+  const double lost = std::max(0.0, before_m2 - sumOf(grid.area_m2));
+  return {lost, before_m2 > 0.0 ? lost / before_m2 : 0.0, grid.crs.isPlane()};
+}
+
+std::string textOf(const RepairLoss& lost, const std::vector<Repair>& repairs) {
+  const auto orphans =
+      static_cast<std::size_t>(std::ranges::count(repairs, TargetDefectKind::OrphanCell, &Repair::kind));
+  return "repairs took out " + areaInWords(lost.area_m2, lost.in_plane) + amount(" (%.2g %%)", 100.0 * lost.share) +
+         " of the water, with " + std::to_string(orphans) +
+         forCount(orphans, " triangle that has no neighbour", " triangles that have no neighbours") +
+         ": much of the water is too narrow for its elements; smaller sizes keep more of it";
+}
+
 }  // namespace
 
 std::vector<std::string> FinishReport::notes() const {
@@ -63,6 +80,7 @@ std::vector<std::string> FinishReport::warnings() const {
     all.push_back("could not be repaired for " + nameOf(which.first) + ": " + std::string(toString(which.second)) +
                   ", " + std::to_string(count.first) + " in all, the first at " + pointText(count.second));
   if (dropped.share > kMuchWater) all.push_back(textOf(dropped));
+  if (lost.share > kMuchWater) all.push_back(textOf(lost, repairs.repairs));
   if (!lost_asked.empty())
     all.push_back(
         std::to_string(lost_asked.size()) +
@@ -91,6 +109,7 @@ FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunContr
   if (options.drop_apart) report.dropped = dropApartWaters(grid, options.grazed, loop);
   // The report is of the water that is left.
   if (report.dropped.waters > 0 && !depth.files.empty()) report.depth = setDepths(grid, depth, of_depths, loop);
+  const double before_m2 = sumOf(grid.area_m2);
   RepairMemory memory;
   if (!grid.triangles.empty() && report.mended)
     report.repairs = repairForTargets(grid, targets, options.repair, &memory, stageControl(control, kFirst), loop);
@@ -110,6 +129,7 @@ FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunContr
     std::ranges::move(again.repairs, std::back_inserter(report.repairs.repairs));
     report.repairs.left = std::move(again.left);
   }
+  if (report.mended) report.lost = lossOf(before_m2, grid);
   std::ranges::set_difference(asked, nodesAmong(grid, asked), std::back_inserter(report.lost_asked), lexLess);
   if (!targets.empty() && !isOneWater(grid)) report.apart = apartWaters(grid, loop).size();
   return report;
@@ -151,7 +171,11 @@ std::string repairSection(const FinishReport& report) {
   for (const auto& [target, defect] : report.repairs.left)
     left.push_back(
         {{"target", nameOf(target)}, {"defect", toString(defect.kind)}, {"x", defect.place.x}, {"y", defect.place.y}});
-  return Json{{"done", std::move(done)}, {"left", std::move(left)}}.dump();
+  return Json{{"done", std::move(done)},
+              {"left", std::move(left)},
+              {"lost_area_m2", report.lost.area_m2},
+              {"lost_share", report.lost.share}}
+      .dump();
 }
 
 std::string boundarySection(const FinishOptions& options, const FinishReport& report, const Grid& grid) {

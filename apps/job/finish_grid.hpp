@@ -27,11 +27,18 @@ struct FinishOptions {
   bool mayEdit() const { return !targets.empty() || repair.time_step_s > 0.0 || drop_apart; }
 };
 
+// The water that repairs have taken out, as triangles without a neighbour: what they added elsewhere is subtracted.
+struct RepairLoss {
+  double area_m2 = 0.0, share = 0.0;  // and its share of all water before
+  bool in_plane = false;              // the area is in units of the plane
+};
+
 struct FinishReport {
   DepthReport depth;
   BoundaryReport boundaries;
   bool mended = false;  // repairs were requested
   RepairReport repairs;
+  RepairLoss lost;
   DroppedWaters dropped;
   std::size_t apart = 0;          // such waters that are left, if targets are given
   std::vector<Point> lost_asked;  // places of `RepairOptions::asked` that were nodes before, and are not now

@@ -64,5 +64,30 @@ TEST(FinishGrid, RequestedNodesThatAreLeftOutAreNamed) {
       1);
 }
 
+// The second water is a single triangle.
+TEST(FinishGrid, MuchWaterThatRepairsTakeOutIsWarnedOf) {
+  FinishOptions options;
+  options.targets = {"schism"};
+  for (const bool large : {false, true}) {
+    Grid grid = twoWaters();
+    grid.triangles.pop_back();
+    grid.nodes.pop_back();
+    grid.nodes.back() = {30.0, large ? 10.0 : 0.1};
+    grid.area_m2 = {50.0, 50.0, large ? 50.0 : 0.5};
+    grid.boundaries.back().nodes.pop_back();
+    const FinishReport report = finishGrid(grid, options);
+    EXPECT_EQ(grid.triangles.size(), 2u);
+    EXPECT_NEAR(report.lost.area_m2, large ? 50.0 : 0.5, 1e-12);
+    EXPECT_NEAR(report.lost.share, large ? 1.0 / 3.0 : 0.5 / 100.5, 1e-12);
+    const std::vector<std::string> warnings = report.warnings();
+    EXPECT_EQ(
+        std::ranges::count_if(warnings,
+                              [](const std::string& text) {
+                                return text.starts_with("repairs took out 50 (33 %) of the water, with 1 triangle");
+                              }),
+        large ? 1 : 0);
+  }
+}
+
 }  // namespace
 }  // namespace coastmesh
