@@ -25,6 +25,7 @@
 #include "gis/error.hpp"
 #include "gis/follow/coast_follow.hpp"
 #include "gis/follow/least_edges.hpp"
+#include "gis/follow/water_notes.hpp"
 #include "gis/format/poly_io.hpp"
 #include "gis/model/make_grid.hpp"
 #include "gis/model/mark_regions.hpp"
@@ -125,29 +126,28 @@ double mostVertices(const GroupTask& task, SurfaceKind surface) {
   return std::min(kClearlyMore * static_cast<double>(task.room.vertices), possibleVertices(task, surface));
 }
 
-std::string demandText(const TooManyVertices& error, const GroupTask& task, const GroupResult& result) {
-  const VertexDemand& demand = error.demand;
+// The number of vertices that sizes may ask for, and why.
+std::string limitText(const GroupTask& task, const GroupResult& result) {
   const std::uint64_t allowed = task.room.vertices;
-  std::string text = "these sizes ";
-  if (demand.map_too_large) {
-    text += "vary so much that storing them takes more memory than the mesh may, most of all near ";
-  } else {
-    text += demand.vertices > kMostReported ? "ask for more than " : "ask for about ";
-    text += amount("%.2g", std::min(demand.vertices, kMostReported)) + " vertices, most of them near ";
-  }
-  text += pointText(demand.place);
+  if (result.over_budget)
+    return "--max-vertices allows " + std::to_string(allowed) +
+           (allowed < task.job.mesh.refine.max_vertices ? " here, this feature's share by points" : "");
+  const double possible = possibleVertices(task, result.surface);
+  return (possible < static_cast<double>(kMostVertices) ? "there is memory for about " : "a mesh may have ") +
+         amount("%.2g", possible);
+}
+
+std::string demandText(const VertexDemand& demand, const GroupTask& task, const GroupResult& result) {
+  const std::string limit = limitText(task, result), advice = result.over_budget ? " or --max-vertices" : "";
+  // No single size is the cause, and the demand is unknown.
+  if (demand.map_too_large)
+    return "these sizes vary so much that storing them takes more memory than such a mesh may: " + limit +
+           "; request sizes that vary less, or give a larger --size-min" + advice;
+  std::string text = demand.vertices > kMostReported ? "these sizes ask for more than " : "these sizes ask for about ";
+  text += amount("%.2g", std::min(demand.vertices, kMostReported)) + " vertices, most of them near " +
+          pointText(demand.place);
   if (std::isfinite(demand.size_m)) text += ", where " + demand.option + amount(" asks for %.3g m", demand.size_m);
-  text += "; ";
-  if (result.over_budget) {
-    text += "--max-vertices allows " + std::to_string(allowed);
-    if (allowed < task.job.mesh.refine.max_vertices) text += " here, this feature's share by points";
-  } else {
-    const double possible = possibleVertices(task, result.surface);
-    text += possible < static_cast<double>(kMostVertices) ? "there is memory for about " : "a mesh may have ";
-    text += amount("%.2g", possible);
-  }
-  text += ": request larger sizes, or give a larger --size-min";
-  return result.over_budget ? text + " or --max-vertices" : text;
+  return text + "; " + limit + ": request larger sizes, or give a larger --size-min" + advice;
 }
 
 MeshOptions optionsFor(const GroupTask& task, const Domain& domain, SurfaceKind surface) {
@@ -169,15 +169,19 @@ MeshOptions optionsFor(const GroupTask& task, const Domain& domain, SurfaceKind 
   return options;
 }
 
+// The area in the units in which lengths are measured: with coordinates used as they are, these are theirs, even if a
+// CRS gives an area in square metres.
+double areaAsMeasured(const Domain& domain, const GroupResult& result) {
+  if (domain.projection.isIdentity() || !result.input_area_m2) return geodesicArea(domain, Crs{});
+  return *result.input_area_m2;
+}
+
 // If `--size-max` is only a bound, there is no map of sizes. The lower bound on vertices is then the number for
 // equilateral triangles of that size. Throws TooManyVertices if these exceed the memory.
 void requireMemory(const GroupTask& task, const Domain& domain, const GroupResult& result) {
   const MeshJob& job = task.job;
-  const std::optional<double>& area_m2 = result.input_area_m2;
-  if (job.sizes.any() || !area_m2 || !std::isfinite(job.sizes.most_m)) return;
-  // With coordinates used as they are, lengths are in their units, even if a CRS gives an area in square metres.
-  const double area = domain.projection.isIdentity() ? geodesicArea(domain, Crs{}) : *area_m2;
-  const double least = 2.0 / std::sqrt(3.0) * area / job.sizes.most_m / job.sizes.most_m;
+  if (job.sizes.any() || !result.input_area_m2 || !std::isfinite(job.sizes.most_m)) return;
+  const double least = 2.0 / std::sqrt(3.0) * areaAsMeasured(domain, result) / job.sizes.most_m / job.sizes.most_m;
   if (std::min(least, static_cast<double>(task.room.vertices)) <= possibleVertices(task, result.surface)) return;
   throw TooManyVertices({least, domain.projection.inverse(centreOf(domain.pslg)), job.sizes.most_m, "--size-max"});
 }
@@ -327,12 +331,12 @@ std::unique_ptr<SizeFunction> globeSizes(const GroupTask& task, const Domain& do
 }
 
 // Adds a note if so much of the water has no depth that the sizes there may surprise.
-void noteFilledWater(const FilledWater& filled, const SizeOptions& wanted, GroupResult& result) {
+void noteFilledWater(const FilledWater& filled, const SizeOptions& wanted, const Domain& domain, GroupResult& result) {
   constexpr double kLittle = 0.01;
-  if (!(filled.area_m2 > kLittle * result.input_area_m2.value_or(0.0))) return;
+  if (filled.area_m2 == 0.0 || !(filled.area_m2 > kLittle * areaAsMeasured(domain, result))) return;
   result.notes.push_back(
-      "no raster has a depth for about " + amount("%.3g", filled.area_m2 / 1e6) +
-      " km2 of the water, most of it near " + pointText(filled.place) + ": sizes there follow from " +
+      "no raster has a depth for about " + areaInWords(filled.area_m2, domain.projection.isIdentity()) +
+      " of the water, most of it near " + pointText(filled.place) + ": sizes there follow from " +
       (wanted.gaps == GapFill::Nearest ? "the nearest depths" : "depths interpolated across it") + ", as nodes do");
 }
 
@@ -366,7 +370,7 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
   } else {
     const FollowOptions follow = followOptionsOf(job);
     labelSegments(domain.pslg);  // plane graphs have no labels, which areas and openings need
-    const double area_m2 = result.input_area_m2 ? *result.input_area_m2 : geodesicArea(domain, Crs{});
+    const double area_m2 = areaAsMeasured(domain, result);
     const EdgeWishes wishes{kShoreMargin * StepOutcome::kUsualShare * job.sizes.least_m,
                             job.mesh.refine.max_angle_deg <= kNotObtuseDeg};
     const ShoreGuides guides{projected(sizes.layers->passages, domain.projection),
@@ -389,7 +393,7 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
     for (std::size_t kind = 0; kind < kEditKinds; ++kind) result.edits[kind] += coarser.counts[kind];
     if (job.keep_edits) std::ranges::move(coarser.edits, std::back_inserter(result.edit_places));
   }
-  noteFilledWater(sized.filled, wanted, result);
+  noteFilledWater(sized.filled, wanted, domain, result);
   result.raised_shore = sized.raised;
   VertexDemand& demand = sized.demand;
   demand.vertices += verticesOfSegments(domain.pslg, *sized.function, std::max(0.0, 2.0 * most - demand.vertices),
@@ -531,7 +535,7 @@ void refuse(const TooManyVertices& error, const GroupTask& task, GroupResult& re
   result.over_budget = kClearlyMore * static_cast<double>(task.room.vertices) <= possible;
   result.lacks_memory = !result.over_budget && possible < static_cast<double>(kMostVertices);
   result.refusal_place = error.demand.place;
-  result.refusal = featureInWords(task.firstFeature()) + ": " + demandText(error, task, result);
+  result.refusal = featureInWords(task.firstFeature()) + ": " + demandText(error.demand, task, result);
 }
 
 }  // namespace

@@ -21,6 +21,7 @@
 #include "apps/job/places.hpp"
 #include "apps/job/raster_helpers.hpp"
 #include "apps/job/stopwatch.hpp"
+#include "core/metric.hpp"
 #include "core/quality.hpp"
 #include "gis/coast/feature_names.hpp"
 #include "gis/follow/water_notes.hpp"
@@ -411,6 +412,14 @@ bool dropsWatersApart(const MeshJob& job) {
          (!job.sizes.keep_water_given || job.sizes.follow.keep == KeepWater::Open);
 }
 
+// In the units of its coordinates.
+double areaInPlane(const Grid& grid) {
+  double twice = 0.0;
+  for (const auto& [a, b, c] : grid.triangles)
+    twice += cross(grid.nodes[b] - grid.nodes[a], grid.nodes[c] - grid.nodes[a]);
+  return 0.5 * twice;
+}
+
 // For all groups together: shares are of all water that is meshed.
 void noteFollowed(const MeshJob& job, MeshJobResult& result) {
   const FollowOptions follow = followOptionsOf(job);
@@ -418,7 +427,8 @@ void noteFollowed(const MeshJob& job, MeshJobResult& result) {
   NotesAndWarnings texts = noteWaters(result.waters, follow);
   std::ranges::move(texts.notes, std::back_inserter(result.read.notes));
   std::ranges::move(texts.warnings, std::back_inserter(result.read.warnings));
-  std::string of_area = warningOfArea(result.waters, follow, result.mesh_area_m2);
+  std::string of_area =
+      warningOfArea(result.waters, follow, result.waters.in_plane ? areaInPlane(result.grid) : result.mesh_area_m2);
   if (!of_area.empty()) result.read.warnings.push_back(std::move(of_area));
 }
 

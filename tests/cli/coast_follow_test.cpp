@@ -129,6 +129,19 @@ TEST_F(CoastFollow, WhatIsLeftOutIsAShareOfAllWaters) {
   EXPECT_NE(run.output.find("(0.36 %) of the water is left out, 1 water"), std::string::npos) << run.output;
 }
 
+// The same lakes, taken as they are: square degrees of square degrees.
+TEST_F(CoastFollow, InAPlaneOfDegreesSharesAreOfItsUnits) {
+  const LonLatRing large{{0, 0}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}};
+  const LonLatRing two{{1, 0},       {1.03, 0},    {1.03, 0.0149}, {1.05, 0.0149}, {1.05, 0},    {1.08, 0},
+                       {1.08, 0.03}, {1.05, 0.03}, {1.05, 0.0151}, {1.03, 0.0151}, {1.03, 0.03}, {1, 0.03}};
+  const std::string lakes = write("lakes.geojson", geoJsonPolygons({{large}, {two}}));
+  const ProgramRun run = runProgram({"mesh", lakes, "-o", file("lakes.2dm"), "--size", "0.01", "--coast", "follow",
+                                     "--keep-water", "largest", "--crs", "plane"});
+  EXPECT_EQ(run.code, 0);
+  EXPECT_NE(run.output.find("0.0009 (0.36 %) of the water is left out, 1 water"), std::string::npos) << run.output;
+  EXPECT_EQ(run.errors.find("area than in the input"), std::string::npos) << run.errors;
+}
+
 // A strait of 11 km between two coasts, with elements of 3 km and of 30 km.
 TEST_F(CoastFollow, WaterThatSizesAreTooLargeForIsWarnedOf) {
   const LonLatRing south{{-0.1, -0.1}, {1.1, -0.1}, {1.1, 0.1}, {0.4, 0.1}, {0.4, 0.45}, {-0.1, 0.45}};

@@ -157,7 +157,7 @@ TEST_F(TimeStep, HoldsWhereNoRasterHasADepth) {
   EXPECT_EQ(report.at("step").at("asked").at("missed"), 0);
   EXPECT_LE(report.at("repairs").at("done").size(), 5u);
   EXPECT_THAT(run.output, HasSubstr("no raster has a depth for about "));
-  EXPECT_THAT(run.output, HasSubstr("km2 of the water"));
+  EXPECT_THAT(run.output, HasSubstr("km² of the water"));
   // The same bytes for any number of threads.
   const std::string one = readText(file("bay.2dm"));
   std::vector<std::string> threads = options;
