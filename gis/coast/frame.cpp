@@ -57,7 +57,9 @@ void refuseOddBox(const Box& box, const Crs& crs) {
   }
   if (box.xmin == box.xmax) throw OptionError(given + ": it has no width: the west has to differ from the east");
   if (!crs.geographic) {
-    if (!(box.xmin < box.xmax)) throw InputError(given + ": the west has to lie below the east");
+    if (!(box.xmin < box.xmax))
+      throw InputError(given + ": the west has to lie below the east; boxes across the antimeridian need an input in " +
+                       "longitudes and latitudes");
     return;
   }
   if (box.ymin < -90 || box.ymax > 90 || std::abs(box.xmin) > 540 || std::abs(box.xmax) > 540) {

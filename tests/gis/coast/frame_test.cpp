@@ -265,7 +265,9 @@ TEST(Frame, OddBoxesAreRefused) {
   for (const auto& [west, east] : {std::pair{180.0, -180.0}, {200.0, -200.0}, {0.0, -360.0}})
     EXPECT_THROW(frame(lake, boxOf(west, -60, east, 60)), OptionError) << west;
   const Coastline in_plane = coastlineOf({polygonFeature(1, square(1, 1, 2))});
-  EXPECT_NE(refusalOf(in_plane, boxOf(10, 0, 0, 10)).find("the west has to lie below"), std::string::npos);
+  EXPECT_NE(refusalOf(in_plane, boxOf(10, 0, 0, 10))
+                .find("the west has to lie below the east; boxes across the antimeridian need an input in longitudes"),
+            std::string::npos);
   EXPECT_NE(refusalOf(lake, boxOf(0, 0, 10, 100)).find("degrees"), std::string::npos);
   EXPECT_NE(refusalOf(lake, boxOf(20, 20, 30, 30)).find("nothing of the input lies in it"), std::string::npos);
   Coastline clipped = lake;
