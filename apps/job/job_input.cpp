@@ -107,11 +107,15 @@ bool isPlaneGraph(const InputOptions& options) {
   return options.pslg || (!options.files.empty() && isPolyFile(options.files.front()));
 }
 
-Coastline readInput(const InputOptions& options, ReadReport& report, BoundaryRules& boundaries) {
+Coastline readInput(const InputOptions& options, ReadReport& report, BoundaryRules& boundaries, bool by_frame) {
   Coastline coastline;
+  ReadFilter filter = options.filter;
+  // A box is in the CRS of the first file. With `plane`, all coordinates tell whether that is true.
+  if (by_frame && options.files.size() == 1 && options.boundary_column.empty() && options.crs != "plane")
+    filter.near = options.frame.box;
   try {
     coastline = readCoastline(
-        sourcesOf(options), options.filter, report,
+        sourcesOf(options), filter, report,
         [&](const std::vector<RawLayer>& layers) { boundaries.addInput(layers, options.boundary_column); },
         [&](const Crs& crs) { return snapDistanceOf(options, crs); });
   } catch (const NotVectorError& error) {
@@ -186,7 +190,7 @@ JobInput::JobInput(const InputOptions& options, const ItemLoop& loop) : options_
   } else if (globe && sourcesOf(options_).empty()) {
     coastline_.crs = wgs84();
   } else {
-    coastline_ = readInput(options_, report_, boundaries_);
+    coastline_ = readInput(options_, report_, boundaries_, true);
   }
   if ((globe || options_.frame.side == DomainSide::Ocean) && !coastline_.crs.geographic)
     throw InputError("--domain " + nameOfUnframed(options_.frame.side) +
@@ -195,8 +199,17 @@ JobInput::JobInput(const InputOptions& options, const ItemLoop& loop) : options_
   requireSurface();
   FrameOptions frame = options_.frame;
   frame.in_plane = options_.crs == "plane";
-  FrameReport framed = frameCoastline(coastline_, frame);
-  report_.beyond_frame = framed.beyond_frame;
+  FrameReport framed;
+  try {
+    framed = frameCoastline(coastline_, frame);
+  } catch (const InputError&) {
+    if (report_.not_read == 0) throw;
+    // The refusal says where the input lies: all of it.
+    report_ = {}, boundaries_ = {};
+    coastline_ = readInput(options_, report_, boundaries_);
+    framed = frameCoastline(coastline_, frame);
+  }
+  report_.beyond_frame = framed.beyond_frame + report_.not_read;
   for (std::size_t f = 0; f < coastline_.features.size(); ++f)
     if (coastline_.features[f].use == FeatureUse::Frame) frames_.push_back(f);
   std::ranges::move(framed.notes, std::back_inserter(report_.notes));

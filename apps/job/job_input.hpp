@@ -55,7 +55,8 @@ bool isPlaneGraph(const InputOptions& options);
 
 // Reads all the files of `options`, which must not be a .poly, once; what `files` define about boundaries is added to
 // `boundaries`. Throws OptionError, InputError.
-Coastline readInput(const InputOptions& options, ReadReport& report, BoundaryRules& boundaries);
+// With `by_frame`, features far outside a box may be left out, which framing would exclude.
+Coastline readInput(const InputOptions& options, ReadReport& report, BoundaryRules& boundaries, bool by_frame = false);
 
 // The number of points of its rings and lines: a measure of the work.
 std::size_t pointsOf(const Feature& feature);

@@ -206,6 +206,7 @@ Coastline readCoastline(const std::vector<Source>& sources, const ReadFilter& fi
   }
   report.features = static_cast<std::uint64_t>(
       std::ranges::count(coastline.features, FeatureUse::Area, [](const Feature& feature) { return feature.use; }));
+  report.features += report.not_read;
   return coastline;
 }
 

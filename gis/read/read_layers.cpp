@@ -14,6 +14,7 @@
 #include "gis/mesh_layers.hpp"
 #include "gis/read/bare_geojson.hpp"
 #include "gis/read/cleaned_file.hpp"
+#include "gis/read/near_box.hpp"
 #include "gis/read/ogr_geometry.hpp"
 #include "gis/read/open_source.hpp"
 
@@ -145,7 +146,7 @@ class LayerReader {
     }
   }
 
-  // `filtered`: by --where, so that other features may have been left out.
+  // `filtered`: other features may have been left out.
   RawLayer finish(bool filtered) {
     if (raw_.use == FeatureUse::Area && !filtered && raw_.columns.empty() && count_ == 1 && raw_.features.size() == 1)
       takeBareApart();
@@ -248,24 +249,35 @@ std::vector<RawLayer> readLayers(const Source& given, const ReadFilter& filter, 
   for (OGRLayer* layer : source.layers) {
     readers.emplace_back(*layer, only ? source.name : source.name + "|" + layer->GetName(), given.use, of_texts);
   }
-  // Through the dataset, not layer by layer: OpenStreetMap files come interleaved.
-  source.dataset->ResetReading();
-  OGRLayer* layer = nullptr;
-  while (const std::unique_ptr<OGRFeature> feature{source.dataset->GetNextFeature(&layer, nullptr, nullptr, nullptr)}) {
-    const auto at = std::find(source.layers.begin(), source.layers.end(), layer);
-    if (at == source.layers.end()) continue;
-    readers[static_cast<std::size_t>(at - source.layers.begin())].add(*feature, report);
+  const auto isEmpty = [](const LayerReader& reader) { return reader.count() == 0; };
+  const auto readAll = [&] {
+    // Through the dataset, not layer by layer: OpenStreetMap files come interleaved.
+    source.dataset->ResetReading();
+    OGRLayer* layer = nullptr;
+    while (
+        const std::unique_ptr<OGRFeature> feature{source.dataset->GetNextFeature(&layer, nullptr, nullptr, nullptr)}) {
+      const auto at = std::find(source.layers.begin(), source.layers.end(), layer);
+      if (at == source.layers.end()) continue;
+      readers[static_cast<std::size_t>(at - source.layers.begin())].add(*feature, report);
+    }
+  };
+  std::uint64_t not_read = filter.near && filter.where.empty() ? keepNear(source, *filter.near) : 0;
+  readAll();
+  if (not_read > 0 && std::ranges::all_of(readers, isEmpty)) {
+    keepAll(source);
+    readAll();
+    not_read = 0;
   }
+  report.not_read += not_read;
   requireReadToEnd(source, errors);
   if (!errors.text().empty()) report.warnings.push_back(source.name + ": " + errors.text());
   if (!errors.leftOut().empty()) {
     report.warnings.push_back(source.name + ": something is left out that is not a geometry (" + errors.leftOut() +
                               ")");
   }
-  const auto isEmpty = [](const LayerReader& reader) { return reader.count() == 0; };
   if (!filter.where.empty() && std::ranges::all_of(readers, isEmpty))
     throw InputError(source.name + ": --where \"" + filter.where + "\" holds for no feature with a geometry in it");
-  return finishAll(readers, !filter.where.empty(), source.name, report.skipped_points - points_before);
+  return finishAll(readers, !filter.where.empty() || not_read > 0, source.name, report.skipped_points - points_before);
 }
 
 }  // namespace coastmesh

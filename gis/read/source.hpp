@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "gis/coast/coastline.hpp"
+#include "gis/geometry/box.hpp"
 
 namespace coastmesh {
 
@@ -19,6 +21,7 @@ struct Source {
 struct ReadFilter {
   std::vector<std::string> layers;  // only layers of these names; empty: all
   std::string where;                // only features that satisfy this SQL condition; empty: all
+  std::optional<Box> near{};        // in degrees: features that are not near it may be left out, see `keepNear`
 };
 
 }  // namespace coastmesh
