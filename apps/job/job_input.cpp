@@ -120,7 +120,8 @@ Coastline readInput(const InputOptions& options, ReadReport& report, BoundaryRul
         [&](const Crs& crs) { return snapDistanceOf(options, crs); });
   } catch (const NotVectorError& error) {
     if (!isMesh(error.file)) throw;
-    throw InputError(error.file + ": a mesh, not a coastline; convert, check, info and plot read meshes");
+    throw InputError(sourceInWords(error.file) +
+                     ": a mesh, not a coastline; convert, check, info and plot read meshes");
   }
   if (!options.boundary_column.empty() && !options.may_lack_column)
     boundaries.requireInputColumn(options.boundary_column);

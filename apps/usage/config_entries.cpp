@@ -19,6 +19,7 @@
 #include <tuple>
 
 #include "apps/usage/ascii_toml.hpp"
+#include "gis/coast/feature_names.hpp"
 #include "gis/error.hpp"
 
 namespace coastmesh {
@@ -29,15 +30,17 @@ using Json = nlohmann::ordered_json;
 
 [[noreturn]] void refuseDepth(const std::string& file) {
   throw OptionError(
-      file + ": nested deeper than options are; sections hold options, and lists hold values or lists of values");
+      sourceInWords(file) +
+      ": nested deeper than options are; sections hold options, and lists hold values or lists of values");
 }
 
 [[noreturn]] void refuseValue(const std::string& file, const std::string& name) {
-  throw OptionError(file + ": '" + name + "' is neither a text, a number, true or false, nor a list of such");
+  throw OptionError(sourceInWords(file) + ": '" + name +
+                    "' is neither a text, a number, true or false, nor a list of such");
 }
 
 [[noreturn]] void refuseTwice(const std::string& file, const std::string& name) {
-  throw OptionError(file + ": '" + name + "' is given twice");
+  throw OptionError(sourceInWords(file) + ": '" + name + "' is given twice");
 }
 
 // JSON ------------------------------------------------------------------------------------------------------------
@@ -57,12 +60,12 @@ Json parseJson(const std::string& file, const std::string& text) {
   };
   try {
     Json json = Json::parse(text, watch, true, true);
-    if (!json.is_object()) throw OptionError(file + ": holds no object of options");
+    if (!json.is_object()) throw OptionError(sourceInWords(file) + ": holds no object of options");
     return json;
   } catch (const Json::parse_error& error) {
-    throw OptionError(file + ": not JSON, at character " + std::to_string(error.byte));
+    throw OptionError(sourceInWords(file) + ": not JSON, at character " + std::to_string(error.byte));
   } catch (const Json::exception&) {
-    throw OptionError(file + ": holds a number that is too large");
+    throw OptionError(sourceInWords(file) + ": holds a number that is too large");
   }
 }
 
@@ -142,8 +145,8 @@ ConfigEntry entryOf(const toml::node& value, const std::string& file, const std:
   }
   for (const toml::node& item : *value.as_array()) {
     if (item.is_table())
-      throw OptionError(file + ": '" + name + "' is a list of tables, as [[" + name + "]] makes one; a job has one [" +
-                        name + "]");
+      throw OptionError(sourceInWords(file) + ": '" + name + "' is a list of tables, as [[" + name +
+                        "]] makes one; a job has one [" + name + "]");
     entry.values.push_back(textsOf(item, file, name));
   }
   return entry;
@@ -151,7 +154,7 @@ ConfigEntry entryOf(const toml::node& value, const std::string& file, const std:
 
 ConfigEntries readToml(const std::string& file, const std::string& text) {
   const auto refuseLine = [&](std::size_t line, std::string_view why) {
-    throw OptionError(file + ": line " + std::to_string(line) + " is not TOML: " + std::string(why));
+    throw OptionError(sourceInWords(file) + ": line " + std::to_string(line) + " is not TOML: " + std::string(why));
   };
   const AsciiToml ascii = toAsciiToml(text);
   if (ascii.fault)
@@ -190,7 +193,7 @@ ConfigEntries readConfigEntries(const std::string& file) {
   std::error_code error;
   std::ifstream stream(file, std::ios::binary);
   if (!stream || std::filesystem::is_directory(file, error))
-    throw OptionError(file + ": cannot be read; --config takes a TOML or JSON file");
+    throw OptionError(sourceInWords(file) + ": cannot be read; --config takes a TOML or JSON file");
   std::stringstream text;
   text << stream.rdbuf();
   return file.ends_with(".json") ? readJson(file, text.str()) : readToml(file, text.str());

@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include "apps/usage/config_entries.hpp"
+#include "gis/coast/feature_names.hpp"
 #include "gis/error.hpp"
 
 namespace coastmesh {
@@ -99,14 +100,14 @@ void takeConfig(const std::string& file, OptionTable& table, const std::set<std:
   const ConfigEntries read = readConfigEntries(file);
   for (const std::string& section : read.sections) {
     if (section == table.name() || commands.contains(section)) continue;
-    throw OptionError(file + ": " +
+    throw OptionError(sourceInWords(file) + ": " +
                       (find(section, table).entry != nullptr
                            ? "'" + section + "' is an option and takes no section"
                            : "there is no command '" + section + "' to have a section of its own"));
   }
   for (const ConfigEntry& entry : read.entries) {
     if (!entry.section.empty() && entry.section != table.name()) continue;
-    const std::string where = file + ": '" + entry.name + "'";
+    const std::string where = sourceInWords(file) + ": '" + entry.name + "'";
     const auto [option, present] = find(entry.name, table);
     if (option == nullptr)
       throw OptionError(where + " is not an option of 'coastmesh " + table.name() + "'; --help lists them");

@@ -21,8 +21,10 @@ bool isNameAttribute(std::string_view attribute) {
   return lowerCase(std::string(attribute)).find("name") != std::string::npos;
 }
 
+std::string sourceInWords(const std::string& source) { return "'" + source + "'"; }
+
 std::string featureInWords(const std::string& source, std::int64_t fid) {
-  return "'" + source + "'" + (fid < 0 ? "" : ", feature " + std::to_string(fid));
+  return sourceInWords(source) + (fid < 0 ? "" : ", feature " + std::to_string(fid));
 }
 
 std::string featureInWords(const Feature& feature) { return featureInWords(feature.source, feature.fid); }

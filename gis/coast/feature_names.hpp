@@ -23,6 +23,9 @@ std::string placeInWords(const Point& place);
 // The same with fewer digits, where some metres, or a unit of a plane, are precise enough.
 std::string roughPlaceInWords(const Point& place);
 
+// "'lakes.gpkg'": a file, or a layer of it, as a whole.
+std::string sourceInWords(const std::string& source);
+
 // "'lakes.gpkg', feature 12", and the same for features that are meshed together: "… and 3 meshed with it". Without a
 // number for a source that has no features, such as a .poly.
 std::string featureInWords(const Feature& feature);

@@ -506,7 +506,8 @@ FrameReport frameCoastline(Coastline& coastline, const FrameOptions& options) {
     if (any(coastline, use)) return report;
   }
   const Feature& frame = *std::ranges::find(coastline.features, FeatureUse::Frame, &Feature::use);
-  std::string reason = frame.source + ": nothing of the input lies in it";
+  std::string reason =
+      (coastline.framed_by_box ? frame.source : sourceInWords(frame.source)) + ": nothing of the input lies in it";
   if (!coastline.framed_by_box) reason += ", which reaches over " + inWords(boundsOfFrames(coastline));
   if (!given.empty()) reason += "; the input reaches over " + inWords(given);
   throw InputError(reason + " (west, south, east, north, in " + nameOf(coastline.crs) + ")");

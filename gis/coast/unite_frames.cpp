@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "gis/coast/feature_bounds.hpp"
+#include "gis/coast/feature_names.hpp"
 #include "gis/coast/ogr_polygons.hpp"
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
@@ -51,7 +52,7 @@ void uniteFrames(Coastline& coastline) {
   const OgrErrors errors;
   const auto require = [&](const Shape& shape, const Feature& feature) -> const OGRGeometry& {
     if (shape) return *shape;
-    throw InputError(feature.source + ": its polygons cannot be united" +
+    throw InputError(featureInWords(feature) + ": its polygons cannot be united" +
                      (errors.text().empty() ? "" : " (" + errors.text() + ")") + ": unite them first, to one feature");
   };
   std::vector<Shape> valid;

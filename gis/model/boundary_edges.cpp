@@ -111,12 +111,12 @@ std::vector<std::string> missedWarnings(const MissedOfFile& file) {
   std::vector<std::string> warnings;
   if (file.idle) return warnings;
   if (const std::string list = listOf(file.missed, true); !list.empty())
-    warnings.push_back(file.file +
+    warnings.push_back(sourceInWords(file.file) +
                        ": these openings or rivers are not in the mesh, since no edge of its boundary runs along them "
                        "or has its middle in them: " +
                        list);
   if (const std::string list = listOf(file.missed, false); !list.empty())
-    warnings.push_back(file.file +
+    warnings.push_back(sourceInWords(file.file) +
                        ": lines of openings or rivers are farther from the mesh's boundary than half an edge, so that "
                        "it is land there: " +
                        list);
@@ -155,7 +155,7 @@ BoundaryReport defineKinds(const BoundaryPlaces& at, const BoundaryOptions& opti
     if (!apply(of_files[file], options.files[file])) {
       report.idle_files.push_back(file);
       if (!report.missed.empty() && report.missed.back().file == options.files[file]) report.missed.back().idle = true;
-      report.warnings.push_back(options.files[file] +
+      report.warnings.push_back(sourceInWords(options.files[file]) +
                                 ": says nothing of the mesh's boundary: no edge of it has its middle in one of the "
                                 "polygons, or runs along one of the lines within half of its length (polygons "
                                 "open no islands)");

@@ -323,7 +323,7 @@ void BoundaryRules::add(const std::vector<RawLayer>& layers, const std::string& 
   if (!edge_by_edge && !all_have_it && column.empty()) return;
   if (const std::set<std::string> columns = columnsOf(layers);
       !edge_by_edge && all_have_it && !column.empty() && !layers.empty() && !hasColumn(columns, column))
-    throw InputError(layers.front().source + ": has no column \"" + column + "\" of boundary types; " +
+    throw InputError(sourceInWords(layers.front().source) + ": has no column \"" + column + "\" of boundary types; " +
                      inWords(columns));
   for (const RawLayer& raw : layers) {
     if (edge_by_edge && !isOfTypes(raw)) continue;

@@ -14,6 +14,7 @@
 #include <set>
 #include <string_view>
 
+#include "gis/coast/feature_names.hpp"
 #include "gis/error.hpp"
 #include "gis/lower_case.hpp"
 #include "gis/read/odd_geojson.hpp"
@@ -83,13 +84,14 @@ std::string chosenInside(const std::string& archive, const std::string& given, c
   const std::string shown = nameOf(given);
   for (const std::string& name : wanted)
     if (!different.contains(name))
-      throw InputError(shown + ": has no layer '" + name + "'; there are " + listed(by_name ? stems : found));
+      throw InputError(sourceInWords(shown) + ": has no layer '" + name + "'; there are " +
+                       listed(by_name ? stems : found));
   // Options take a single "-", but no layer after it. A stream is no folder.
   const std::string file = isStandardInput(given) ? "/dev/stdin" : given;
   const std::string one =
       by_name ? file + "|" + stems.front() : (isStreamFile(given) ? "FILE" : file) + "/" + found.front();
-  throw InputError(shown + ": holds " + std::to_string(found.size()) + (by_name ? " layers (" : " vector files (") +
-                   listed(by_name ? stems : found) +
+  throw InputError(sourceInWords(shown) + ": holds " + std::to_string(found.size()) +
+                   (by_name ? " layers (" : " vector files (") + listed(by_name ? stems : found) +
                    "): " + (isStreamFile(given) && !by_name ? "save it to a file, and " : "") + "name one as '" + one +
                    "'" + (by_name && wanted.empty() ? ", or choose one of the input's with --layer" : ""));
 }
@@ -142,7 +144,7 @@ std::string inMemory(const std::string& given) {
       isStandardInput(given) ? nullptr : std::fopen(given.c_str(), "rb"),
       [](std::FILE* file) { return std::fclose(file); });
   std::FILE* const stream = isStandardInput(given) ? stdin : opened.get();
-  if (stream == nullptr) throw InputError(name + ": cannot be opened: " + std::strerror(errno));
+  if (stream == nullptr) throw InputError(sourceInWords(name) + ": cannot be opened: " + std::strerror(errno));
   constexpr std::size_t kPiece = std::size_t{1} << 20;
   std::vector<GByte> bytes;
   for (std::size_t got = kPiece; got == kPiece;) {
@@ -150,10 +152,10 @@ std::string inMemory(const std::string& given) {
     bytes.resize(before + kPiece);
     got = std::fread(bytes.data() + before, 1, kPiece, stream);
     const int reason = errno;
-    if (std::ferror(stream) != 0) throw InputError(name + ": cannot be read: " + std::strerror(reason));
+    if (std::ferror(stream) != 0) throw InputError(sourceInWords(name) + ": cannot be read: " + std::strerror(reason));
     bytes.resize(before + got);
   }
-  if (bytes.empty()) throw InputError(name + ": it is empty");
+  if (bytes.empty()) throw InputError(sourceInWords(name) + ": it is empty");
   const std::string_view head(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 64));
   std::string path = "/vsimem/coastmesh_standard_input";
   if (opened) {
@@ -164,7 +166,7 @@ std::string inMemory(const std::string& given) {
   VSILFILE* file = VSIFOpenL(path.c_str(), "wb");
   const bool written = file != nullptr && VSIFWriteL(bytes.data(), 1, bytes.size(), file) == bytes.size();
   if (file != nullptr) VSIFCloseL(file);
-  if (!written) throw InputError(name + ": too large to be held in memory");
+  if (!written) throw InputError(sourceInWords(name) + ": too large to be held in memory");
   // Archives are opened by their endings.
   const std::string plain = path;
   path += archiveEnding(plain);
@@ -197,17 +199,18 @@ std::string pathForOgr(const std::string& path, const std::vector<std::string>& 
   std::string why;
   if (!errors.text().empty()) why.append(" (").append(errors.text()).append(")");
   if (name.find("/vsistdin") != std::string::npos)
-    throw InputError(name + ": cannot be opened" + why + ": name standard input '-', which may hold an archive");
+    throw InputError(sourceInWords(name) + ": cannot be opened" + why +
+                     ": name standard input '-', which may hold an archive");
   VSIStatBufL stat;
   if (VSIStatL(path.c_str(), &stat) != 0) {
-    throw InputError(name + ": no such file; check the path, or name a source that OGR can open" +
+    throw InputError(sourceInWords(name) + ": no such file; check the path, or name a source that OGR can open" +
                      (path.starts_with("/vsi") || path.find("://") != std::string::npos ? why : ""));
   }
-  if (!VSI_ISDIR(stat.st_mode) && stat.st_size == 0) throw InputError(name + ": the file is empty");
+  if (!VSI_ISDIR(stat.st_mode) && stat.st_size == 0) throw InputError(sourceInWords(name) + ": the file is empty");
   // GDAL does not open a file that is one odd geometry, and does not report where it is odd.
   if (const std::optional<std::string> odd = why.empty() ? std::nullopt : oddGeojson(path))
-    throw InputError("'" + name + "', " + *odd + ": repair or remove this feature");
-  throw NotVectorError(name, name + ": not a vector file that GDAL can read" + why);
+    throw InputError(sourceInWords(name) + ", " + *odd + ": repair or remove this feature");
+  throw NotVectorError(name, sourceInWords(name) + ": not a vector file that GDAL can read" + why);
 }
 
 // Splits "file|layer" into file and layer, unless a file has the whole name.
@@ -247,8 +250,8 @@ OpenSource openSource(const std::string& given, const std::vector<std::string>& 
   }
   for (const std::string& name : names) {
     if (std::ranges::find(there, name) != there.end()) continue;
-    throw InputError(source.name + ": has no layer '" + name + "'; there " + (there.size() == 1 ? "is " : "are ") +
-                     (there.empty() ? "none" : listed(there)));
+    throw InputError(sourceInWords(source.name) + ": has no layer '" + name + "'; there " +
+                     (there.size() == 1 ? "is " : "are ") + (there.empty() ? "none" : listed(there)));
   }
   return source;
 }
@@ -265,7 +268,8 @@ void refuseOddGeojson(const OpenSource& source, const OgrErrors& errors) {
 
 void requireReadToEnd(const OpenSource& source, const OgrErrors& errors) {
   refuseOddGeojson(source, errors);
-  if (errors.failed()) throw InputError(source.name + ": cannot be read to its end (" + errors.text() + ")");
+  if (errors.failed())
+    throw InputError(sourceInWords(source.name) + ": cannot be read to its end (" + errors.text() + ")");
 }
 
 std::uint64_t keepWhere(const OpenSource& source, const std::string& where, OgrErrors& errors) {
@@ -283,13 +287,14 @@ std::uint64_t keepWhere(const OpenSource& source, const std::string& where, OgrE
     }
     const GIntBig after = layer->GetFeatureCount();
     if (errors.failed()) {
-      throw InputError(source.name + ": --where \"" + where + "\" cannot be asked of it (" + errors.text() + ")");
+      throw InputError(sourceInWords(source.name) + ": --where \"" + where + "\" cannot be asked of it (" +
+                       errors.text() + ")");
     }
     left_out += static_cast<std::uint64_t>(std::max<GIntBig>(before - after, 0));
     ++kept;
   }
   if (kept > 0) return left_out;
-  throw InputError(source.name + ": --where \"" + where + "\" cannot be asked of it" +
+  throw InputError(sourceInWords(source.name) + ": --where \"" + where + "\" cannot be asked of it" +
                    (reason.empty() ? "" : " (" + reason + ")"));
 }
 

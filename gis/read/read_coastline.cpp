@@ -25,19 +25,19 @@ bool looksGeographic(const Box& box) {
 Crs crsOfFirst(const RawLayer& first, ReadReport& report) {
   if (first.crs && !first.crs->geographic && !first.crs->isPlane() && looksGeographic(first.bounds)) {
     report.warnings.push_back(
-        first.source + ": says that it is in " + nameOf(*first.crs) +
+        sourceInWords(first.source) + ": says that it is in " + nameOf(*first.crs) +
         ", but all coordinates lie within ±180, ±90: if they are degrees, give the file EPSG:4326");
   }
   if (first.crs) return *first.crs;
   if (looksGeographic(first.bounds)) {
-    report.warnings.push_back(first.source +
+    report.warnings.push_back(sourceInWords(first.source) +
                               ": does not say its CRS; all coordinates lie within ±180, ±90, so they are taken for "
                               "longitudes and latitudes on WGS 84 (take them as a plane, or give the file a CRS, where "
                               "that is wrong)");
     return wgs84();
   }
   report.warnings.push_back(
-      first.source +
+      sourceInWords(first.source) +
       ": does not say its CRS; coordinates lie beyond ±180, ±90, so they are taken as metres in a "
       "plane");
   return {};
@@ -50,7 +50,7 @@ class Reprojection {
     const OGRSpatialReference from_srs = toOgr(from), to_srs = toOgr(to);
     transformation_.reset(OGRCreateCoordinateTransformation(&from_srs, &to_srs));
     if (transformation_) return;
-    throw InputError(source_ + ": PROJ has no transformation from its CRS, " + nameOf(from) +
+    throw InputError(sourceInWords(source_) + ": PROJ has no transformation from its CRS, " + nameOf(from) +
                      ", to that of the first source, " + name_ +
                      (errors_.text().empty() ? "" : " (" + errors_.text() + ")"));
   }
@@ -77,22 +77,23 @@ class Reprojection {
 void bringTo(const Crs& crs, const RawLayer& first, RawLayer& layer, ReadReport& report) {
   if (!layer.crs) {
     if (crs.geographic && !looksGeographic(layer.bounds)) {
-      throw InputError(layer.source +
+      throw InputError(sourceInWords(layer.source) +
                        ": does not say its CRS, and its coordinates are not longitudes and latitudes as those of " +
-                       first.source + " are: give the file a CRS");
+                       sourceInWords(first.source) + " are: give the file a CRS");
     }
     if (first.crs) {
-      report.warnings.push_back(layer.source + ": does not say its CRS; taken to be in that of the first source, " +
-                                nameOf(crs));
+      report.warnings.push_back(sourceInWords(layer.source) +
+                                ": does not say its CRS; taken to be in that of the first source, " + nameOf(crs));
     }
     return;
   }
   if (sameCrs(*layer.crs, crs)) return;
   if (crs.isPlane() || layer.crs->isPlane()) {
     const bool first_lacks = crs.isPlane();
-    throw InputError((first_lacks ? first.source : layer.source) + ": is in a plane without a place on Earth, while " +
-                     (first_lacks ? layer.source : first.source) + " is in " + nameOf(first_lacks ? *layer.crs : crs) +
-                     ": give both a CRS");
+    throw InputError(sourceInWords(first_lacks ? first.source : layer.source) +
+                     ": is in a plane without a place on Earth, while " +
+                     sourceInWords(first_lacks ? layer.source : first.source) + " is in " +
+                     nameOf(first_lacks ? *layer.crs : crs) + ": give both a CRS");
   }
   const Reprojection reprojection(layer.source, *layer.crs, crs);
   for (Feature& feature : layer.features) {

@@ -90,7 +90,7 @@ class LayerReader {
     try {
       raw_.crs = fromOgr(srs);
     } catch (const InputError& error) {
-      throw InputError(raw_.source + ": " + error.what());
+      throw InputError(sourceInWords(raw_.source) + ": " + error.what());
     }
     swap_axes_ = axesSwapped(*srs);
   }
@@ -187,7 +187,7 @@ class LayerReader {
 };
 
 [[noreturn]] void refuseEmpty(const std::string& source, std::uint64_t points) {
-  throw InputError(source + (points > 0 ? ": holds points only" : ": holds no feature with a geometry") +
+  throw InputError(sourceInWords(source) + (points > 0 ? ": holds points only" : ": holds no feature with a geometry") +
                    "; polygons or lines are needed");
 }
 
@@ -212,7 +212,7 @@ void refuseMesh(const OpenSource& source) {
     };
     if (!std::ranges::all_of(kCornerColumns, has)) continue;
     const std::string name = layer->GetName();
-    throw InputError(source.name + ": layer '" + name +
+    throw InputError(sourceInWords(source.name) + ": layer '" + name +
                      "' has the triangles of a mesh, which convert, check, info and " + "plot read; --layer " + name +
                      " takes each as a polygon");
   }
@@ -270,13 +270,14 @@ std::vector<RawLayer> readLayers(const Source& given, const ReadFilter& filter, 
   }
   report.not_read += not_read;
   requireReadToEnd(source, errors);
-  if (!errors.text().empty()) report.warnings.push_back(source.name + ": " + errors.text());
+  if (!errors.text().empty()) report.warnings.push_back(sourceInWords(source.name) + ": " + errors.text());
   if (!errors.leftOut().empty()) {
-    report.warnings.push_back(source.name + ": something is left out that is not a geometry (" + errors.leftOut() +
-                              ")");
+    report.warnings.push_back(sourceInWords(source.name) + ": something is left out that is not a geometry (" +
+                              errors.leftOut() + ")");
   }
   if (!filter.where.empty() && std::ranges::all_of(readers, isEmpty))
-    throw InputError(source.name + ": --where \"" + filter.where + "\" holds for no feature with a geometry in it");
+    throw InputError(sourceInWords(source.name) + ": --where \"" + filter.where +
+                     "\" holds for no feature with a geometry in it");
   return finishAll(readers, !filter.where.empty() || not_read > 0, source.name, report.skipped_points - points_before);
 }
 

@@ -30,7 +30,8 @@ std::vector<ShoreLine> readGuideLines(const std::string& source, const Crs& crs)
       lines.push_back({std::move(line.points), std::string(nameOf(feature.attributes))});
     }
   }
-  if (lines.empty()) throw InputError(source + ": holds no lines; draw each passage or barrier as a line");
+  if (lines.empty())
+    throw InputError(sourceInWords(source) + ": holds no lines; draw each passage or barrier as a line");
   return lines;
 }
 

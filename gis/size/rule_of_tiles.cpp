@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 
+#include "gis/coast/feature_names.hpp"
 #include "gis/error.hpp"
 #include "gis/size/size_depth.hpp"
 
@@ -19,7 +20,7 @@ TileRule rawRule() {
             const float size = tile.at(x, y);
             if (std::isnan(size)) continue;
             if (!(size > 0.0F)) {
-              throw InputError(tile.file + ": holds the size " + std::to_string(size) +
+              throw InputError(sourceInWords(tile.file) + ": holds the size " + std::to_string(size) +
                                ", but sizes are lengths in metres, above 0; mark pixels without one as no data");
             }
             sizes[static_cast<std::size_t>(y) * static_cast<std::size_t>(tile.width) + static_cast<std::size_t>(x)] =

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/metric.hpp"
+#include "gis/coast/feature_names.hpp"
 #include "gis/coast/input_polygons.hpp"
 #include "gis/coast/turned_rings.hpp"
 #include "gis/crs/crs_map.hpp"
@@ -226,7 +227,8 @@ class FeatureReader {
     const int size_field = layer.GetLayerDefn()->GetFieldIndex("size");
     const int rate_field = layer.GetLayerDefn()->GetFieldIndex("rate");
     if (size_field < 0) {
-      throw InputError(source + ": has no attribute 'size', which says the size wanted in metres; add it" +
+      throw InputError(sourceInWords(source) +
+                       ": has no attribute 'size', which says the size wanted in metres; add it" +
                        (one_of_several ? ", or name the layer that has it as FILE|LAYER" : ""));
     }
     std::optional<CrsMap> map;
@@ -387,7 +389,8 @@ SizedFeatures readSizedFeatures(const std::string& path, const Crs& crs, double 
     reader.read(*layer, only ? source.name : source.name + "|" + layer->GetName(), source.layers.size() > 1);
     requireReadToEnd(source, errors);
   }
-  if (features.parts.empty()) throw InputError(source.name + ": no feature in it has a geometry and a size");
+  if (features.parts.empty())
+    throw InputError(sourceInWords(source.name) + ": no feature in it has a geometry and a size");
   return features;
 }
 

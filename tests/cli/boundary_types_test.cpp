@@ -186,7 +186,7 @@ TEST_F(BoundaryTypes, AColumnThatIsNotThereIsRefusedWithThoseThatAre) {
   none.emplace_back("--overwrite");
   const ProgramRun run = runProgram(none);
   EXPECT_EQ(run.code, 3);
-  EXPECT_THAT(run.errors, HasSubstr("types.geojson: has no column \"shore\" of boundary types; there is only side"));
+  EXPECT_THAT(run.errors, HasSubstr("types.geojson': has no column \"shore\" of boundary types; there is only side"));
 }
 
 TEST_F(BoundaryTypes, FilesThatConcernNoFeatureAreNamedOnce) {
@@ -200,7 +200,7 @@ TEST_F(BoundaryTypes, FilesThatConcernNoFeatureAreNamedOnce) {
   const ProgramRun run = runProgram(options);
   EXPECT_EQ(run.code, 0);
   EXPECT_EQ(std::ranges::count(run.errors, '\n'), 1) << run.errors;
-  EXPECT_THAT(run.errors, HasSubstr("warning: " + none + ": says nothing of the mesh's boundary"));
+  EXPECT_THAT(run.errors, HasSubstr("warning: '" + none + "': says nothing of the mesh's boundary"));
   EXPECT_EQ(rolesIn("lake-2.gpkg").count("river"), 1u);
   // A shard has only some of the features, so it does not warn about the others.
   std::vector<std::string> share = options;

@@ -277,9 +277,10 @@ TEST_F(Commands, ArchivesOnStandardInputAreRead) {
   }
   const ProgramRun two = runShell(pack + "two.tgz | \"$0\" clean - -o c.gpkg");
   EXPECT_EQ(two.code, 3);
-  EXPECT_EQ(two.errors,
-            "coastmesh: error: standard input: holds 2 layers (a, b): name one as '/dev/stdin|a', or choose one of the "
-            "input's with --layer\n");
+  EXPECT_EQ(
+      two.errors,
+      "coastmesh: error: 'standard input': holds 2 layers (a, b): name one as '/dev/stdin|a', or choose one of the "
+      "input's with --layer\n");
   // GDAL has no names for all of these.
   const ProgramRun chained = runShell(pack + "one.tgz | \"$0\" info /vsitar//vsistdin/");
   EXPECT_EQ(chained.code, 3);

@@ -173,7 +173,8 @@ TEST_F(MeshRun, AFileCanHoldTheWholeJob) {
   const std::string turned = write("turned.toml", "size = -1\n");
   const ProgramRun negative = runProgram({"mesh", lake(), "-o", file("c.2dm"), "--config", turned});
   EXPECT_EQ(negative.code, 2);
-  EXPECT_NE(negative.errors.find(turned + ": 'size': '-1' is not a number"), std::string::npos) << negative.errors;
+  EXPECT_NE(negative.errors.find("'" + turned + "': 'size': '-1' is not a number"), std::string::npos)
+      << negative.errors;
   write("half.toml", "input = \"" + lake() + "\"\n");
   const ProgramRun half = runProgram({"mesh", "--config", file("half.toml")});
   EXPECT_EQ(half.code, 2);
@@ -233,7 +234,7 @@ TEST_F(MeshRun, FormerNamesOfOptionsAndKeysAreTakenWithAWarning) {
   const std::string config = write("former.toml", "shrink = false\n");
   const std::vector<std::pair<std::vector<std::string>, std::string>> formers = {
       {{"--no-shrink"}, warning("--no-shrink", "--no-coarsen")},
-      {{"--config", config}, config + ": " + warning("'shrink'", "'coarsen'")}};
+      {{"--config", config}, "'" + config + "': " + warning("'shrink'", "'coarsen'")}};
   for (const auto& [former, sentence] : formers) {
     const Json taken = report(former);
     EXPECT_EQ(taken["mesh"]["digest"], present["mesh"]["digest"]);

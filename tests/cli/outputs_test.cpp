@@ -249,7 +249,7 @@ TEST_F(Outputs, StandardInputThatCannotBeReadIsRefused) {
     const ProgramRun run = runShell("\"$0\" " + words + " < '" + file(".") + "'");
     EXPECT_EQ(run.code, 3) << run.errors;
     EXPECT_TRUE(isOneErrorLine(run.errors)) << run.errors;
-    EXPECT_THAT(run.errors, HasSubstr("standard input: cannot be read: Is a directory"));
+    EXPECT_THAT(run.errors, HasSubstr("'standard input': cannot be read: Is a directory"));
   }
 }
 

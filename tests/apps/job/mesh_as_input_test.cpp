@@ -44,7 +44,7 @@ TEST(MeshAsInput, IsNamedAsOne) {
   const TemporaryFolder folder;
   for (const char* name : {"mesh.14", "mesh.nc", "mesh.2dm", "mesh.slf"}) {
     const std::string path = written(folder, name);
-    EXPECT_EQ(refusalOf(path), path + ": a mesh, not a coastline; convert, check, info and plot read meshes");
+    EXPECT_EQ(refusalOf(path), "'" + path + "': a mesh, not a coastline; convert, check, info and plot read meshes");
   }
 }
 
@@ -52,7 +52,7 @@ TEST(MeshAsInput, LayersOfTrianglesAreReadIfTheyAreNamed) {
   const TemporaryFolder folder;
   for (const char* name : {"mesh.gpkg", "mesh.geojson", "mesh.fgb"}) {
     const std::string path = written(folder, name), layer = std::string(name) == "mesh.fgb" ? "mesh" : "triangles";
-    EXPECT_EQ(refusalOf(path), path + ": layer '" + layer +
+    EXPECT_EQ(refusalOf(path), "'" + path + "': layer '" + layer +
                                    "' has the triangles of a mesh, which convert, check, info and plot read; --layer " +
                                    layer + " takes each as a polygon");
     EXPECT_GT(meshed(path, {layer}).grid.triangles.size(), 0u) << name;

@@ -218,7 +218,7 @@ TEST_F(ConfigFile, FormerNamesAreTakenWithAWarning) {
     const std::string file = write("a.toml", text);
     const auto job = taken(file);
     EXPECT_FALSE(job->coarsen);
-    EXPECT_THAT(job->warnings, ElementsAre(file + ": " + sentence));
+    EXPECT_THAT(job->warnings, ElementsAre("'" + file + "': " + sentence));
     EXPECT_TRUE(taken(file, {{"--coarsen", "true"}})->coarsen) << "given before";
   }
 }
@@ -254,7 +254,7 @@ TEST_F(ConfigFile, MistakesAreNamed) {
   EXPECT_THAT(messageOf(write("n.json", "{\"size-max\": 1e999}")), ::testing::HasSubstr("too large"));
   EXPECT_THAT(messageOf(write("p.toml", "config = \"q.toml\"\n")), ::testing::HasSubstr("'config' is not an option"));
   const std::string negative = write("q.toml", "size-max = -3\n");
-  EXPECT_EQ(messageOf(negative), negative + ": 'size-max': '-3' is not a number in the range 0 or more");
+  EXPECT_EQ(messageOf(negative), "'" + negative + "': 'size-max': '-3' is not a number in the range 0 or more");
   EXPECT_THAT(messageOf(write("r.toml", "quiet = [true]\n")), ::testing::HasSubstr("true or false"));
   EXPECT_THAT(messageOf(write("o.toml", "[mesh.size]\nmax = 4\n")), ::testing::HasSubstr("nested"));
 }

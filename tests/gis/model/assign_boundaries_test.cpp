@@ -102,7 +102,7 @@ TEST_F(AssignBoundaries, AFileThatSaysNothingOfTheBoundaryIsWarnedOf) {
   const BoundaryReport report = assignBoundaries(grid, options);
   EXPECT_EQ(report.edges_by_file, 10u);
   ASSERT_EQ(report.warnings.size(), 1u);
-  EXPECT_THAT(report.warnings[0], HasSubstr("far.geojson: says nothing of the mesh's boundary"));
+  EXPECT_THAT(report.warnings[0], HasSubstr("far.geojson': says nothing of the mesh's boundary"));
 }
 
 // One of several rivers may be missing for the model alone.
@@ -117,7 +117,7 @@ TEST_F(AssignBoundaries, AFeatureThatSaysNothingOfTheBoundaryIsNamed) {
   ASSERT_EQ(report.missed.size(), 1u);
   const std::vector<std::string> warnings = missedWarnings(report.missed[0]);
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_THAT(warnings[0], HasSubstr("rivers.geojson: these openings or rivers are not in the mesh"));
+  EXPECT_THAT(warnings[0], HasSubstr("rivers.geojson': these openings or rivers are not in the mesh"));
   EXPECT_THAT(warnings[0], HasSubstr("feature 1 at (12.5, 55)"));
   EXPECT_THAT(warnings[0], ::testing::Not(HasSubstr("feature 2")));
 }

@@ -137,7 +137,7 @@ TEST_F(CleanedFile, WithADamagedPageIsRefused) {
   for (int i = 1; i <= 400; ++i) addLake(i);
   ASSERT_EQ(read().features.size(), 400u);
   testing::damageRowsWith("shore", path());
-  EXPECT_THAT(refusal(), AllOf(HasSubstr("cleaned.gpkg: cannot be read to its end"), HasSubstr("malformed")));
+  EXPECT_THAT(refusal(), AllOf(HasSubstr("cleaned.gpkg': cannot be read to its end"), HasSubstr("malformed")));
 }
 
 TEST_F(CleanedFile, EmptyShapesAreSkipped) {

@@ -183,7 +183,7 @@ TEST_F(ReadCoastline, NamesThePlaceInABareGeometry) {
       {write("bare.geojson", bare)},
       {"bare.geojson', feature 0: outer ring, vertex 3, is not a place ([\"x\", 9])", "repair or remove this feature"});
   expectRefused({write("cut.geojson", R"({"type":"Polygon","coordinates":[[[0,0],[9,0])")},
-                {"cut.geojson: not a vector file that GDAL can read"});
+                {"cut.geojson': not a vector file that GDAL can read"});
 }
 
 TEST_F(ReadCoastline, RefusesTextsThatAreNoWkt) {
@@ -417,7 +417,7 @@ TEST_F(ReadCoastline, ArchivesFromPipes) {
     FAIL() << "no error";
   } catch (const InputError& error) {
     const std::string text = error.what();
-    EXPECT_TRUE(text.starts_with(path("pipe") + ": holds 2 vector files (")) << text;
+    EXPECT_TRUE(text.starts_with("'" + path("pipe") + "': holds 2 vector files (")) << text;
     EXPECT_TRUE(text.ends_with("save it to a file, and name one as 'FILE/a/lake.geojson'")) << text;
   }
 }

@@ -469,7 +469,7 @@ TEST_F(SizeFiles, FeaturesWithSizesAreReadFromArchivesAndLayers) {
     EXPECT_EQ(readSizedFeatures(path, {}, 0.2).parts.at(0).size_m, 25.0) << path;
   EXPECT_THAT([&] { readSizedFeatures(file("two.gpkg"), {}, 0.2); },
               ::testing::ThrowsMessage<InputError>(
-                  AllOf(HasSubstr("two.gpkg|depths: has no attribute 'size'"), HasSubstr("FILE|LAYER"))));
+                  AllOf(HasSubstr("two.gpkg|depths': has no attribute 'size'"), HasSubstr("FILE|LAYER"))));
 }
 
 TEST_F(SizeFiles, FeaturesWithSizesThatCannotBeReadToTheirEndAreRefused) {
@@ -491,7 +491,7 @@ TEST_F(SizeFiles, FeaturesWithSizesThatCannotBeReadToTheirEndAreRefused) {
   ASSERT_EQ(readSizedFeatures(file("p.gpkg"), {}, 0.2).parts.size(), 1000u);
   testing::damageRowsWith("a buoy", file("p.gpkg"));
   EXPECT_THAT([&] { readSizedFeatures(file("p.gpkg"), {}, 0.2); },
-              ::testing::ThrowsMessage<InputError>(HasSubstr("p.gpkg: cannot be read to its end")));
+              ::testing::ThrowsMessage<InputError>(HasSubstr("p.gpkg': cannot be read to its end")));
 }
 
 // OGR itself takes the leading number of a text, whatever unit follows.
