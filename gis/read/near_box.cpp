@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <string>
 
 namespace coastmesh {
@@ -37,6 +38,16 @@ bool hasIndex(OGRLayer& layer) {
   return layer.GetExtent(&extent, FALSE) == OGRERR_NONE && extent.MinX >= -180.0 && extent.MaxX <= 180.0;
 }
 
+// The number of rows of a table: of an index, without features that have no geometry.
+std::uint64_t rowsIn(const OpenSource& source, const std::string& table) {
+  OGRLayer* counted = source.dataset->ExecuteSQL(("SELECT COUNT(*) FROM " + quoted(table)).c_str(), nullptr, nullptr);
+  if (counted == nullptr) return 0;
+  const std::unique_ptr<OGRFeature> row(counted->GetNextFeature());
+  const GIntBig rows = row ? row->GetFieldAsInteger64(0) : 0;
+  source.dataset->ReleaseResultSet(counted);
+  return static_cast<std::uint64_t>(rows);
+}
+
 // A condition on a box in the index. Several turns of the box may meet the layer.
 std::string meets(const Box& box) {
   const double dx = kMargin * widthOf(box), dy = kMargin * (box.ymax - box.ymin);
@@ -60,13 +71,14 @@ std::uint64_t keepNear(const OpenSource& source, const Box& box) {
   if (driver == nullptr || std::string_view(driver->GetDescription()) != "GPKG" || source.layers.size() != 1) return 0;
   OGRLayer& layer = *source.layers.front();
   if (!isSound(box) || !hasIndex(layer)) return 0;
-  const GIntBig before = layer.GetFeatureCount();
+  const std::string index = std::string("rtree_") + layer.GetName() + "_" + layer.GetGeometryColumn();
+  const std::uint64_t before = rowsIn(source, index + "_rowid");
   // Not OGR's spatial filter, which also excludes features by their shape and may return them in another order.
-  const std::string table = layer.GetName(), column = layer.GetGeometryColumn(), fid = layer.GetFIDColumn();
   const std::string condition =
-      quoted(fid) + " IN (SELECT id FROM " + quoted("rtree_" + table + "_" + column) + " WHERE " + meets(box) + ")";
+      quoted(layer.GetFIDColumn()) + " IN (SELECT id FROM " + quoted(index) + " WHERE " + meets(box) + ")";
   if (layer.SetAttributeFilter(condition.c_str()) != OGRERR_NONE) return 0;
-  return static_cast<std::uint64_t>(std::max<GIntBig>(before - layer.GetFeatureCount(), 0));
+  const auto kept = static_cast<std::uint64_t>(layer.GetFeatureCount());
+  return before > kept ? before - kept : 0;
 }
 
 void keepAll(const OpenSource& source) {
