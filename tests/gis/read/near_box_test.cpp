@@ -18,7 +18,7 @@ using Fids = std::vector<std::int64_t>;
 
 class NearBox : public ::testing::Test {
  protected:
-  // Writes squares of a degree to a layer; each is given by its south-western corner.
+  // Writes squares of a degree to a layer, each given by its south-western corner, and a feature without a geometry.
   std::string layer(const std::string& name, const std::vector<Point>& corners, OGRwkbGeometryType type = wkbPolygon,
                     const std::string& index = "YES") const {
     GDALAllRegister();
@@ -40,6 +40,8 @@ class NearBox : public ::testing::Test {
       EXPECT_EQ(feature.SetGeometry(&polygon), OGRERR_NONE);
       EXPECT_EQ(made->CreateFeature(&feature), OGRERR_NONE);
     }
+    OGRFeature empty(made->GetLayerDefn());
+    EXPECT_EQ(made->CreateFeature(&empty), OGRERR_NONE);
     return path;
   }
 
