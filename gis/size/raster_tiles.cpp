@@ -19,6 +19,8 @@ constexpr float kNothing = std::numeric_limits<float>::infinity();
 // `kFineShare` times that.
 constexpr float kAlike = 1.04F;
 constexpr double kFineShare = 0.5;
+// Sizes that differ more within a leaf grow faster than the usual gradation.
+constexpr float kSteep = 1.3F;
 // The most rows of a margin; more are an error.
 constexpr int kMostMargin = 200;
 
@@ -75,7 +77,7 @@ void readTile(const RasterBand& band, const TileTask& task, const PixelRect& pix
     });
 }
 
-SizeTile reduced(const RasterTile& tile, std::span<const float> sizes) {
+SizeTile reduced(const RasterTile& tile, std::span<const float> sizes, bool keeps_least) {
   // Pyramids of the minimum, the maximum and the mean of the requested sizes.
   struct Level {
     std::vector<float> low, high, sum, count;
@@ -143,9 +145,10 @@ SizeTile reduced(const RasterTile& tile, std::span<const float> sizes) {
     const float mean = level.count[k] > 0.0F ? level.sum[k] / level.count[k] : kNothing;
     const double side_m = pixel_m * static_cast<double>(1 << work.level);
     const bool alike = high <= kAlike * low || (work.level > 0 && side_m <= kFineShare * low);
-    nodes[work.node] = {low, high, level.count[k] > 0.0F ? mean : 0.0F, mean, 0};
+    const float value = keeps_least && alike && mean > kSteep * low ? low : mean;
+    nodes[work.node] = {low, high, level.count[k] > 0.0F ? value : 0.0F, value, 0};
     if (work.level == 0 || low == kNothing || alike) {
-      if (alike && low != kNothing && high != kNothing) nodes[work.node].low = nodes[work.node].high = mean;
+      if (alike && low != kNothing && high != kNothing) nodes[work.node].low = nodes[work.node].high = value;
       continue;
     }
     const auto below = static_cast<std::uint32_t>(nodes.size());
@@ -205,7 +208,7 @@ TileAnswer answerTask(const RasterBand& band, const TileTask& task, std::span<co
     for (std::size_t r = 0; r < rules.size(); ++r) {
       sizes.assign(static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height), kNothing);
       rules[r].sizes(tile, sizes);
-      answer.tiles[r].push_back(reduced(tile, sizes));
+      answer.tiles[r].push_back(reduced(tile, sizes, rules[r].keeps_least));
     }
   }
   for (const PixelRect& strip : task.strips) {

@@ -14,7 +14,8 @@ namespace {
 
 TileRule rawRule() {
   return {
-      0.0, [](const RasterTile& tile, std::span<float> sizes) {
+      0.0,
+      [](const RasterTile& tile, std::span<float> sizes) {
         for (int y = 0; y < tile.height; ++y) {
           for (int x = 0; x < tile.width; ++x) {
             const float size = tile.at(x, y);
@@ -27,7 +28,8 @@ TileRule rawRule() {
                 size;
           }
         }
-      }};
+      },
+      true};
 }
 
 // The smallest size wherever the raster has a value: smaller than any pixel, so that a tile keeps them apart.

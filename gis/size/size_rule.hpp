@@ -27,6 +27,9 @@ struct RasterTile {
 struct TileRule {
   double margin_m = 0.0;  // metres of surroundings that the rule uses; 0: none
   std::function<void(const RasterTile& tile, std::span<float> sizes)> sizes;
+  // Where sizes differ much within half of the smallest, this one applies, not their mean: each was asked for by
+  // itself. Means ignore single shoals.
+  bool keeps_least{};
 };
 
 // The size for depths from `from_m` to `to_m`, metres, positive down.

@@ -99,6 +99,19 @@ TEST_F(SizeFiles, ASpotOfOnePixelIsNotMissed) {
   EXPECT_NEAR(size->at({14.005, 4.005}), 0.2, 0.04);
 }
 
+// Many pixels fit into an element there.
+TEST_F(SizeFiles, ALineNarrowerThanItsSizeIsNotMissed) {
+  SizeOptions options;
+  options.gradation = 0.2;
+  options.rasters = {raster("a.tif", 2000, 1000, {0.0, 0.01, 0.0, 10.0, 0.0, -0.01}, 0,
+                            [](double x, double) { return std::abs(x - 13.005) < 0.005 ? 0.4 : 6.0; })};
+  const auto size = sizesIn(options, planeDomain(rectangle(20.0, 10.0)));
+  for (double y = 0.3; y < 10.0; y += 0.41) {
+    EXPECT_NEAR(size->at({13.005, y}), 0.4, 0.08) << y;
+    EXPECT_NEAR(size->at({16.005, y}), 1.0, 0.12) << y;
+  }
+}
+
 // Against many points of each box; boxes from a hundredth of a pixel to several pixels.
 TEST_F(SizeFiles, BoundsOfARasterHoldAndAreTight) {
   std::mt19937_64 random(11);
