@@ -110,7 +110,7 @@ bool isPlaneGraph(const InputOptions& options) {
 Coastline readInput(const InputOptions& options, ReadReport& report, BoundaryRules& boundaries, bool by_frame) {
   Coastline coastline;
   ReadFilter filter = options.filter;
-  // A box is in the CRS of the first file. With `plane`, all coordinates tell whether that is true.
+  // A box is in the CRS of the first file. With `plane`, whether that is right shows in all coordinates.
   if (by_frame && options.files.size() == 1 && options.boundary_column.empty() && options.crs != "plane")
     filter.near = options.frame.box;
   try {

@@ -29,7 +29,7 @@ constexpr int kFirstBalance = 1, kSettle = 2;
 // Poor triangles are improved in the second half of the sweeps, if they gain at least kLeastGain and their star costs
 // at most kMostCost times as much.
 constexpr double kLeastGain = 0.002, kMostCost = 1.005;
-// Moves to try for them, as shares of the way to the triangle's equilateral apex; 0.4 serves one in forty.
+// Moves to try for them, as shares of the way to the triangle's equilateral apex; of trials at 0.4 one in fifty serves.
 constexpr double kPulls[] = {0.15, 0.05};
 
 // Triangles of a better shape have acute angles only in the frame (90 degrees give at most 0.866): edges between two of
@@ -107,7 +107,8 @@ void Optimiser::sweep(bool merges, bool balances, const RunControl& control, dou
     }
     if (!gatherRing(v) || (merges && mergeShort(v))) continue;
     const bool moved = move(v);
-    if (balances && mesh_.trianglesRound(v) != 6 && !(futile_[v] & kBalancing) && (!moved || gatherRing(v))) balance(v);
+    if (!balances || mesh_.trianglesRound(v) == 6 || (futile_[v] & kBalancing)) continue;
+    if (!moved || gatherRing(v)) balance(v);
   }
 }
 
