@@ -159,13 +159,17 @@ void EditMesh::moveTriangles(const std::vector<TriId>& slot, std::size_t count) 
   triangles.resize(count);
 }
 
-StarKind EditMesh::ring(VertexId v, TriId home, std::size_t most, Ring& ring) const {
-  ring.corners.clear();
-  ring.triangles.clear();
-  return walkRound(v, home, most, [&](EdgeRef e) {
-    ring.corners.push_back(origin(e));
-    ring.triangles.push_back(triOf(e));
-  });
+bool EditMesh::ring(VertexId v, std::size_t most, Ring& ring) const {
+  const std::size_t count = trianglesRound(v);
+  if (count > most) return false;
+  ring.corners.resize(count);
+  ring.triangles.resize(count);
+  VertexId* corner = ring.corners.data();
+  TriId* triangle = ring.triangles.data();
+  return walkRound(v, triangleOf(v), count, [&](EdgeRef e) {
+           *corner++ = origin(e);
+           *triangle++ = triOf(e);
+         }) == StarKind::Closed;
 }
 
 StarKind EditMesh::star(VertexId v, std::vector<EdgeRef>& opposite, std::size_t most) const {

@@ -110,8 +110,8 @@ class EditMesh : private LinkedTriangles {
   StarKind star(VertexId v, std::vector<EdgeRef>& opposite,
                 std::size_t most = std::numeric_limits<std::size_t>::max()) const;
 
-  // The same as a ring, starting at the triangle `home`. REQUIRES: v is not on the boundary.
-  StarKind ring(VertexId v, TriId home, std::size_t most, Ring& ring) const;
+  // The same as a ring. Returns false if v has more than `most` triangles, or is on the boundary.
+  bool ring(VertexId v, std::size_t most, Ring& ring) const;
 
   // The triangles around the given vertices and their boundary. REQUIRES: the vertices are connected by edges, and none
   // is on the boundary of the mesh. Returns false if the patch is not a disk.

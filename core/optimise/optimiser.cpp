@@ -118,7 +118,7 @@ MeshState Optimiser::releaseState() { return releaseDue(mesh_, std::move(due_), 
 bool Optimiser::gatherRing(VertexId v) {
   segment_ = kNone;
   is_open_ = false;
-  return mesh_.ring(v, mesh_.triangleOf(v), kMostRound, ring_) == StarKind::Closed && look(v);
+  return mesh_.ring(v, kMostRound, ring_) && look(v);
 }
 
 // Sets the frame at v and the ring's corners in it. False if a frozen edge is opposite.

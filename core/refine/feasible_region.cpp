@@ -81,20 +81,38 @@ std::size_t clip(Point*& polygon, std::size_t corners, Point*& clipped, double* 
   return left;
 }
 
-// By value, so that it compiles without a branch.
-inline double larger(double a, double b) { return a > b ? a : b; }
-
 // Above 0 if that angle of the triangle x, x + d, c is too small. `squared` is |d|². Over |d|, each is the distance of
-// c to the constraint, approximately for the petal.
+// c to the constraint, approximately for the petal. For one triangle, or for two at once.
+template <typename Number>
 struct Lacks {
-  double at_x, at_y, at_c;
+  Number at_x, at_y, at_c;
 };
 
-inline Lacks lacksOf(const Point& x, const Point& d, double squared, const Point& c, const TriangleBound& bound) {
-  const Point g = c - x;
-  const double height = bound.cos_min * cross(d, g), along = dot(d, g);
+template <typename Number>
+Lacks<Number> lacksOf(Number from_x, Number from_y, Number along_x, Number along_y, Number squared, const Point& c,
+                      const TriangleBound& bound) {
+  const Number gx = c.x - from_x, gy = c.y - from_y;
+  const Number height = bound.cos_min * (along_x * gy - along_y * gx), along = along_x * gx + along_y * gy;
   return {bound.sin_min * along - height, bound.sin_min * (squared - along) - height,
-          bound.sin_min * (squaredLength(g) - along) - height};
+          bound.sin_min * (gx * gx + gy * gy - along) - height};
+}
+
+Lacks<double> lacksOf(const LookEdge& e, const Point& c, const TriangleBound& bound) {
+  return lacksOf(e.from.x, e.from.y, e.along.x, e.along.y, e.squared, c, bound);
+}
+
+// How far a place is from meeting the constraints of each edge, squared and as a share of the edge. Returns the most.
+double measureLacks(std::span<const LookEdgePair> edges, const Point& c, const TriangleBound& bound,
+                    std::span<DoublePair> shares) {
+  DoublePair worst{};
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const LookEdgePair& e = edges[i];
+    const auto lacks = lacksOf(e.from_x, e.from_y, e.along_x, e.along_y, e.squared, c, bound);
+    const DoublePair lack = larger(larger(lacks.at_x, lacks.at_y), larger(lacks.at_c, DoublePair{}));
+    shares[i] = lack * lack * e.inverse;
+    worst = larger(worst, shares[i]);
+  }
+  return larger(worst[0], worst[1]);
 }
 
 Point centreOf(const Point* polygon, std::size_t corners) {
@@ -120,13 +138,53 @@ bool FeasibleRegion::isForSmallestAnglesAlone() const {
 
 FeasibleRegion::Look FeasibleRegion::look(std::span<const LinkEdge> link) {
   if (bound_.min_angle <= 0.0) return {};
-  if (edges_.size() < link.size()) edges_.resize(link.size());
-  PetalBox box;
-  for (std::size_t i = 0; i < link.size(); ++i) box.cut(ready(link[i].x, link[i].y, edges_[i]));
-  return look(std::span(edges_.data(), link.size()), box);
+  edges_.take(link.size(), [&](std::size_t i) -> const LinkEdge& { return link[i]; });
+  return look(edges_, boxOf(edges_));
 }
 
-FeasibleRegion::Look FeasibleRegion::look(std::span<LookEdge> edges, const PetalBox& box) {
+// The boxes of two petals.
+struct FeasibleRegion::BoxPair {
+  DoublePair low_x, low_y, high_x, high_y;
+
+  BoxPair(const LookEdgePair& e, const PetalShape& petal) {
+    const DoublePair radius = petal.radius * DoublePair{std::sqrt(e.squared[0]), std::sqrt(e.squared[1])};
+    const DoublePair x = 0.5 * (e.from_x + e.to_x) - petal.height * e.along_y;
+    const DoublePair y = 0.5 * (e.from_y + e.to_y) + petal.height * e.along_x;
+    low_x = x - radius;
+    low_y = y - radius;
+    high_x = x + radius;
+    high_y = y + radius;
+  }
+  PetalBox operator[](std::size_t lane) const { return {{low_x[lane], low_y[lane]}, {high_x[lane], high_y[lane]}}; }
+  void cut(const BoxPair& by) {
+    low_x = larger(low_x, by.low_x);
+    low_y = larger(low_y, by.low_y);
+    high_x = smaller(high_x, by.high_x);
+    high_y = smaller(high_y, by.high_y);
+  }
+};
+
+PetalBox FeasibleRegion::boxOf(LookEdges& edges) const {
+  const std::span<const LookEdgePair> pairs = edges.pairs();
+  BoxPair all(pairs.front(), petal_);
+  for (const LookEdgePair& e : pairs.subspan(1)) all.cut(BoxPair(e, petal_));
+  PetalBox box = all[0];
+  box.cut(all[1]);
+  return box;
+}
+
+void FeasibleRegion::boxesOf(LookEdges& edges, std::vector<PetalBox>& boxes) const {
+  const std::span<const LookEdgePair> pairs = edges.pairs();
+  boxes.resize(2 * pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const BoxPair both(pairs[i], petal_);
+    boxes[2 * i] = both[0];
+    boxes[2 * i + 1] = both[1];
+  }
+  boxes.resize(edges.size());
+}
+
+FeasibleRegion::Look FeasibleRegion::look(LookEdges& edges, const PetalBox& box) {
   const auto& [low, high] = box;
   if (box.isEmpty()) return {std::nullopt, true};
   constexpr std::size_t kMostCuts = 12;
@@ -138,28 +196,25 @@ FeasibleRegion::Look FeasibleRegion::look(std::span<LookEdge> edges, const Petal
   polygon[1] = {high.x, low.y};
   polygon[2] = high;
   polygon[3] = {low.x, high.y};
-  for (LookEdge& e : edges) e.inverse = 1.0 / e.squared;
+  const std::span<LookEdgePair> pairs = edges.pairs();
+  for (LookEdgePair& e : pairs) e.inverse = 1.0 / e.squared;
+  if (shares_.size() < pairs.size()) shares_.resize(pairs.size());
   // Cuts by the constraint that the centre of the remaining polygon violates most.
   for (std::size_t cuts = 0; cuts < kMostCuts; ++cuts) {
     const Point c = centreOf(polygon, corners);
-    double worst = 0.0;
-    const LookEdge* worst_edge = nullptr;
-    for (const LookEdge& e : edges) {
-      const Lacks lacks = lacksOf(e.from, e.along, e.squared, c, bound_);
-      const double lack = larger(larger(lacks.at_x, lacks.at_y), larger(lacks.at_c, 0.0));
-      const double share = lack * lack * e.inverse;
-      worst_edge = share > worst ? &e : worst_edge;
-      worst = larger(worst, share);
-    }
-    if (worst_edge == nullptr) return {c, false};
-    const Point x = worst_edge->from, y = worst_edge->to, d = worst_edge->along;
-    const Lacks lacks = lacksOf(x, d, worst_edge->squared, c, bound_);
+    const double most = measureLacks(pairs, c, bound_, shares_);
+    if (most == 0.0) return {c, false};
+    std::size_t worst = 0;
+    while (worst < edges.size() && shares_[worst / 2][worst % 2] != most) ++worst;
+    if (worst == edges.size()) return {};  // not a number
+    const LookEdge e = edges[worst];
+    const Lacks lacks = lacksOf(e, c, bound_);
     if (lacks.at_x >= lacks.at_y && lacks.at_x >= lacks.at_c) {
-      corners = clip(polygon, corners, clipped, sides, x, turned(d, bound_.cos_min, bound_.sin_min));
+      corners = clip(polygon, corners, clipped, sides, e.from, turned(e.along, bound_.cos_min, bound_.sin_min));
     } else if (lacks.at_y >= lacks.at_c) {
-      corners = clip(polygon, corners, clipped, sides, y, turned(d, bound_.cos_min, -bound_.sin_min));
+      corners = clip(polygon, corners, clipped, sides, e.to, turned(e.along, bound_.cos_min, -bound_.sin_min));
     } else {
-      const Disk petal = petalOf({x, y}, petal_);
+      const Disk petal = petalOf({e.from, e.to}, petal_);
       const Point outward = c - petal.centre;
       const Point on = petal.centre + (petal.radius / std::sqrt(squaredLength(outward))) * outward;
       corners = clip(polygon, corners, clipped, sides, on, {-outward.y, outward.x});
@@ -213,32 +268,39 @@ std::optional<Point> FeasibleRegion::findPoint(std::span<const LinkEdge> link) {
   return std::nullopt;
 }
 
-std::optional<Point> FeasibleRegion::findPointBetween(const Point& a, const Point& b,
-                                                      std::span<const LinkEdge> link) const {
-  const Point along = b - a;
-  double low = 0.0, high = 1.0;
+bool FeasibleRegion::cut(LinePart& part, const LinkEdge& edge) const {
+  const std::span<const LinkEdge> link(&edge, 1);
   forEachHalfPlane(link, bound_, [&](const Point& on, const Point& direction) {
-    // cross(direction, a + s along - on) >= 0
-    const double at_a = cross(direction, a - on), slope = cross(direction, along);
-    if (slope > 0.0) low = std::max(low, -at_a / slope);
-    if (slope < 0.0) high = std::min(high, -at_a / slope);
-    if (slope == 0.0 && at_a < 0.0) high = -1.0;
-    return low < high;
+    // cross(direction, from + s along - on) >= 0
+    const double at_start = cross(direction, part.from - on), slope = cross(direction, part.along);
+    if (slope > 0.0) part.low = std::max(part.low, -at_start / slope);
+    if (slope < 0.0) part.high = std::min(part.high, -at_start / slope);
+    if (slope == 0.0 && at_start < 0.0) part.high = -1.0;
+    return !part.isEmpty();
   });
+  if (part.isEmpty()) return false;
+  const double qa = squaredLength(part.along);
   forEachDisk(link, bound_, petal_, [&](const Disk& d) {
-    const Point offset = a - d.centre;
-    const double qa = squaredLength(along), qb = dot(along, offset), qc = squaredLength(offset) - d.radius * d.radius;
+    const Point offset = part.from - d.centre;
+    const double qb = dot(part.along, offset), qc = squaredLength(offset) - d.radius * d.radius;
     const double discriminant = qb * qb - qa * qc;
     if (discriminant <= 0.0) {
-      high = -1.0;
+      part.high = -1.0;
       return;
     }
     const double root = std::sqrt(discriminant);
-    low = std::max(low, (-qb - root) / qa);
-    high = std::min(high, (-qb + root) / qa);
+    part.low = std::max(part.low, (-qb - root) / qa);
+    part.high = std::min(part.high, (-qb + root) / qa);
   });
-  if (low >= high) return std::nullopt;
-  return a + (0.5 * (low + high)) * along;
+  return !part.isEmpty();
+}
+
+std::optional<Point> FeasibleRegion::findPointBetween(const Point& a, const Point& b,
+                                                      std::span<const LinkEdge> link) const {
+  LinePart part(a, b);
+  for (const LinkEdge& e : link)
+    if (!cut(part, e)) return std::nullopt;
+  return a + (0.5 * (part.low + part.high)) * part.along;
 }
 
 }  // namespace coastmesh

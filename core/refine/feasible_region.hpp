@@ -8,6 +8,7 @@
 
 #include "core/metric.hpp"
 #include "core/point.hpp"
+#include "core/refine/look_edges.hpp"
 
 namespace coastmesh {
 
@@ -38,11 +39,13 @@ struct PetalBox {
   bool isEmpty() const { return low.x >= high.x || low.y >= high.y; }
 };
 
-// A link edge as `look` needs it.
-struct LookEdge {
-  Point from, to, along;
-  double squared;  // length
-  double inverse;  // of that; set by `look`
+// The part of a line from a to b that is feasible so far, as shares of the way.
+struct LinePart {
+  Point from, along;
+  double low = 0.0, high = 1.0;
+
+  LinePart(const Point& a, const Point& b) : from(a), along(b - a) {}
+  bool isEmpty() const { return low >= high; }
 };
 
 // The places of a vertex at which, its link fixed, all triangles of its star meet the bounds (Erten & Üngör 2007,
@@ -66,22 +69,31 @@ class FeasibleRegion {
   Look look(std::span<const LinkEdge> link);
 
   // The same in two steps, for links that share edges: `ready` prepares an edge and returns its petal's box; `look`
-  // takes edges and the intersection of their boxes. REQUIRES, of both: the smallest angle is above 0.
+  // takes edges and the intersection of their boxes. REQUIRES, of all: the smallest angle is above 0.
   PetalBox ready(const Point& x, const Point& y, LookEdge& edge) const {
     const Point d = y - x;
     const double squared = squaredLength(d);
     const double radius = petal_.radius * std::sqrt(squared);
     const Point mid = midpoint(x, y);
     const Point centre{mid.x - petal_.height * d.y, mid.y + petal_.height * d.x};
-    edge = {x, y, d, squared, 0.0};
+    edge = {x, y, d, squared};
     return {{centre.x - radius, centre.y - radius}, {centre.x + radius, centre.y + radius}};
   }
-  Look look(std::span<LookEdge> edges, const PetalBox& box);
+  Look look(LookEdges& edges, const PetalBox& box);
+
+  // The boxes of the petals of some edges, at least one: their intersection, or each.
+  PetalBox boxOf(LookEdges& edges) const;
+  void boxesOf(LookEdges& edges, std::vector<PetalBox>& boxes) const;
 
   // Like findPoint on the line from a to b: the midpoint of its feasible part.
   std::optional<Point> findPointBetween(const Point& a, const Point& b, std::span<const LinkEdge> link) const;
 
+  // Cuts a part of a line by the constraints of one link edge. Returns whether anything is left.
+  bool cut(LinePart& part, const LinkEdge& edge) const;
+
  private:
+  struct BoxPair;
+
   bool isForSmallestAnglesAlone() const;
   void makeRoom(std::size_t corners);
 
@@ -89,7 +101,8 @@ class FeasibleRegion {
   PetalShape petal_;
 
   // Scratch.
-  std::vector<LookEdge> edges_;
+  LookEdges edges_;
+  std::vector<DoublePair> shares_;
   std::vector<Point> polygon_;
   std::vector<Point> clipped_;
   std::vector<double> sides_;

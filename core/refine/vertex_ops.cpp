@@ -20,9 +20,10 @@ std::size_t mostTriangles(const TriangleBound& bound) {
 constexpr std::size_t kMergedAway = 2;
 
 // The same for a merged vertex. The limit is below a full turn: close to that a place is hardly ever feasible.
-bool hasTooManyToMerge(std::size_t triangles, const TriangleBound& bound) {
+std::size_t mostTrianglesMerged(const TriangleBound& bound) {
   constexpr double kMostTurn = toRadians(299.5);
-  return static_cast<double>(triangles) * bound.min_angle > kMostTurn;
+  if (bound.min_angle <= 0.0) return std::numeric_limits<std::size_t>::max() / 2;
+  return static_cast<std::size_t>(kMostTurn / bound.min_angle);
 }
 
 // One in a hundred merges is along an edge whose squared length exceeds this share of the mean around its end: none is
@@ -31,6 +32,13 @@ constexpr double kLongestToMerge = 1.6;
 
 // Below this minimum angle the mean of the neighbours, if feasible, is as good a target as the middle of the region.
 constexpr double kMeanServesBelow = toRadians(36.5);
+
+// The cotangent of the angle up to which a good triangle stays Delaunay beside any good one, less a margin for
+// rounding: the largest possible angle there is a half turn less two of the smallest.
+double cotOfSafeAngle(const TriangleBound& bound) {
+  if (bound.min_angle <= 0.0) return std::numeric_limits<double>::infinity();
+  return 1.0 / std::tan(2.0 * bound.min_angle) + 1e-6;
+}
 
 // Moves to try for a good vertex, as shares of the way to its target: beyond it first, since its neighbours move too
 // (over-relaxation), and half of it if no more is feasible.
@@ -78,10 +86,11 @@ bool fits(std::span<const LinkEdge> link, const Point& place, const TriangleBoun
       link, [&](const LinkEdge& e) { return orient2d(e.x, e.y, place) > 0 && !isBad(e.x, e.y, place, bound); });
 }
 
-Point meanOf(std::span<const LinkEdge> link) {
+// The mean of the corners of a ring.
+Point meanOf(const LookEdges& edges) {
   Point sum;
-  for (const LinkEdge& e : link) sum = sum + e.x;
-  return (1.0 / static_cast<double>(link.size())) * sum;
+  for (std::size_t i = 0; i < edges.size(); ++i) sum = sum + edges[i].from;
+  return (1.0 / static_cast<double>(edges.size())) * sum;
 }
 
 }  // namespace
@@ -91,6 +100,8 @@ VertexOps::VertexOps(EditMesh& mesh, const Pslg& pslg, const TriangleBound& boun
       pslg_(pslg),
       bound_(bound),
       most_triangles_(mostTriangles(bound)),
+      most_merged_(mostTrianglesMerged(bound)),
+      cot_safe_(cotOfSafeAngle(bound)),
       flips_may_harm_(bound.max_angle < std::numbers::pi || !std::isinf(bound.squared_size)),
       region_(bound) {}
 
@@ -149,7 +160,7 @@ bool VertexOps::gatherBoth(VertexId goes, VertexId stays, Star& star) {
   const std::size_t own = star.patch.boundary.size();
   if (!appendStar(stays, goes, stays, star) || isBarred(star)) return false;
   const std::vector<BoundaryEdge>& boundary = star.patch.boundary;
-  if (boundary.size() < 3 || hasTooManyToMerge(boundary.size(), bound_)) return false;
+  if (boundary.size() < 3 || boundary.size() > most_merged_) return false;
   std::size_t common = 0;
   for (std::size_t i = own; i < boundary.size(); ++i)
     for (std::size_t j = 0; j < own; ++j) common += boundary[i].a == boundary[j].b;
@@ -238,110 +249,90 @@ bool VertexOps::isBadBeyond(EdgeRef e) const {
 // True if flips at the boundary of a star could do harm.
 bool VertexOps::mayNotFlip(const Star& star) const {
   return flips_may_harm_ || (bad_stays_ && std::ranges::any_of(star.patch.boundary, [this](const BoundaryEdge& r) {
-                               return isBadBeyond(r.beyond);
+                               return !isClearOfBad(r.a) && !isClearOfBad(r.b) && isBadBeyond(r.beyond);
                              }));
 }
 
 // True if two neighbours would have too many triangles as one vertex: at most four of their sum are shared or vanish.
 bool VertexOps::hasTooManyTogether(VertexId v, VertexId w) const {
-  const std::size_t both = mesh_.trianglesRound(v) + mesh_.trianglesRound(w);
-  return both > 4 && hasTooManyToMerge(both - 4, bound_);
+  return mesh_.trianglesRound(v) + mesh_.trianglesRound(w) > most_merged_ + 4;
 }
 
-// Prepares the ring of a vertex, in the frame at it, for merges with its neighbours.
-void VertexOps::makeReady(const Frame& frame, const Ring& ring) {
-  auto& [edges, boxes, before, after] = memory_.ring_look;
-  const std::size_t count = ring.corners.size();
-  edges.resize(count);
-  boxes.resize(count);
-  before.assign(count + 1, {});
-  after.assign(count + 1, {});
-  Point x = frame.to(mesh_.point(ring.corners[count - 1]));
-  for (std::size_t k = 0; k < count; ++k) {
-    const Point y = frame.to(mesh_.point(ring.corners[k]));
-    boxes[k] = region_.ready(x, y, edges[k]);
-    before[k + 1] = before[k];
-    before[k + 1].cut(boxes[k]);
-    x = y;
-  }
-  for (std::size_t k = count; k-- > 0;) {
-    after[k] = after[k + 1];
-    after[k].cut(boxes[k]);
-  }
-}
-
-// The box of the ring without the two edges at corner k.
-PetalBox VertexOps::boxWithout(std::size_t k) const {
-  const RingLook& ring = memory_.ring_look;
-  if (k + 1 < ring.edges.size()) {
-    PetalBox box = ring.before[k];
-    box.cut(ring.after[k + 2]);
-    return box;
-  }
-  PetalBox box;
-  for (std::size_t i = 1; i < k; ++i) box.cut(ring.boxes[i]);
-  return box;
-}
-
-void VertexOps::takeEdgesWithout(std::size_t k) {
-  const std::vector<LookEdge>& ring = memory_.ring_look.edges;
-  std::vector<LookEdge>& edges = memory_.look_edges;
-  const std::size_t beside = k + 1 < ring.size() ? k + 1 : 0;
-  edges.clear();
-  for (std::size_t i = 0; i < ring.size(); ++i)
-    if (i != k && i != beside) edges.push_back(ring[i]);
+// The ring of a free vertex; null if it has more triangles than `most`.
+const Ring* VertexOps::gatherRing(VertexId v, std::size_t most) {
+  memory_.ring_look.forget();
+  Ring& ring = memory_.ring;
+  return mesh_.ring(v, most, ring) ? &ring : nullptr;
 }
 
 // A quick test of two free vertices, v with its prepared ring and the one at its corner k, that rules out most merges:
 // mostly by the box alone, before all of the other star is visited.
 bool VertexOps::cannotMerge(const Frame& frame, VertexId v, const Ring& ring, std::size_t k) {
-  PetalBox box = boxWithout(k);
+  PetalBox box = memory_.ring_look.boxWithout(k);
   if (box.isEmpty()) return true;
-  takeEdgesWithout(k);
-  std::vector<LookEdge>& edges = memory_.look_edges;
+  LookEdges& edges = memory_.look_edges;
+  edges.clear();
+  LookEdge edge;
   const auto append = [&](EdgeRef e) {
     const VertexId a = mesh_.origin(e), b = mesh_.target(e);
     if (a == v || b == v) return true;
-    box.cut(region_.ready(frame.to(mesh_.point(a)), frame.to(mesh_.point(b)), edges.emplace_back()));
+    box.cut(region_.ready(frame.to(mesh_.point(a)), frame.to(mesh_.point(b)), edge));
+    edges.push(edge);
     return !box.isEmpty();
   };
-  return !walkAllRound(mesh_, ring.corners[k], ring.triangles[k], most_triangles_ + kMergedAway, append) ||
-         region_.look(edges, box).is_empty;
+  if (!walkAllRound(mesh_, ring.corners[k], ring.triangles[k], most_triangles_ + kMergedAway, append)) return true;
+  memory_.ring_look.visitWithout(k, [&](const LookEdge& e) {
+    edges.push(e);
+    return true;
+  });
+  return region_.look(edges, box).is_empty;
 }
 
-// The same for a corner on a segment, by the star of v alone.
-bool VertexOps::cannotMergeOnto(std::size_t k) {
-  const PetalBox box = boxWithout(k);
+// The neighbours along its segment of a vertex there, from a triangle at it; nullopt if there are too many triangles
+// between them.
+std::optional<std::pair<VertexId, VertexId>> VertexOps::alongSegment(VertexId w, TriId between) const {
+  const auto walk = [&](unsigned (*side)(unsigned)) {
+    TriId t = between;
+    for (std::size_t left = most_triangles_ + kMergedAway; left > 0; --left) {
+      const unsigned i = mesh_.cornerOf(t, w);
+      const EdgeRef spoke = edgeRef(t, side(i));
+      if (mesh_.isConstrained(spoke)) return mesh_.triangle(t).v[3 - i - side(i)];
+      t = triOf(mesh_.twin(spoke));
+    }
+    return VertexId{kNone};
+  };
+  const VertexId before = walk(prev3), after = walk(next3);
+  if (before == kNone || after == kNone) return std::nullopt;
+  return std::pair(before, after);
+}
+
+// The same for a corner on a segment, where the merged vertex stays on it: by the star of v alone.
+bool VertexOps::cannotMergeOnto(const Frame& frame, const Ring& ring, std::size_t k) const {
+  const PetalBox box = memory_.ring_look.boxWithout(k);
   if (box.isEmpty()) return true;
-  takeEdgesWithout(k);
-  return region_.look(memory_.look_edges, box).is_empty;
+  const auto ends = alongSegment(ring.corners[k], ring.triangles[k]);
+  if (!ends) return true;
+  const Point a = frame.to(mesh_.point(ends->first)), b = frame.to(mesh_.point(ends->second));
+  PetalBox both{{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}};
+  both.cut(box);
+  if (both.low.x > both.high.x || both.low.y > both.high.y) return true;
+  LinePart part(a, b);
+  return !memory_.ring_look.visitWithout(k, [&](const LookEdge& e) { return region_.cut(part, {e.from, e.to}); });
 }
 
-// Like `fits` if only smallest angles are bounded; in the plane it leaves the triangles in `fan`. There a triangle with
-// good angles is so far from flat that the sign of its area is certain.
-bool VertexOps::fitsAt(const Point& place, std::span<const LinkEdge> link) {
-  if (bound_.surface.isCurved()) return fits(link, place, bound_);
-  std::vector<FanTriangle>& fan = memory_.fan;
-  if (fan.size() < link.size()) fan.resize(link.size());
-  FanTriangle* out = fan.data();
-  for (const LinkEdge& e : link) {
-    const Point xy = e.y - e.x, yp = place - e.y, px = e.x - place;
-    const FanTriangle t{-dot(xy, px), -dot(xy, yp), -dot(yp, px), -cross(xy, px)};
-    const double more = t.at_x > t.at_y ? t.at_x : t.at_y;
-    const double most = more > t.at_vertex ? more : t.at_vertex;
-    if (!(most <= bound_.cot_min * t.area)) return false;
-    *out++ = t;
-  }
-  return true;
+// Like `fits` if only smallest angles are bounded; in the plane it leaves the triangles in `fan`.
+bool VertexOps::fitsAt(const Point& place, const Frame& frame, const Ring& ring) {
+  if (!frame.isCurved()) return memory_.fan.fit(memory_.ring_look.edges(mesh_, frame, ring), place, bound_);
+  takeLink(mesh_, ring, memory_.link);
+  return fits(memory_.link, place, bound_);
 }
 
 // A feasible place on the way to `to`, which is in the vertex's frame; nullopt if none.
-std::optional<Point> VertexOps::placeTowards(const Point& to, const Frame& frame, const Point& here,
-                                             std::span<const LinkEdge> link) {
+std::optional<Point> VertexOps::placeTowards(const Point& to, const Frame& frame, const Point& here, const Ring& ring) {
   const Point from = frame.to(here);
   for (const double share : kShares) {
     const Point place = frame.from(from + share * (to - from));
-    if (fitsAt(place, link)) return place;
+    if (fitsAt(place, frame, ring)) return place;
   }
   return std::nullopt;
 }
@@ -357,48 +348,50 @@ bool VertexOps::isBesideBad(VertexId v, const Ring& ring) const {
 // angles opposite an edge add up to less than a half turn if the sum of their cotangents is above 0. Plane only.
 bool VertexOps::needsFlips(VertexId v, const Ring& ring) const {
   constexpr double kRounding = 1e-14, kClear = 1e-6;
-  const std::vector<FanTriangle>& fan = memory_.fan;
+  const Fan& fan = memory_.fan;
   const std::size_t count = ring.corners.size();
-  const FanTriangle* before = &fan[count - 1];
-  for (std::size_t i = 0; i < count; ++i) {
-    const FanTriangle& t = fan[i];
-    if (!(before->at_x * t.area + t.at_y * before->area > kRounding * before->area * t.area)) return true;
-    before = &t;
+  Fan::Triangle before = fan[count - 1];
+  for (std::size_t k = 0; k < count; ++k) {
+    const Fan::Triangle t = fan[k];
+    if (!(before.at_x * t.area + t.at_y * before.area > kRounding * before.area * t.area)) return true;
+    before = t;
   }
   const Point& here = mesh_.point(v);
   // Edge k leads to corner k; its triangle is the one before the triangle at that corner.
   for (std::size_t k = 0; k < count; ++k) {
-    const TriId t = ring.triangles[k == 0 ? count - 1 : k - 1];
-    const EdgeRef e = edgeRef(t, mesh_.cornerOf(t, v));
+    const std::size_t at = k == 0 ? count - 1 : k - 1;
+    const Fan::Triangle t = fan[k];
+    const bool is_safe = t.at_place > cot_safe_ * t.area;
+    if (is_safe && (isClearOfBad(ring.corners[at]) || isClearOfBad(ring.corners[k]))) continue;
+    const EdgeRef e = edgeRef(ring.triangles[at], mesh_.cornerOf(ring.triangles[at], v));
     if (mesh_.isConstrained(e)) continue;
-    const Point &x = mesh_.point(ring.corners[k == 0 ? count - 1 : k - 1]), &y = mesh_.point(ring.corners[k]);
+    const Point &x = mesh_.point(ring.corners[at]), &y = mesh_.point(ring.corners[k]);
     const Point& beyond = mesh_.point(mesh_.apex(mesh_.twin(e)));
     // Usually the two angles opposite the edge clearly add up to less than a half turn.
     const Point to_x = x - beyond, to_y = y - beyond;
-    const double area = cross(to_y, to_x), scale = fan[k].area * area;
-    if (fan[k].at_vertex * area + dot(to_x, to_y) * fan[k].area > kClear * scale && scale > 0.0) continue;
+    const double area = cross(to_y, to_x), scale = t.area * area;
+    if (t.at_place * area + dot(to_x, to_y) * t.area > kClear * scale && scale > 0.0) continue;
     if (inCircle(here, x, y, beyond) > 0) return true;
   }
   return false;
 }
 
 bool VertexOps::relocateFree(VertexId v, const Ring& ring, std::vector<TriId>& touched) {
-  Link& link = memory_.link;
-  takeLink(mesh_, ring, link);
   const Point here = mesh_.point(v);
-  const bool good = isClearOfBad(v) || fitsAt(here, link);
+  const Frame frame(bound_.surface, here);
+  LookEdges& edges = memory_.ring_look.edges(mesh_, frame, ring);
+  const bool good = isClearOfBad(v) || fitsAt(here, frame, ring);
   const auto isFrozen = [&](TriId t) { return mesh_.segment(edgeRef(t, mesh_.cornerOf(t, v))) == kFrozen; };
   if (clear_of_frozen_ && std::ranges::any_of(ring.triangles, isFrozen)) return false;
-  const Frame frame(bound_.surface, here);
-  const std::span<const LinkEdge> seen = framed(frame, link);
   std::optional<Point> place;
-  if (good && bound_.min_angle < kMeanServesBelow) place = placeTowards(meanOf(seen), frame, here, link);
+  if (good && bound_.min_angle < kMeanServesBelow) place = placeTowards(meanOf(edges), frame, here, ring);
   if (!place) {
-    const std::optional<Point> inside = region_.look(seen).point;
+    if (bound_.min_angle <= 0.0) return false;
+    const std::optional<Point> inside = region_.look(edges, memory_.ring_look.box(region_)).point;
     if (!inside) return false;
     if (good)
-      place = placeTowards(*inside, frame, here, link);
-    else if (const Point there = frame.from(*inside); fitsAt(there, link))
+      place = placeTowards(*inside, frame, here, ring);
+    else if (const Point there = frame.from(*inside); fitsAt(there, frame, ring))
       place = there;
   }
   if (!place) return false;
@@ -411,9 +404,8 @@ bool VertexOps::relocateFree(VertexId v, const Ring& ring, std::vector<TriId>& t
 
 bool VertexOps::relocate(VertexId v, std::vector<TriId>& touched) {
   if (mesh_.kind(v) != VertexKind::Free || flips_may_harm_) return relocateWatchingFlips(v, touched);
-  Ring& ring = memory_.ring;
-  return mesh_.ring(v, mesh_.triangleOf(v), most_triangles_, ring) == StarKind::Closed &&
-         relocateFree(v, ring, touched);
+  const Ring* ring = gatherRing(v, most_triangles_);
+  return ring != nullptr && relocateFree(v, *ring, touched);
 }
 
 bool VertexOps::relocateWatchingFlips(VertexId v, std::vector<TriId>& touched) {
@@ -493,7 +485,7 @@ template <typename Accept>
 bool VertexOps::removeWhere(VertexId v, Flips flips, const Accept& accept, std::vector<TriId>& touched) {
   if (mesh_.kind(v) == VertexKind::Free) {
     // Most attempts fail here, before anything else is examined.
-    if (mesh_.ring(v, mesh_.triangleOf(v), most_triangles_, memory_.ring) != StarKind::Closed) return false;
+    if (!mesh_.ring(v, most_triangles_, memory_.ring)) return false;
     if (!triangulatePolygon(mesh_, memory_.ring.corners, memory_.fresh, accept)) return false;
   }
   return takeOut(v, flips, accept, touched);
@@ -524,13 +516,8 @@ bool VertexOps::takeOut(VertexId v, Flips flips, const Accept& accept, std::vect
 bool VertexOps::mergeFree(VertexId v, const Ring& ring, bool each_gets_its_turn, std::vector<TriId>& touched) {
   const Point here = mesh_.point(v);
   const Frame frame(bound_.surface, here);
-  // Both are computed when first needed.
-  double longest = 0.0;
+  double longest = 0.0;                      // computed when first needed
   const bool asks = bound_.min_angle > 0.0;  // otherwise no quick test applies
-  bool is_ready = !asks;
-  const auto makeReadyOnce = [&] {
-    if (!std::exchange(is_ready, true)) makeReady(frame, ring);
-  };
   for (std::size_t k = 0; k < ring.corners.size(); ++k) {
     const VertexId w = ring.corners[k];
     const VertexKind kind = mesh_.kind(w);
@@ -543,8 +530,11 @@ bool VertexOps::mergeFree(VertexId v, const Ring& ring, bool each_gets_its_turn,
       }
       if (bound_.surface.squaredChord(here, mesh_.point(w)) > longest) continue;
     }
-    makeReadyOnce();
-    if (asks && (kind == VertexKind::Free ? cannotMerge(frame, v, ring, k) : cannotMergeOnto(k))) continue;
+    if (asks) {
+      memory_.ring_look.edges(mesh_, frame, ring);
+      memory_.ring_look.prepareBoxes(region_);
+    }
+    if (asks && (kind == VertexKind::Free ? cannotMerge(frame, v, ring, k) : cannotMergeOnto(frame, ring, k))) continue;
     if (merge(v, w, touched)) return true;
   }
   return false;
@@ -552,23 +542,20 @@ bool VertexOps::mergeFree(VertexId v, const Ring& ring, bool each_gets_its_turn,
 
 bool VertexOps::mergeWithNeighbour(VertexId v, bool each_gets_its_turn, std::vector<TriId>& touched) {
   if (mesh_.kind(v) == VertexKind::Free) {
-    Ring& ring = memory_.ring;
-    return mesh_.ring(v, mesh_.triangleOf(v), most_triangles_ + kMergedAway, ring) == StarKind::Closed &&
-           mergeFree(v, ring, each_gets_its_turn, touched);
+    const Ring* ring = gatherRing(v, most_triangles_ + kMergedAway);
+    return ring != nullptr && mergeFree(v, *ring, each_gets_its_turn, touched);
   }
   std::vector<EdgeRef>& opposite = memory_.opposite;
   if (mesh_.star(v, opposite, most_triangles_ + kMergedAway) == StarKind::TooMany) return false;
+  // Along its segment only: of 16,630 free vertices tried beside those on segments 3 could be merged into them.
   std::vector<VertexId>& neighbours = memory_.neighbours;
   neighbours.clear();
-  for (const EdgeRef e : opposite) neighbours.push_back(mesh_.origin(e));
-  if (const VertexId last = mesh_.target(opposite.back()); last != neighbours.front()) neighbours.push_back(last);
+  for (const EdgeRef e : opposite)
+    if (mesh_.isConstrained(spokeBefore(e))) neighbours.push_back(mesh_.origin(e));
+  if (mesh_.twin(spokeAfter(opposite.back())) == kNone) neighbours.push_back(mesh_.target(opposite.back()));
   for (const VertexId w : neighbours) {
-    const VertexKind kind = mesh_.kind(w);
-    // A free vertex tries to join one on a segment when its own turn comes.
-    if (kind == VertexKind::Input || (each_gets_its_turn && (w < v || kind == VertexKind::Free))) continue;
-    if (hasTooManyTogether(v, w)) continue;
-    // The vertex that stays is the one on the segment.
-    if (mesh_.kind(w) == VertexKind::Free ? merge(w, v, touched) : merge(v, w, touched)) return true;
+    if (mesh_.kind(w) == VertexKind::Input || (each_gets_its_turn && w < v) || hasTooManyTogether(v, w)) continue;
+    if (merge(v, w, touched)) return true;
   }
   return false;
 }
@@ -580,8 +567,9 @@ VertexOps::Change VertexOps::tryInTurn(VertexId v, const Tries& tries, std::vect
     if (tries.merges && mergeWithNeighbour(v, true, touched)) return Change::Merged;
     return tries.moves && relocate(v, touched) ? Change::Moved : Change::None;
   }
-  Ring& ring = memory_.ring;
-  if (mesh_.ring(v, mesh_.triangleOf(v), most_triangles_ + kMergedAway, ring) != StarKind::Closed) return Change::None;
+  const Ring* around = gatherRing(v, most_triangles_ + kMergedAway);
+  if (around == nullptr) return Change::None;
+  const Ring& ring = *around;
   const auto accept = [this](const Corners& c) { return isGood(c); };
   const bool few = ring.corners.size() <= most_triangles_;
   if (removes && few && triangulatePolygon(mesh_, ring.corners, memory_.fresh, accept) &&

@@ -6,12 +6,15 @@
 #include <numbers>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/edit_mesh.hpp"
 #include "core/metric.hpp"
 #include "core/pslg.hpp"
 #include "core/refine/feasible_region.hpp"
+#include "core/refine/look_edges.hpp"
+#include "core/refine/ring_look.hpp"
 
 namespace coastmesh {
 
@@ -73,35 +76,22 @@ class VertexOps {
 
     void clear();
   };
-  // A triangle of the star of a free vertex: scalar products at its corners, for link edge x -> y and the vertex, and
-  // twice its area.
-  struct FanTriangle {
-    double at_x, at_y, at_vertex, area;
-  };
-  // The edges of a free vertex's ring, prepared for `look` at merges with each of its neighbours: edge k leads to
-  // corner k. `before[k]` is the box of the edges before k, `after[k]` that of edge k and those after it.
-  struct RingLook {
-    std::vector<LookEdge> edges;
-    std::vector<PetalBox> boxes, before, after;
-  };
   // Any: flips after a change may make triangles that were not tested.
   enum class Flips { Watched, Any };
 
   bool gather(VertexId v, Star& star);
   bool gatherBoth(VertexId goes, VertexId stays, Star& star);
   bool appendStar(VertexId v, VertexId other, VertexId stays, Star& star);
+  const Ring* gatherRing(VertexId v, std::size_t most);
   bool relocateFree(VertexId v, const Ring& ring, std::vector<TriId>& touched);
   bool relocateWatchingFlips(VertexId v, std::vector<TriId>& touched);
   bool mergeFree(VertexId v, const Ring& ring, bool each_gets_its_turn, std::vector<TriId>& touched);
   bool hasTooManyTogether(VertexId v, VertexId w) const;
-  void makeReady(const Frame& frame, const Ring& ring);
-  PetalBox boxWithout(std::size_t k) const;
-  void takeEdgesWithout(std::size_t k);
   bool cannotMerge(const Frame& frame, VertexId v, const Ring& ring, std::size_t k);
-  bool cannotMergeOnto(std::size_t k);
-  std::optional<Point> placeTowards(const Point& to, const Frame& frame, const Point& here,
-                                    std::span<const LinkEdge> link);
-  bool fitsAt(const Point& place, std::span<const LinkEdge> link);
+  std::optional<std::pair<VertexId, VertexId>> alongSegment(VertexId w, TriId between) const;
+  bool cannotMergeOnto(const Frame& frame, const Ring& ring, std::size_t k) const;
+  std::optional<Point> placeTowards(const Point& to, const Frame& frame, const Point& here, const Ring& ring);
+  bool fitsAt(const Point& place, const Frame& frame, const Ring& ring);
   bool isClearOfBad(VertexId v) const { return v < at_bad_.size() && at_bad_[v] == 0; }
   bool isBesideBad(VertexId v, const Ring& ring) const;
   bool needsFlips(VertexId v, const Ring& ring) const;
@@ -134,6 +124,8 @@ class VertexOps {
   // becomes bad, since flips preserve the smallest angle. Later vertices are not included.
   std::vector<std::uint8_t> at_bad_;
   std::size_t most_triangles_;  // no vertex can have more triangles without a bad one among them
+  std::size_t most_merged_;     // the same for a vertex that two were merged into
+  double cot_safe_;             // of the largest angle opposite an edge that no good triangle beyond it makes flip
   bool flips_may_harm_;         // flips preserve the smallest angle, but not the largest, nor the longest edge
 
   FeasibleRegion region_;
@@ -146,9 +138,9 @@ class VertexOps {
     std::vector<VertexId> neighbours, polygon;
     std::vector<Corners> fresh, fresh_beyond;
     std::vector<LinkEdge> link, framed_link;
-    std::vector<FanTriangle> fan;
+    Fan fan;
     RingLook ring_look;
-    std::vector<LookEdge> look_edges;
+    LookEdges look_edges;
   } memory_;
 };
 

@@ -58,6 +58,16 @@ void expectSound(const EditMesh& mesh, const Pslg& pslg) {
     ASSERT_EQ(some, star);
     ASSERT_EQ(mesh.star(v, some, star.size() - 1), StarKind::TooMany);
     ASSERT_LT(some.size(), star.size());
+    if (mesh.kind(v) == VertexKind::Free) {
+      Ring ring;
+      ASSERT_TRUE(mesh.ring(v, star.size(), ring));
+      ASSERT_EQ(ring.corners.size(), star.size());
+      for (std::size_t k = 0; k < star.size(); ++k) {
+        ASSERT_EQ(ring.corners[k], mesh.origin(star[k]));
+        ASSERT_EQ(ring.triangles[k], triOf(star[k]));
+      }
+      ASSERT_FALSE(mesh.ring(v, star.size() - 1, ring));
+    }
     if (mesh.kind(v) != VertexKind::Input) {
       ASSERT_EQ(star.size(), triangles_at[v]);
     }

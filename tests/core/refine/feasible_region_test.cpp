@@ -125,7 +125,13 @@ TEST_P(FeasibleRegionAt, BetweenTwoPointsAgreesWithSampling) {
     EXPECT_TRUE(place || best <= 0.1);
     found += place.has_value();
     empty += !place;
+    // Edge by edge in another order the same is left; what one edge rules out is ruled out.
+    LinePart part(a, b);
+    for (auto e = link.rbegin(); e != link.rend(); ++e)
+      if (!FeasibleRegion(asked.bound()).cut(part, *e)) break;
+    EXPECT_EQ(part.isEmpty(), !place);
     if (!place) continue;
+    EXPECT_LT(distance(a + 0.5 * (part.low + part.high) * (b - a), *place), 1e-12);
     const double share = dot(*place - a, b - a) / squaredDistance(a, b);
     EXPECT_GE(roomAt(*place, link, asked), -1e-9);
     EXPECT_NEAR(cross(*place - a, b - a), 0.0, 1e-12);

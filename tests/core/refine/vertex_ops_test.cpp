@@ -143,6 +143,35 @@ TEST(VertexOps, FindRoom) {
   EXPECT_GT(slid, 0);
 }
 
+// Before all of two stars is visited, quick tests rule out most merges with vertices on segments: none that succeeds.
+TEST(VertexOps, MergesOntoSegmentsAreFound) {
+  const TriangleBound bound(20.0, 180.0, kNoSize);
+  int onto = 0, along = 0, none = 0;
+  for (const Pslg& pslg : {collinearRuns(), narrowChannel(0.1), fractalCoast(3, 3, 1)}) {
+    const EditMesh mesh = roomyMesh(pslg);
+    for (VertexId v = mesh.inputVertices(); v < mesh.vertexSlots(); ++v) {
+      if (!mesh.isLiveVertex(v)) continue;
+      const auto merges = [&](VertexId w) {
+        EditMesh copy = mesh;
+        std::vector<TriId> touched;
+        return mesh.kind(w) == VertexKind::Segment && VertexOps(copy, pslg, bound).merge(v, w, touched);
+      };
+      const bool possible = std::ranges::any_of(neighboursOf(mesh, v), merges);
+      EditMesh copy = mesh;
+      std::vector<TriId> touched;
+      const bool merged = VertexOps(copy, pslg, bound).mergeWithNeighbour(v, false, touched);
+      if (possible) {
+        EXPECT_TRUE(merged) << "vertex " << v;
+      }
+      (mesh.kind(v) == VertexKind::Free ? onto : along) += possible;
+      none += !merged;
+    }
+  }
+  EXPECT_GT(onto, 10);
+  EXPECT_GT(along, 10);
+  EXPECT_GT(none, 10);
+}
+
 // A square with one vertex in its middle, and one in the middle of a side.
 TEST(VertexOps, NeedlessVerticesOfASquareGo) {
   const Pslg pslg = squarePslg();
