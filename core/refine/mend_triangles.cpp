@@ -38,8 +38,9 @@ bool mayMerge(const RefineRun& run) {
 }
 
 // Algorithm 2: moves a vertex of the triangle to a place where its whole star is good, if there is one. We differ: at
-// large bounds a vertex may also merge with a neighbour.
-bool mendWithoutInsertion(RefineRun& run, TriId t) {
+// large bounds a vertex of the shortest edge may also merge with a neighbour. (Of 121,000 attempts at 40° with the third
+// vertex 52 succeeded.)
+bool mendWithoutInsertion(RefineRun& run, TriId t, VertexId beyond_shortest) {
   EditMesh& mesh = run.mesh;
   const Corners corners = mesh.triangle(t).v;
   for (const VertexId v : corners) {
@@ -50,7 +51,8 @@ bool mendWithoutInsertion(RefineRun& run, TriId t) {
   }
   if (run.bound.min_angle < toRadians(kMergeFromDeg) || !mayMerge(run)) return false;
   for (const VertexId v : corners) {
-    if (mesh.kind(v) == VertexKind::Input || !run.ops.mergeWithNeighbour(v, false, run.touched)) continue;
+    if (v == beyond_shortest || mesh.kind(v) == VertexKind::Input) continue;
+    if (!run.ops.mergeWithNeighbour(v, false, run.touched)) continue;
     ++run.stats.merges;
     return true;
   }
@@ -149,7 +151,8 @@ void mend(RefineRun& run, TriId t) {
   if (!isBad(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), run.bound)) return;
   const auto isFrozen = [&](VertexId v) { return v < run.frozen.size() && run.frozen[v]; };
   if (std::ranges::any_of(mesh.triangle(t).v, isFrozen)) return defer(run, t);
-  if (const VertexId corner = mesh.triangle(t).v[shape.shortest]; fillsCorner(run, t, corner)) {
+  const VertexId corner = mesh.triangle(t).v[shape.shortest];
+  if (fillsCorner(run, t, corner)) {
     // Its angles cannot be improved, but its sides may be too long.
     if (isTooLong(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), shape.squared[shape.longest], run.bound))
       splitSide(run, t, corner, t, shape.shortest);
@@ -158,7 +161,7 @@ void mend(RefineRun& run, TriId t) {
   // If edges are only too long there are too few vertices, so moves do not help.
   const bool is_only_long =
       run.options.size != nullptr && !isBad(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), run.strict);
-  if (run.options.algorithm == Algorithm::Relocate && !is_only_long && mendWithoutInsertion(run, t)) {
+  if (run.options.algorithm == Algorithm::Relocate && !is_only_long && mendWithoutInsertion(run, t, corner)) {
     enqueueTouched(run);
     return;
   }
