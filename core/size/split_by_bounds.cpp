@@ -220,8 +220,8 @@ std::optional<SizeDemand> splitLevels(Splitting& run) {
 
 SplitByBounds splitByBounds(SizeCells& cells, SizeVertices& vertices, const SizeTreeTask& task) {
   Splitting run{cells, vertices, task};
-  std::optional<SizeDemand> excess = splitLevels(run);
-  return {std::move(run.own_vertices), std::move(excess)};
+  const std::optional<SizeDemand> excess = splitLevels(run);
+  return {std::move(run.own_vertices), excess};
 }
 
 }  // namespace coastmesh
