@@ -164,8 +164,8 @@ bool isWorthwhile(std::size_t repaired, std::size_t defects) {
   return repaired > 0 && repaired >= defects / kLeast;
 }
 
-// `mesh` is that in which the defects were found. Returns whether another round may find more to do. Defects of boundaries alone warrant one more round only, since
-// those that `cutLoops` cannot repair remain.
+// `mesh` is that in which the defects were found. Returns whether another round may find more to do. Defects of
+// boundaries alone warrant one more round only, since those that `cutLoops` cannot repair remain.
 bool mendRound(RepairState& state, TriMesh mesh, const std::vector<FoundDefect>& defects, bool& boundaries_done,
                const RunControl& control) {
   constexpr std::size_t kStride = 1024;  // between checkpoints
