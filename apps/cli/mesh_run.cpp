@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <charconv>
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -21,6 +21,7 @@
 #include "apps/cli/run_outputs.hpp"
 #include "apps/cli/shard_file.hpp"
 #include "apps/job/mesh_job.hpp"
+#include "apps/job/stopwatch.hpp"
 #include "apps/report/mesh_report.hpp"
 #include "apps/report/mesh_warnings.hpp"
 #include "apps/usage/grid_usage.hpp"
@@ -154,6 +155,90 @@ void requireCheckpointApart(const std::string& folder, const OptionTable& option
   requireOutputsApart(written, options.inputs());
 }
 
+// What a run keeps of each group of features for later runs.
+struct KeptGroups {
+  ShardWriter shard;
+  std::optional<CheckpointFolder> checkpoint;
+  bool to_shard = false;
+};
+
+CheckpointHeader checkpointHeader(const Run& run, const GivenOptions& given, const GroupExchange& exchange) {
+  CheckpointHeader header{COASTMESH_VERSION, given, exchange.shard, exchange.shards, {}, 0, 0};
+  // Of a file of options only the options matter, which are compared themselves.
+  for (const auto& [option, input] : run.options.inputs())
+    for (const std::string& path : option == "--config" ? std::vector<std::string>() : filesReadBy(input))
+      header.files.push_back(stampOf(path));
+  return header;
+}
+
+// Has groups kept, and taken from the checkpoint if they are in it. `kept` must outlive the exchange.
+void exchangeWith(KeptGroups& kept, GroupExchange& exchange) {
+  if (kept.checkpoint) {
+    CheckpointFolder& folder = *kept.checkpoint;
+    exchange.has = [&folder](std::size_t group) { return folder.has(group); };
+    exchange.take = [&folder](std::size_t group) { return folder.take(group); };
+    exchange.checkpoint = [&folder](std::size_t group) { return folder.rounds(group); };
+  }
+  if (!kept.to_shard && !kept.checkpoint) return;
+  exchange.begin = [&kept](std::uint64_t digest, std::size_t groups) {
+    if (kept.to_shard) kept.shard.begin(digest, groups);
+    if (kept.checkpoint) kept.checkpoint->begin(digest, groups);
+  };
+  exchange.keep = [&kept](std::size_t group, const GroupResult& result) {
+    if (kept.to_shard) kept.shard.keep(group, result);
+    if (kept.checkpoint) kept.checkpoint->keep(group, result);
+  };
+}
+
+MeshJobResult runKeeping(const KeptGroups& kept, const MeshJob& job, const JobControl& control) {
+  try {
+    MeshJobResult result = runMeshJob(job, control);
+    if (kept.checkpoint) result.checkpoint = kept.checkpoint->use();
+    return result;
+  } catch (const BadCheckpoint& error) {
+    throw InputError(error.what() + kept.checkpoint->remedy());
+  }
+}
+
+// Cuts the mesh into parts, if these are requested.
+void cutMesh(const PartitionOptions& partition, const MeshJob& job, const std::function<bool()>& cancelled,
+             MeshJobResult& result) {
+  const Stopwatch time;
+  withThreads(job.parallel, [&] {
+    Recorder recorder;
+    result.partition = partitionGrid(result.grid, partition, recorder.loop("partition", {cancelled, {}}));
+    result.log.append(recorder.finish("partition"));
+  });
+  result.seconds.finish += time.seconds();
+}
+
+// Writes the mesh, and `edits` unless null.
+void writeMesh(RunOutputs& outputs, StagedFiles* edits, const MeshJob& job, const std::function<bool()>& cancelled,
+               ProgressDisplay& display, Run& run, MeshJobResult& result) {
+  withThreads(job.parallel, [&] {
+    Recorder recorder;
+    result.output_warnings = writeGrids(outputs, result.grid, display, run, recorder.loop("write", {cancelled, {}}));
+    result.log.append(recorder.finish("write"));
+  });
+  if (edits == nullptr) return;
+  const auto source_of = [&result](std::uint32_t feature) { return result.edited.at(feature); };
+  edits->make([&](const std::string& path) {
+    writeVectorLayers(path, result.crs, {editLayer(result.edit_places, source_of, result.read)});
+  });
+}
+
+// The end of a run without a mesh: throws InputError, or returns the exit code.
+int refuseRun(const MeshRunUsage& usage, const MeshJob& job, const MeshJobResult& result) {
+  const bool none_refused = result.refusals.empty();
+  if (none_refused && job.exchange.shards > 1 && result.last_unwanted.empty())
+    throw InputError("there are fewer groups of features than shards: none of them is shard " + usage.shard + "'s");
+  if (none_refused)
+    throw InputError(result.last_unwanted.empty() ? "the input has nothing to mesh" : result.last_unwanted);
+  if (!std::ranges::all_of(result.refusals, &Refusal::over_budget)) throw InputError(reasonOf(result.refusals));
+  std::fprintf(stderr, "coastmesh: error: %s\n", reasonOf(result.refusals).c_str());
+  return kExitShort;
+}
+
 }  // namespace
 
 std::pair<std::uint32_t, std::uint32_t> shardOf(const std::string& text) {
@@ -222,20 +307,19 @@ void declareRunOutputs(OptionTable& table, MeshRunUsage& usage) {
 }
 
 int runMesh(const MeshRunUsage& usage, Run& run) {
-  MeshJob job = usage.mesh.job;
-  const Interrupt& interrupt = run.interrupt;
   if (usage.report == "-" && usage.progress == "json")
     throw OptionError("--report - and --progress json both write to standard output: give the report a file");
+  MeshJob job = usage.mesh.job;
   const std::vector<std::string> grids = withoutShardFiles(usage.outputs);
   const PartitionOptions partition = partitionFor(usage.parts, grids, usage.format);
   std::tie(job.exchange.shard, job.exchange.shards) = shardOf(usage.shard);
-  const bool to_shard = grids.size() < usage.outputs.size();
+  const bool to_shard = grids.size() < usage.outputs.size(), to_checkpoint = !usage.checkpoint.empty();
   if (to_shard) requireNoStream(job, "gather reads the input of a .shard again");
+  if (to_checkpoint) requireNoStream(job, "--checkpoint reads the input again to resume");
+  if (to_checkpoint) requireCheckpointApart(usage.checkpoint, run.options);
   MeshUsage of_job;
-  const bool keeps = !usage.checkpoint.empty();
-  if (keeps) requireNoStream(job, "--checkpoint reads the input again to resume");
-  if (keeps) requireCheckpointApart(usage.checkpoint, run.options);
-  const GivenOptions given = to_shard || keeps ? givenOptions(run.options, meshJobOptions(of_job)) : GivenOptions();
+  const GivenOptions given =
+      to_shard || to_checkpoint ? givenOptions(run.options, meshJobOptions(of_job)) : GivenOptions();
   const bool skips = usage.skip_existing && !usage.overwrite;
   if (skips) {
     if (const std::optional<int> code = doneBefore(usage, run, given)) {
@@ -243,10 +327,7 @@ int runMesh(const MeshRunUsage& usage, Run& run) {
       return *code;
     }
   }
-  const auto start = std::chrono::steady_clock::now();
-  const auto secondsSince = [](std::chrono::steady_clock::time_point since) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - since).count();
-  };
+  const Stopwatch whole;
   RunOutputs outputs(usage.overwrite || skips, run.inputs, run.interrupt);
   outputs.addGrids(grids, usage.format);
   if (!usage.edits.empty()) requireVectorFormat(usage.edits, 1);
@@ -255,95 +336,47 @@ int runMesh(const MeshRunUsage& usage, Run& run) {
   for (const std::string& path : usage.outputs)
     if (isShardFile(path)) shard_files.push_back(&outputs.addFile(path));
   outputs.addReport(usage.report);
-  ShardWriter shard(given, job.exchange.shard, job.exchange.shards);
-  std::optional<CheckpointFolder> checkpoint;
-  if (keeps) {
-    CheckpointHeader header{COASTMESH_VERSION, given, job.exchange.shard, job.exchange.shards, {}, 0, 0};
-    // Of a file of options only the options matter, which are compared themselves.
-    for (const auto& [option, input] : run.options.inputs())
-      for (const std::string& path : option == "--config" ? std::vector<std::string>() : filesReadBy(input))
-        header.files.push_back(stampOf(path));
-    checkpoint.emplace(usage.checkpoint, std::move(header));
-    job.exchange.has = [&checkpoint](std::size_t group) { return checkpoint->has(group); };
-    job.exchange.take = [&checkpoint](std::size_t group) { return checkpoint->take(group); };
-    job.exchange.checkpoint = [&checkpoint](std::size_t group) { return checkpoint->rounds(group); };
-  }
-  if (to_shard || keeps) {
-    job.exchange.begin = [&](std::uint64_t digest, std::size_t groups) {
-      if (to_shard) shard.begin(digest, groups);
-      if (checkpoint) checkpoint->begin(digest, groups);
-    };
-    job.exchange.keep = [&](std::size_t group, const GroupResult& result) {
-      if (to_shard) shard.keep(group, result);
-      if (checkpoint) checkpoint->keep(group, result);
-    };
-  }
-  job.keep_edits = edits != nullptr || to_shard || keeps;  // a later run may write them
-  ProgressDisplay display(ProgressDisplay::styleFor(usage.progress, usage.quiet));
-  const JobControl control{[&interrupt, &display] { return interrupt.requested() || display.abandoned(); },
-                           [&display](std::string_view phase, double share) { display.show(phase, share); }};
+  KeptGroups kept{ShardWriter(given, job.exchange.shard, job.exchange.shards), std::nullopt, to_shard};
+  if (to_checkpoint) kept.checkpoint.emplace(usage.checkpoint, checkpointHeader(run, given, job.exchange));
+  exchangeWith(kept, job.exchange);
+  job.keep_edits = edits != nullptr || to_shard || to_checkpoint;  // a later run may write them
   if (run.cluster != nullptr) {
     run.cluster->start(job.parallel.threads);
     job.mesh.helpers = &run.cluster->helpers();
   }
-  MeshJobResult result;
-  try {
-    result = runMeshJob(job, control);
-  } catch (const BadCheckpoint& error) {
-    throw InputError(error.what() + checkpoint->remedy());
-  }
-  if (checkpoint) result.checkpoint = checkpoint->use();
+  ProgressDisplay display(ProgressDisplay::styleFor(usage.progress, usage.quiet));
+  const JobControl control{
+      [&interrupt = run.interrupt, &display] { return interrupt.requested() || display.abandoned(); },
+      [&display](std::string_view phase, double share) { display.show(phase, share); }};
+  MeshJobResult result = runKeeping(kept, job, control);
   display.clear();
   for (const std::string& warning : warningsOf(result)) run.warn(warning);
   const bool lacks_memory = std::ranges::any_of(result.refusals, &Refusal::lacks_memory);
-  if (lacks_memory && keeps)
+  if (lacks_memory && to_checkpoint)
     run.warn("--checkpoint " + usage.checkpoint +
              " is kept: where there is more memory, the same command with --overwrite resumes from it");
 
-  auto write_start = std::chrono::steady_clock::now();
   const bool any = result.regions > 0;
-  if (any) {
-    withThreads(job.parallel, [&] {
-      Recorder recorder;
-      result.partition = partitionGrid(result.grid, partition, recorder.loop("partition", {control.cancelled, {}}));
-      result.log.append(recorder.finish("partition"));
-      result.seconds.finish += secondsSince(write_start);
-      write_start = std::chrono::steady_clock::now();
-      result.output_warnings =
-          writeGrids(outputs, result.grid, display, run, recorder.loop("write", {control.cancelled, {}}));
-      result.log.append(recorder.finish("write"));
-    });
-  }
-  const auto source_of = [&result](std::uint32_t feature) { return result.edited.at(feature); };
-  if (edits != nullptr && any)
-    edits->make([&](const std::string& path) {
-      writeVectorLayers(path, result.crs, {editLayer(result.edit_places, source_of, result.read)});
-    });
+  if (any) cutMesh(partition, job, control.cancelled, result);
+  const Stopwatch writing;
+  if (any) writeMesh(outputs, edits, job, control.cancelled, display, run, result);
   const int code = (any ? result.complete() : result.refusals.empty()) ? kExitDone : kExitShort;
-  for (StagedFiles* const file : shard_files) file->write(shard.file(code));
-  result.seconds.write = secondsSince(write_start);
-  result.seconds.total = secondsSince(start);
+  for (StagedFiles* const file : shard_files) file->write(kept.shard.file(code));
+  result.seconds.write = writing.seconds();
+  result.seconds.total = whole.seconds();
   outputs.writeReport(meshReport(job, result, threadsAsked(job.parallel), run.warnings));
   // Made before the outputs are in place: nothing that may fail comes after.
   const bool silent = usage.quiet || usage.progress == "json" || usage.report == "-";
   const std::string summary = any && !silent ? summaryOf(usage, job, result) : "";
   outputs.commit();
-  if (checkpoint && !lacks_memory) checkpoint->finish();
+  if (kept.checkpoint && !lacks_memory) kept.checkpoint->finish();
   // Other shards may have meshes.
   if (!any && to_shard) {
     display.clear();
     endWithoutMesh(usage, "nothing of this shard was meshed");
     return code;
   }
-  if (!any && job.exchange.shards > 1 && result.refusals.empty() && result.last_unwanted.empty())
-    throw InputError("there are fewer groups of features than shards: none of them is shard " + usage.shard + "'s");
-  if (!any && !result.refusals.empty() && std::ranges::all_of(result.refusals, &Refusal::over_budget)) {
-    std::fprintf(stderr, "coastmesh: error: %s\n", reasonOf(result.refusals).c_str());
-    return kExitShort;
-  }
-  if (!any && result.refusals.empty())
-    throw InputError(result.last_unwanted.empty() ? "the input has nothing to mesh" : result.last_unwanted);
-  if (!any) throw InputError(reasonOf(result.refusals));
+  if (!any) return refuseRun(usage, job, result);
 
   display.show("done", 1.0);
   display.clear();

@@ -168,41 +168,60 @@ std::optional<std::array<double, 2>> nearAlong(double y, const Point& p, const P
   return range;
 }
 
-// The places closer than the clearance to a segment, or to a point on no segment.
-LatticeRows nearInput(const TriMesh& mesh, const Grid& grid, double clearance, const ItemLoop& loop) {
-  const double r = clearance * grid.lattice.spacing;
+// A segment, or a point on no segment.
+struct InputPart {
+  Point p, q;
+};
+
+std::vector<InputPart> partsOf(const TriMesh& mesh, const ItemLoop& loop) {
   const auto isConstrained = [&](EdgeRef e) { return mesh.segment(e) != kNone || mesh.twin(e) == kNone; };
   std::vector<std::uint8_t> alone = usedVertices(mesh, loop);
-  for (TriId t = 0; t < mesh.triangles.size(); ++t)
-    for (unsigned i = 0; i < 3; ++i)
-      if (isConstrained(edgeRef(t, i))) alone[mesh.origin(edgeRef(t, i))] = alone[mesh.target(edgeRef(t, i))] = 0;
-  const auto listNear = [&](const Point& p, const Point& q, std::vector<Span>& some) {
-    for (std::int64_t b = grid.rowFrom(std::min(p.y, q.y) - r); b < grid.rows; ++b) {
-      const double y = grid.yOf(b);
-      if (y > std::max(p.y, q.y) + r) break;
-      if (const auto range = nearAlong(y, p, q, r)) some.push_back({b, (*range)[0], (*range)[1]});
+  std::vector<InputPart> parts;
+  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
+    for (unsigned i = 0; i < 3; ++i) {
+      const EdgeRef e = edgeRef(t, i);
+      if (!isConstrained(e)) continue;
+      const VertexId v = mesh.origin(e), w = mesh.target(e);
+      alone[v] = alone[w] = 0;
+      if (mesh.twin(e) == kNone || mesh.twin(e) > e) parts.push_back({mesh.point(v), mesh.point(w)});
     }
-  };
-  auto lists = overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
-    std::vector<Span> some;
-    for (std::size_t t = first; t < last; ++t) {
-      for (unsigned i = 0; i < 3; ++i) {
-        const EdgeRef e = edgeRef(static_cast<TriId>(t), i);
-        if (!isConstrained(e) || (mesh.twin(e) != kNone && mesh.twin(e) < e)) continue;
-        listNear(mesh.point(mesh.origin(e)), mesh.point(mesh.target(e)), some);
+  }
+  for (VertexId v = 0; v < alone.size(); ++v)
+    if (alone[v]) parts.push_back({mesh.point(v), mesh.point(v)});
+  return parts;
+}
+
+// True if any of these places lies in the interval.
+bool meets(std::span<const Interval> places, const Interval& interval) {
+  const auto at = std::ranges::upper_bound(places, interval.first, {}, &Interval::last);
+  return at != places.end() && at->first < interval.last;
+}
+
+// Those of the places that are no closer than the clearance to the input.
+LatticeRows awayFromInput(const LatticeRows& places, const std::vector<InputPart>& input, const Grid& grid,
+                          double clearance, const ItemLoop& loop) {
+  const double r = clearance * grid.lattice.spacing;
+  auto lists = overStretches(loop, input.size(), [&](std::size_t first, std::size_t last) {
+    std::vector<Span> near;
+    for (std::size_t k = first; k < last; ++k) {
+      const auto& [p, q] = input[k];
+      const double from = std::min(p.x, q.x) - r, to = std::max(p.x, q.x) + r;
+      for (std::int64_t b = grid.rowFrom(std::min(p.y, q.y) - r); b < grid.rows; ++b) {
+        const double y = grid.yOf(b);
+        if (y > std::max(p.y, q.y) + r) break;
+        // Most of the input is far from places of this length. One place more on either side, since all is rounded.
+        if (!meets(places.row(b), {grid.placeFrom(from, b) - 1, grid.placeFrom(to, b) + 1})) continue;
+        if (const auto range = nearAlong(y, p, q, r)) near.push_back({b, (*range)[0], (*range)[1]});
       }
     }
-    return some;
+    return near;
   });
-  for (VertexId v = 0; v < alone.size(); ++v)
-    if (alone[v]) listNear(mesh.point(v), mesh.point(v), lists.front());
   const std::vector<std::vector<Span>> rows = byRow(std::move(lists), grid.rows);
-  LatticeRows near{0, std::vector<Intervals>(rows.size())};
-  return eachRow(near, loop, [&](std::int64_t b) {
-    Intervals some;
+  return eachRow(places, loop, [&](std::int64_t b) {
+    Intervals near;
     for (const Span& s : rows[static_cast<std::size_t>(b)])
-      some.push_back({grid.placeFrom(s.from, b), grid.placeFrom(s.to, b)});
-    return unionOf(std::move(some));
+      near.push_back({grid.placeFrom(s.from, b), grid.placeFrom(s.to, b)});
+    return differenceOf(places.row(b), unionOf(std::move(near)));
   });
 }
 
@@ -294,6 +313,7 @@ std::vector<LatticePlaces> layLattices(const TriMesh& mesh, const LatticeWishes&
                                                              : wantedLengths(mesh, box, area, *wishes.size, loop);
   const double clearance = wishes.size == nullptr ? kClearanceUnderABound : kClearanceOfLengths;
   std::vector<LatticePlaces> lattices;
+  std::vector<InputPart> input;  // once it is needed
   std::uint64_t places = 0;
   for (const Length& length : lengths) {
     const double spacing = std::min(length.spacing, most);
@@ -302,14 +322,17 @@ std::vector<LatticePlaces> layLattices(const TriMesh& mesh, const LatticeWishes&
     if (isTooLong(box, spacing)) continue;
     const Grid grid(box, spacing);
     const LatticeRows inside = insideOf(mesh, grid, loop);
-    LatticeRows kept = without(inside, nearInput(mesh, grid, clearance, loop), loop);
+    LatticeRows kept = inside;
     if (length.least < length.most) {
       const auto isOther = [&](const Point& p) {
         const double h = wishes.size->at(p);
         return h < length.least || h > length.most;
       };
-      kept = without(kept, dilated(where(inside, grid.lattice, loop, isOther), loop), loop);
+      kept = without(inside, dilated(where(inside, grid.lattice, loop, isOther), loop), loop);
     }
+    if (static_cast<double>(kept.count()) < kFewestPlaces) continue;
+    if (input.empty()) input = partsOf(mesh, loop);
+    kept = awayFromInput(kept, input, grid, clearance, loop);
     const std::int64_t found = kept.count();
     if (static_cast<double>(found) < kFewestPlaces) continue;
     places += static_cast<std::uint64_t>(found);

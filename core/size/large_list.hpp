@@ -51,6 +51,25 @@ inline UnsetNumbers<std::uint32_t> noNumbers(const ItemLoop& loop, std::size_t c
   return none;
 }
 
+// What `add(i, list)` appends for every i below `count`, in this order; several threads fill lists of their own first.
+template <typename Item, typename Add>
+std::vector<Item> listOver(const ItemLoop& loop, std::size_t count, const Add& add) {
+  return joined(overStretches(loop, count, [&](std::size_t first, std::size_t last) {
+    std::vector<Item> here;
+    for (std::size_t i = first; i < last; ++i) add(i, here);
+    return here;
+  }));
+}
+
+// The numbers from `first` to below `end` for which `is(number)` is true.
+template <typename Is>
+std::vector<std::uint32_t> numbersWith(const ItemLoop& loop, std::size_t first, std::size_t end, const Is& is) {
+  return listOver<std::uint32_t>(loop, end - first, [&](std::size_t i, std::vector<std::uint32_t>& list) {
+    const auto number = static_cast<std::uint32_t>(first + i);
+    if (is(number)) list.push_back(number);
+  });
+}
+
 // Lowers a value that other threads may lower at the same time, so that the smallest remains. False if it was not
 // larger.
 template <typename Value>

@@ -40,6 +40,16 @@ inline ShrinkRange shrinkIn(const Surface& surface, const SizeBox& box) {
           surface.shrinkAt({std::max(x - box.half, 0.0), std::max(y - box.half, 0.0)})};
 }
 
+// An upper bound of a square's longest side, on the surface.
+inline double longestSide(const Surface& surface, const SizeBox& box) {
+  return 2.0 * box.half * shrinkIn(surface, box).high;
+}
+// True if the scale within a square varies by more than this factor.
+inline bool isStretched(const Surface& surface, const SizeBox& box, double most) {
+  const ShrinkRange shrink = shrinkIn(surface, box);
+  return shrink.high > most * shrink.low;
+}
+
 // The area of a rectangle of the plane, given by two corners.
 double areaOn(const Surface& surface, const Point& low, const Point& high);
 inline double areaOn(const Surface& surface, const SizeBox& box) {

@@ -116,12 +116,15 @@ class SizeTree final : public SizeFunction {
   }
 
  private:
-  friend class SizeTreeBuilder;
-
   SizeTree() = default;
 
   // In rows from below: corners, midpoints of sides, centre. A side's midpoint is NaN if lengths are linear along it.
   using Leaf = std::array<float, 9>;
+
+  // `leaves` are numbers in `sizes`, kNone for NaN.
+  void storeCells(std::span<const Cell> cells, std::span<const std::array<std::uint32_t, 9>> leaves,
+                  std::span<const double> sizes, const ItemLoop& loop);
+  void makeStartTable();
 
   Point origin_;
   double side_ = 1.0;  // of the root

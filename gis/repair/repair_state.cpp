@@ -135,11 +135,10 @@ RepairMemory memoryOf(const RepairState& state) {
   return memory;
 }
 
-void startRound(RepairState& state) {
+void startRound(RepairState& state, TriMesh mesh) {
   const Grid& grid = state.grid;
   GridLinks& links = state.links;
-  // Repairs for the time step do not use `mesh`.
-  if (!state.targets.empty()) links.mesh = linkGrid(grid, state.loop).mesh;
+  links.mesh = std::move(mesh);
   for (std::vector<std::uint32_t>& triangles : links.triangles_at) triangles.clear();  // they keep their memory
   links.triangles_at.resize(grid.nodes.size());
   for (std::uint32_t t = 0; t < grid.triangles.size(); ++t)
@@ -159,6 +158,10 @@ void startRound(RepairState& state) {
     state.in_space.assign(grid.nodes.size(), SphereVector{std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0});
   if (state.to_earth) state.on_earth.assign(grid.nodes.size(), Point{kUnmeasured, kUnmeasured});
   if (state.options.shore_moves) state.shores.emplace(state.view());
+}
+
+void startRound(RepairState& state) {
+  startRound(state, state.targets.empty() ? TriMesh{} : linkGrid(state.grid, state.loop).mesh);
 }
 
 void compact(RepairState& state) {

@@ -69,7 +69,10 @@ void addRepair(RepairState& state, const FoundDefect& found, const Point& place,
 void startRepairs(RepairState& state, const RepairMemory* memory);
 RepairMemory memoryOf(const RepairState& state);
 
+// `mesh` is the grid's, linked. Repairs for the time step alone do not use it: it may be empty if there are no targets.
 // REQUIRES: `links.kinds` is set (`takeBoundaryKinds`).
+void startRound(RepairState& state, TriMesh mesh);
+// The same, and links the grid if necessary.
 void startRound(RepairState& state);
 
 // Removes dead triangles, and nodes without triangles.

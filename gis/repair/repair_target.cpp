@@ -164,12 +164,12 @@ bool isWorthwhile(std::size_t repaired, std::size_t defects) {
   return repaired > 0 && repaired >= defects / kLeast;
 }
 
-// Returns whether another round may find more to do. Defects of boundaries alone warrant one more round only, since
-// those that `cutLoops` cannot repair remain.
-bool mendRound(RepairState& state, const std::vector<FoundDefect>& defects, bool& boundaries_done,
+// `mesh` is that in which the defects were found. Returns whether another round may find more to do. Defects of
+// boundaries alone warrant one more round only, since those that `cutLoops` cannot repair remain.
+bool mendRound(RepairState& state, TriMesh mesh, const std::vector<FoundDefect>& defects, bool& boundaries_done,
                const RunControl& control) {
   constexpr std::size_t kStride = 1024;  // between checkpoints
-  startRound(state);
+  startRound(state, std::move(mesh));
   const std::size_t repairs_before = state.report.repairs.size();
   std::vector<FoundDefect> of_boundaries;
   const std::vector<FoundDefect> once = withoutRepeats(defects);
@@ -288,7 +288,7 @@ RepairReport repairInOneTurn(Grid& grid, std::span<const Target> targets, const 
   state.links.kinds = takeBoundaryKinds(grid, targets.empty() ? linkGrid(grid, loop).mesh : linked.mesh);
   bool again = true, boundaries_done = false;
   for (int round = 0; round < kMostRounds && again && !defects.empty(); ++round) {
-    again = mendRound(state, defects, boundaries_done, roundOf(control, round));
+    again = mendRound(state, std::move(linked.mesh), defects, boundaries_done, roundOf(control, round));
     defects = search();
   }
   requireTriangles(grid, targets);

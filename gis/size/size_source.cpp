@@ -411,6 +411,122 @@ Pslg boundaryOf(const Box& box) {
   return pslg;
 }
 
+// A domain in its plane: where it lies, and the scale there.
+struct PlaneOfDomain {
+  const Domain& domain;
+  Box box;
+  double extent;
+  Point middle;
+  SizeBox root;  // the tree's square
+  Box square;    // around it
+  std::shared_ptr<const ScaleTable> table;
+  std::function<double(const Point&)> scale, measure;
+  double reach;  // at least the extent on the surface
+
+  explicit PlaneOfDomain(const Domain& whole) : domain(whole) {
+    for (const Point& p : domain.pslg.points) box.add(p);
+    extent = std::max(box.xmax - box.xmin, box.ymax - box.ymin);
+    middle = {0.5 * (box.xmin + box.xmax), 0.5 * (box.ymin + box.ymax)};
+    root = {middle, 0.505 * extent};
+    square = Box::of(middle, middle).grownBy(0.51 * extent);
+    table = std::make_shared<ScaleTable>(domain.projection, square);
+    scale = [table = table](const Point& x) { return table->at(x); };
+    measure = [table = table](const Point& x) { return table->measureAt(x); };
+    reach = reachOn(table->surface(), extent, root);
+  }
+  double reachM() const { return reach / measure(middle); }
+};
+
+// Where nothing is requested.
+double largestSize(const SizeOptions& options) { return std::min(options.most_m, options.size_m); }
+
+void addChannels(ComposedSizes& source, const SizeOptions& options, const Pslg& shore, const PlaneOfDomain& plane,
+                 double most_vertices) {
+  const double most_m = largestSize(options);
+  const Surface& surface = plane.table->surface();
+  // The time step may require larger sizes than channels request: then only the number of lines is limited.
+  ChannelLines channels = channelLines(shore, options.channel_elements, options.gradation, options.least_m,
+                                       std::min(most_m, plane.reachM()), plane.scale,
+                                       {options.time_step_s > 0.0 ? kInfinity : most_vertices, most_vertices}, surface);
+  if (!channels.complete) {
+    const SizedLine& last = channels.lines.back();
+    throw TooManyVertices({channels.vertices, plane.domain.projection.inverse(last.a), last.size_m,
+                           "--channel-elements", !(channels.vertices > most_vertices)});
+  }
+  source.add("--channel-elements",
+             std::make_unique<DistanceField>(std::move(channels.lines), plane.scale, most_m, surface));
+}
+
+void addFeatures(ComposedSizes& source, const SizeOptions& options, const SizeInputs& inputs,
+                 const PlaneOfDomain& plane) {
+  if (inputs.layers->features.empty()) return;
+  // The gradation is lowered to half at most, see `gradationForScale`, and slightly less.
+  FeatureScope scope{{}, largestSize(options), 0.49 * options.gradation};
+  if (!plane.table->surface().isCurved()) scope.ball = GroundBalls(inputs.crs).around(plane.domain.input_points);
+  for (const SizedFeatures& features : inputs.layers->features)
+    for (auto& field : featureFields(features, plane.domain.projection, plane.scale, scope))
+      source.add("--size-features", std::move(field));
+}
+
+// What the time step allows, from the depths that are known; its effects are noted in `sizes`.
+void addFloor(ComposedSizes& source, std::unique_ptr<SizeField> step, const SizeOptions& options,
+              const PlaneOfDomain& plane, const std::vector<SizedLine>& sized_shore, const DomainMask& mask,
+              DomainSizes& sizes, const ItemLoop& loop) {
+  const Surface& surface = plane.table->surface();
+  auto floor = std::make_unique<SizeFloor>(std::move(step), options.gradation, source.leastWanted() / kShoreFloor,
+                                           plane.scale, plane.root, mask, loop, surface);
+  if (options.coast == CoastDetail::Follow)
+    floor->raiseNear(std::make_unique<DistanceField>(shoreLines(plane.domain.pslg, 0.0, options.gradation), plane.scale,
+                                                     kInfinity, surface),
+                     kShoreFloor);
+  sizes.raised = raisedShore(sized_shore, *floor, options.least_m, plane.scale);
+  sizes.floor_m = largestOf(*floor, mask, plane.root);
+  source.setFloor(std::move(floor));
+}
+
+// The gradation to be reserved for changes of the scale: at most half of it. For elements as large as seas, sizes are
+// limited so that half is left.
+double gradationForScale(ComposedSizes& source, const SizeOptions& options, const PlaneOfDomain& plane) {
+  const double needed = gradationForMeasure(source, *plane.table, plane.root, plane.reachM());
+  const double half = 0.5 * options.gradation;
+  if (!(needed > half)) return needed;
+  const double most_m = half / needed * plane.reachM();
+  if (most_m < options.least_m) {
+    throw InputError(
+        "--grade: too small for sizes of --size-min on a projection whose scale varies so much; give a larger one");
+  }
+  source.limitSize(most_m);
+  return half;
+}
+
+SizeTreeOptions treeOptions(const SizeOptions& options, SizeAccuracy accuracy, double most_vertices) {
+  SizeTreeOptions tree;
+  // Sizes that only grow with distance usually have smaller errors, because their kinks are only where two lines are
+  // equally near.
+  constexpr double kRough = 0.1, kRoughOfLines = 0.2, kFineOfLines = 0.1;
+  tree.tolerance_graded = accuracy == SizeAccuracy::Rough ? kRoughOfLines : kFineOfLines;
+  if (accuracy == SizeAccuracy::Rough) tree.tolerance = kRough;
+  // Across a cell as small as `finest_graded`, graded sizes vary by about this share.
+  constexpr double kNothing = 0.1;
+  tree.finest_graded = std::clamp(kNothing / options.gradation, tree.finest, 1.0);
+  tree.most_vertices = most_vertices;
+  tree.most_cells =
+      static_cast<std::uint32_t>(std::min<double>(tree.most_cells, kLeastCells + kCellsPerVertex * most_vertices));
+  return tree;
+}
+
+// Throws InputError if sizes are so small that coordinates do not resolve good triangles. The limit is relative to the
+// extent: far out in the plane of a sphere coordinates are coarser, but triangles are larger too.
+void requireResolved(const SizeTree& size, const PlaneOfDomain& plane) {
+  constexpr double kLeastSize = 1e-9;
+  if (!(size.least() < kLeastSize * plane.reach)) return;
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "sizes come down to %.3g m, too little for coordinates over an extent of %.3g m: give a --size-min",
+                size.least() / plane.measure(plane.middle), plane.reachM());
+  throw InputError(text);
+}
+
 }  // namespace
 
 TooManyVertices::TooManyVertices(VertexDemand d)
@@ -453,127 +569,55 @@ double leastWanted(const SizeOptions& options, const SizeInputs& inputs) {
 
 DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& inputs, const Domain& domain,
                              double most_vertices, const ItemLoop& loop, SizeAccuracy accuracy) {
-  Box box;
-  for (const Point& p : domain.pslg.points) box.add(p);
-  const double extent = std::max(box.xmax - box.xmin, box.ymax - box.ymin);
-  // Around the tree's square, which is larger than the domain's box.
-  const Point middle{0.5 * (box.xmin + box.xmax), 0.5 * (box.ymin + box.ymax)};
-  const Box square = Box::of(middle, middle).grownBy(0.51 * extent);
-  const Projection& projection = domain.projection;
-  const auto table = std::make_shared<ScaleTable>(projection, square);
-  const auto scale = [table](const Point& x) { return table->at(x); };
-  const auto measure = [table](const Point& x) { return table->measureAt(x); };
-  const Surface& surface = table->surface();
-
+  const PlaneOfDomain plane(domain);
+  const Surface& surface = plane.table->surface();
   std::optional<Pslg> opened;
   if (inputs.shoreOf && (options.shore_m < kInfinity || options.channel_elements > 0.0))
     opened = inputs.shoreOf(domain, options, loop);
   const Pslg& shore = opened ? *opened : domain.pslg;
-
-  const SizeBox root{middle, 0.505 * extent};
   if (accuracy == SizeAccuracy::Rough && isByShoreAlone(options, inputs) && !surface.isCurved()) {
-    DomainSizes sizes = sizesByShore(options, shore, table, root, most_vertices);
+    DomainSizes sizes = sizesByShore(options, shore, plane.table, plane.root, most_vertices);
     if (sizes.function) return sizes;
   }
-  const DomainMask mask(domain.closed() ? boundaryOf(box) : domain.pslg, root, surface);
-  ComposedSizes source(options, measure, mask, loop);
-  const double reach = reachOn(surface, extent, root), reach_m = reach / measure(middle);
-  const double most_m = std::min(options.most_m, options.size_m);
-  bool has_shore = true;
+
+  DomainSizes sizes;
+  const DomainMask mask(domain.closed() ? boundaryOf(plane.box) : domain.pslg, plane.root, surface);
+  ComposedSizes source(options, plane.measure, mask, loop);
   std::vector<SizedLine> sized_shore;  // that the time step may raise
   if (options.shore_m < kInfinity) {
     std::vector<SizedLine> lines = shoreLines(shore, options.shore_m, options.shore_rate);
-    has_shore = !lines.empty();
+    sizes.has_shore = !lines.empty();
     if (options.time_step_s > 0.0) sized_shore = lines;
-    source.add("--size-shore", std::make_unique<DistanceField>(std::move(lines), scale, most_m, surface));
+    source.add("--size-shore",
+               std::make_unique<DistanceField>(std::move(lines), plane.scale, largestSize(options), surface));
   }
-  if (options.channel_elements > 0.0) {
-    // The time step may require larger sizes than channels request: then only the number of lines is limited.
-    ChannelLines channels =
-        channelLines(shore, options.channel_elements, options.gradation, options.least_m, std::min(most_m, reach_m),
-                     scale, {options.time_step_s > 0.0 ? kInfinity : most_vertices, most_vertices}, surface);
-    if (!channels.complete) {
-      const SizedLine& last = channels.lines.back();
-      throw TooManyVertices({channels.vertices, projection.inverse(last.a), last.size_m, "--channel-elements",
-                             !(channels.vertices > most_vertices)});
-    }
-    source.add("--channel-elements",
-               std::make_unique<DistanceField>(std::move(channels.lines), scale, most_m, surface));
-  }
-  if (!inputs.layers->features.empty()) {
-    // The gradation is lowered to half at most, see below, and slightly less.
-    FeatureScope scope{{}, most_m, 0.49 * options.gradation};
-    if (!surface.isCurved()) scope.ball = GroundBalls(inputs.crs).around(domain.input_points);
-    for (const SizedFeatures& features : inputs.layers->features)
-      for (auto& field : featureFields(features, projection, scale, scope))
-        source.add("--size-features", std::move(field));
-  }
+  if (options.channel_elements > 0.0) addChannels(source, options, shore, plane, most_vertices);
+  addFeatures(source, options, inputs, plane);
   if (!inputs.rasters.empty())
-    source.add("--size-raster",
-               std::move(rasterFields(inputs.rasters, inputs, projection, square, {SizeRule{}}, loop).front()));
-  DepthSizes depths = sizesOfDepths(options, inputs, domain, square, root, mask, source.leastWanted(), scale, loop);
+    source.add(
+        "--size-raster",
+        std::move(rasterFields(inputs.rasters, inputs, domain.projection, plane.square, {SizeRule{}}, loop).front()));
+  DepthSizes depths =
+      sizesOfDepths(options, inputs, domain, plane.square, plane.root, mask, source.leastWanted(), plane.scale, loop);
+  sizes.filled = depths.filled;
   if (depths.asked) source.add(askingOfDepths(options.depth), std::move(depths.asked));
-  RaisedShore raised;
-  double floor_m = 0.0;
-  if (depths.step) {
-    auto floor = std::make_unique<SizeFloor>(std::move(depths.step), options.gradation,
-                                             source.leastWanted() / kShoreFloor, scale, root, mask, loop, surface);
-    if (options.coast == CoastDetail::Follow)
-      floor->raiseNear(
-          std::make_unique<DistanceField>(shoreLines(domain.pslg, 0.0, options.gradation), scale, kInfinity, surface),
-          kShoreFloor);
-    raised = raisedShore(sized_shore, *floor, options.least_m, scale);
-    floor_m = largestOf(*floor, mask, root);
-    source.setFloor(std::move(floor));
-  }
+  if (depths.step) addFloor(source, std::move(depths.step), options, plane, sized_shore, mask, sizes, loop);
+
   source.limitRate(options.gradation);
-  double for_scale = gradationForMeasure(source, *table, root, reach_m);
-  // Elements as large as seas: sizes are limited so that half of the gradation is left.
-  if (for_scale > 0.5 * options.gradation) {
-    const double most = 0.5 * options.gradation / for_scale * reach_m;
-    if (most < options.least_m) {
-      throw InputError(
-          "--grade: too small for sizes of --size-min on a projection whose scale varies so much; give a larger one");
-    }
-    source.limitSize(most);
-    for_scale = 0.5 * options.gradation;
-  }
-  SizeTreeOptions tree;
-  // Sizes that only grow with distance usually have smaller errors, because their kinks are only where two lines are
-  // equally near.
-  constexpr double kRough = 0.1, kRoughOfLines = 0.2, kFineOfLines = 0.1;
-  tree.tolerance_graded = accuracy == SizeAccuracy::Rough ? kRoughOfLines : kFineOfLines;
-  if (accuracy == SizeAccuracy::Rough) tree.tolerance = kRough;
-  // Across a cell as small as `finest_graded`, graded sizes vary by about this share.
-  constexpr double kNothing = 0.1;
-  tree.finest_graded = std::clamp(kNothing / options.gradation, tree.finest, 1.0);
+  const double for_scale = gradationForScale(source, options, plane);
+  SizeTreeOptions tree = treeOptions(options, accuracy, most_vertices);
   tree.surface = surface;
   tree.gradation = options.gradation - for_scale;
   // Slightly less: sizes that are just too steep everywhere would have to be graded everywhere.
   constexpr double kJustBelow = 0.99;
   source.limitRate(kJustBelow * tree.gradation);
-  tree.most_vertices = most_vertices;
-  tree.most_cells =
-      static_cast<std::uint32_t>(std::min<double>(tree.most_cells, kLeastCells + kCellsPerVertex * most_vertices));
+  const Box& box = plane.box;
   auto size = std::make_unique<SizeTree>(Point{box.xmin, box.ymin}, Point{box.xmax, box.ymax}, source, tree, loop);
-  VertexDemand demand = demandOf(source, size->demand(), projection);
-  demand.map_too_large = !size->isComplete() && !(demand.vertices > most_vertices);
-  if (!size->isComplete()) throw TooManyVertices(std::move(demand));
-  // Relative to the extent: with smaller sizes, coordinates do not resolve good triangles. Far out in the plane of a
-  // sphere coordinates are coarser, but triangles are larger too.
-  constexpr double kLeastSize = 1e-9;
-  if (size->least() < kLeastSize * reach) {
-    char text[200];
-    std::snprintf(text, sizeof text,
-                  "sizes come down to %.3g m, too little for coordinates over an extent of %.3g m: give a --size-min",
-                  size->least() / measure(middle), reach_m);
-    throw InputError(text);
-  }
-  DomainSizes sizes{std::move(size), std::move(demand)};
-  sizes.filled = depths.filled;
-  sizes.has_shore = has_shore;
-  sizes.raised = raised;
-  sizes.floor_m = floor_m;
+  sizes.demand = demandOf(source, size->demand(), domain.projection);
+  sizes.demand.map_too_large = !size->isComplete() && !(sizes.demand.vertices > most_vertices);
+  if (!size->isComplete()) throw TooManyVertices(std::move(sizes.demand));
+  requireResolved(*size, plane);
+  sizes.function = std::move(size);
   return sizes;
 }
 

@@ -202,6 +202,33 @@ TEST_F(SizeLimits, ALittleBeyondTheBudgetItIsRefinedAsFarAsThatGoes) {
   EXPECT_EQ(runProgram({"check", file("a.2dm"), "--assume-crs", "EPSG:4326"}).code, 0);
 }
 
+// Sizes that vary from pixel to pixel: the mesh would have fewer vertices than the map of its sizes may have cells.
+TEST_F(SizeLimits, SizesThatVaryTooMuchToBeStored) {
+  constexpr int kPixels = 500;
+  std::ostringstream noise;
+  noise << "ncols 500\nnrows 500\nxllcorner 0\nyllcorner 0\ncellsize 20\n";
+  for (unsigned random = 1, k = 0; k < kPixels * kPixels; ++k) {
+    random = 1664525u * random + 1013904223u;
+    noise << (random >> 31 != 0 ? 60 : 120) << (k % kPixels + 1 < kPixels ? ' ' : '\n');
+  }
+  const std::string basin =
+      write("basin.geojson", geoJsonPolygons({{{{0, 0}, {10'000, 0}, {10'000, 10'000}, {0, 10'000}}}}));
+  const auto meshed = [&, sizes = write("noise.asc", noise.str())](const std::vector<std::string>& further) {
+    std::vector<std::string> options{"mesh", basin, "--crs", "plane", "-o", file("a.2dm"), "--size-raster", sizes};
+    options.insert(options.end(), further.begin(), further.end());
+    return runProgram(options);
+  };
+  const ProgramRun run = meshed({"--max-vertices", "50000"});
+  EXPECT_EQ(run.code, 1);
+  EXPECT_NE(run.errors.find("these sizes vary so much that storing them takes more memory than such a mesh may: "
+                            "--max-vertices allows 50000"),
+            std::string::npos)
+      << run.errors;
+  EXPECT_FALSE(isMeshThere());
+  // As the message advises.
+  EXPECT_EQ(meshed({"--max-vertices", "50000", "--size-min", "120"}).code, 0);
+}
+
 // Values beyond any wave or model would overflow in the computation of sizes, and have no effect.
 TEST_F(SizeLimits, NumbersBeyondAnyUseAreRefused) {
   const std::string depths = raster("depths.asc", -100.0, -90.0);

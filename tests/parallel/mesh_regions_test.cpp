@@ -11,10 +11,12 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
 #include "core/delaunay.hpp"
+#include "core/lattice/lattice.hpp"
 #include "core/metric.hpp"
 #include "parallel/workers.hpp"
 #include "tests/support/excused_twin.hpp"
@@ -222,6 +224,25 @@ TEST_P(CappedRegion, KeepsToTheBudgetOfVertices) {
   const MeshedRegion region = meshRegion(pslg_, few);
   EXPECT_TRUE(region.stats.budget_reached);
   EXPECT_LE(region.mesh.points.size(), 30000u);
+}
+
+// Without enough vertices triangles are bad everywhere: where cores were inserted, nothing is refined any more.
+TEST_P(CappedRegion, CutShortIsNotMendedBesideCores) {
+  MeshOptions few = options();
+  few.refine.size_max = 0.01;
+  // Enough for the lattice, but not for refinement around it.
+  few.refine.max_vertices = meshRegion(pslg_, few).mesh.points.size() * 97 / 100;
+  ASSERT_FALSE(layLattices(constrainedDelaunay(pslg_), {.size_max = few.refine.size_max,
+                                                        .min_angle_deg = GetParam(),
+                                                        .most_places = few.refine.max_vertices - pslg_.points.size()})
+                   .empty());
+  const MeshedRegion region = meshRegion(pslg_, few);
+  ASSERT_TRUE(region.stats.budget_reached);
+  std::vector<std::string_view> stages;
+  for (const Stage& stage : region.log.stages) stages.push_back(stage.name);
+  const auto coarsened = std::ranges::find(stages.rbegin(), stages.rend(), "coarsen").base();
+  ASSERT_NE(coarsened, stages.begin());
+  EXPECT_EQ(std::ranges::count(coarsened, stages.end(), "refine"), 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Angles, CappedRegion, ::testing::Values(28.0, 33.0, 40.0),

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -163,6 +164,48 @@ TEST(LayLattices, GivesEachLengthItsOwn) {
     }
   }
   EXPECT_GT(nearest, 0.8);
+}
+
+// Segments and points in all parts: a lattice has the places that are inside, where its length is requested here and at
+// all neighbours, and that are two spacings from the input. Each place is checked separately.
+TEST(LayLattices, TakesOfEachLengthWhatIsClear) {
+  constexpr std::array<std::pair<std::int64_t, std::int64_t>, 7> kAround{
+      {{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, -1}, {-1, 1}}};
+  Pslg pslg = squarePslg();
+  const auto addLine = [&pslg](const Point& p, const Point& q) {
+    const auto first = static_cast<VertexId>(pslg.points.size());
+    pslg.points.insert(pslg.points.end(), {p, q});
+    pslg.segments.push_back({first, first + 1});
+  };
+  addLine({0.1, 0.12}, {0.37, 0.2});
+  addLine({0.3, 0.61}, {0.9, 0.57});
+  addLine({0.71, 0.9}, {0.73, 0.72});
+  addLine({0.449, 0.3}, {0.451, 0.4});
+  pslg.points.insert(pslg.points.end(), {{0.2, 0.8}, {0.8, 0.2}, {0.5, 0.8}});
+  const TriMesh mesh = constrainedDelaunay(pslg);
+  const TwoLengths size;
+  const std::vector<LatticePlaces> found = layLattices(mesh, {.size = &size, .most_places = 1000000});
+  ASSERT_GE(found.size(), 2u);
+  for (const auto& [lattice, places] : found) {
+    const double spacing = lattice.spacing;
+    const auto isRequested = [&](std::int64_t a, std::int64_t b) {
+      const Point p = lattice.at(a, b);
+      return !isInside(mesh, p) || size.at(p) == spacing;
+    };
+    std::set<std::pair<std::int64_t, std::int64_t>> taken;
+    for (const LatticePlace& p : placesIn(places)) taken.insert({p.a, p.b});
+    for (std::int64_t b = 0; b < 120; ++b) {
+      for (std::int64_t a = -60; a < 105; ++a) {
+        const Point p = lattice.at(a, b);
+        const double clear = distanceToInput(pslg, mesh, p);
+        if (std::abs(clear - 2.0 * spacing) < 1e-9 * spacing) continue;  // rounding decides
+        const bool expected =
+            clear > 2.0 * spacing && isInside(mesh, p) &&
+            std::ranges::all_of(kAround, [&](const auto& by) { return isRequested(a + by.first, b + by.second); });
+        EXPECT_EQ(taken.contains({a, b}), expected) << spacing << ": " << p.x << " " << p.y;
+      }
+    }
+  }
 }
 
 TEST(LayLattices, LaysNoneWithoutLengthsOrRoom) {
