@@ -38,8 +38,8 @@ bool mayMerge(const RefineRun& run) {
 }
 
 // Algorithm 2: moves a vertex of the triangle to a place where its whole star is good, if there is one. We differ: at
-// large bounds a vertex of the shortest edge may also merge with a neighbour. (Of 121,000 attempts at 40° with the third
-// vertex 52 succeeded.)
+// large bounds a vertex of the shortest edge may also merge with a neighbour. (At 40° 52 of 121,000 attempts with the
+// third vertex succeeded.)
 bool mendWithoutInsertion(RefineRun& run, TriId t, VertexId beyond_shortest) {
   EditMesh& mesh = run.mesh;
   const Corners corners = mesh.triangle(t).v;

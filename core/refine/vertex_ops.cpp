@@ -26,9 +26,12 @@ std::size_t mostTrianglesMerged(const TriangleBound& bound) {
   return static_cast<std::size_t>(kMostTurn / bound.min_angle);
 }
 
-// One in a hundred merges is along an edge whose squared length exceeds this share of the mean around its end: none is
-// tried.
-constexpr double kLongestToMerge = 1.6;
+// Merges are tried along edges whose squared length, as a share of the mean around their end, is in this range. Along
+// longer ones one in a hundred succeeds; beside bad triangles, along shorter ones 15 of 55,000 did.
+struct Lengths {
+  double least, most;
+};
+constexpr Lengths kAllButLong{0.0, 1.6}, kBesideBad{0.4, 1.2};
 
 // Below this minimum angle the mean of the neighbours, if feasible, is as good a target as the middle of the region.
 constexpr double kMeanServesBelow = toRadians(36.5);
@@ -516,7 +519,8 @@ bool VertexOps::takeOut(VertexId v, Flips flips, const Accept& accept, std::vect
 bool VertexOps::mergeFree(VertexId v, const Ring& ring, bool each_gets_its_turn, std::vector<TriId>& touched) {
   const Point here = mesh_.point(v);
   const Frame frame(bound_.surface, here);
-  double longest = 0.0;                      // computed when first needed
+  const Lengths& tried = each_gets_its_turn ? kAllButLong : kBesideBad;
+  double mean = 0.0;                         // squared length of the spokes, computed when first needed
   const bool asks = bound_.min_angle > 0.0;  // otherwise no quick test applies
   for (std::size_t k = 0; k < ring.corners.size(); ++k) {
     const VertexId w = ring.corners[k];
@@ -524,17 +528,18 @@ bool VertexOps::mergeFree(VertexId v, const Ring& ring, bool each_gets_its_turn,
     if (kind == VertexKind::Input || hasTooManyTogether(v, w)) continue;
     if (kind == VertexKind::Free) {
       if (each_gets_its_turn && w < v) continue;
-      if (longest == 0.0) {
-        for (const VertexId u : ring.corners) longest += bound_.surface.squaredChord(here, mesh_.point(u));
-        longest *= kLongestToMerge / static_cast<double>(ring.corners.size());
+      if (mean == 0.0) {
+        for (const VertexId u : ring.corners) mean += bound_.surface.squaredChord(here, mesh_.point(u));
+        mean /= static_cast<double>(ring.corners.size());
       }
-      if (bound_.surface.squaredChord(here, mesh_.point(w)) > longest) continue;
+      const double squared = bound_.surface.squaredChord(here, mesh_.point(w));
+      if (squared < tried.least * mean || squared > tried.most * mean) continue;
     }
     if (asks) {
       memory_.ring_look.edges(mesh_, frame, ring);
       memory_.ring_look.prepareBoxes(region_);
+      if (kind == VertexKind::Free ? cannotMerge(frame, v, ring, k) : cannotMergeOnto(frame, ring, k)) continue;
     }
-    if (asks && (kind == VertexKind::Free ? cannotMerge(frame, v, ring, k) : cannotMergeOnto(frame, ring, k))) continue;
     if (merge(v, w, touched)) return true;
   }
   return false;
