@@ -6,7 +6,8 @@
 #include <cstdint>
 #include <cstdio>
 #include <numbers>
-#include <optional>
+#include <string>
+#include <utility>
 
 #include "apps/job/places.hpp"
 #include "gis/crs/geodesy.hpp"
@@ -81,13 +82,13 @@ std::vector<std::string> warningsOf(const StepOutcome& outcome, const SizeOption
   return all;
 }
 
-// True if the shortest edge is far shorter than those of a shore that follows the sizes, and at a border that features
-// share, which stays as in the data.
-bool isShortAtBorder(const Grid& grid, const StepReport& step, const SizeOptions& sizes) {
+// What the shortest edge is at, if it is far shorter than those of a shore that follows the sizes, and lies between
+// triangles of two features or of two regions: a border that stays as in the data. Empty if there is none.
+std::string borderWarning(const Grid& grid, const StepReport& step, const SizeOptions& sizes) {
   constexpr double kFarShorter = 0.2, kNear = 3.0;  // of the shore's edges; in lengths of the shortest edge
   const double at_shores = sizes.atShores();
-  if (sizes.coast != CoastDetail::Follow || grid.feature_of.empty() || !std::isfinite(at_shores)) return false;
-  if (!(step.shortest_edge_m < kFarShorter * at_shores)) return false;
+  if (sizes.coast != CoastDetail::Follow || grid.feature_of.empty() || !std::isfinite(at_shores)) return {};
+  if (!(step.shortest_edge_m < kFarShorter * at_shores)) return {};
   constexpr double kMetresPerDegree = 111e3;  // precise enough for what is near
   const Point& middle = step.shortest_edge;
   const double up = grid.crs.geographic ? kMetresPerDegree : 1.0;
@@ -96,13 +97,21 @@ bool isShortAtBorder(const Grid& grid, const StepReport& step, const SizeOptions
     const Point& p = grid.nodes[node];
     return std::hypot(along * (p.x - middle.x), up * (p.y - middle.y)) <= kNear * step.shortest_edge_m;
   };
-  std::optional<std::uint32_t> feature;
-  for (std::size_t t = 0; t < grid.triangles.size(); ++t) {
+  const GridFeature* first = nullptr;
+  bool at_region = false, at_feature = false;
+  for (std::size_t t = 0; t < grid.triangles.size() && !at_feature; ++t) {
     if (std::ranges::none_of(grid.triangles[t], isNear)) continue;
-    if (feature && grid.feature_of[t] != *feature) return true;
-    feature = grid.feature_of[t];
+    const GridFeature& feature = grid.features[grid.feature_of[t]];
+    if (first == nullptr) first = &feature;
+    at_feature = feature.fid != first->fid || feature.source != first->source;
+    at_region = at_region || feature.region != first->region;
   }
-  return false;
+  if (!at_feature && !at_region) return {};
+  return "the shortest edge, " + amount("%.3g m at ", step.shortest_edge_m) + pointText(step.shortest_edge) +
+         (at_feature ? ", is at a border that two features share, which stays as it is in the data: "
+                       "--dissolve makes them one"
+                     : ", is at the border of a region, which stays as it is in --regions: draw it so that it meets "
+                       "shores, the frame and other borders at larger angles, or coarser");
 }
 
 // The share of the edges at the shore that are shorter than half of the requested size there; 0 if no sizes are known.
@@ -133,11 +142,8 @@ StepOutcome measureOutcome(const Grid& grid, const SizeOptions& sizes, const Ite
   outcome.least_missed = sizes.coast == CoastDetail::Follow && !outcome.below_least.empty() &&
                          outcome.below_least.front().length_m < StepOutcome::kShareOfLeast * sizes.least_m;
   outcome.warnings = warningsOf(outcome, sizes, goal, small_waters);
-  if (isShortAtBorder(grid, outcome.step, sizes))
-    outcome.warnings.push_back("the shortest edge, " + amount("%.3g m at ", outcome.step.shortest_edge_m) +
-                               pointText(outcome.step.shortest_edge) +
-                               ", is at a border that two features share, which stays as it is in the data: "
-                               "--dissolve makes them one");
+  if (std::string warning = borderWarning(grid, outcome.step, sizes); !warning.empty())
+    outcome.warnings.push_back(std::move(warning));
   constexpr double kUsualFine = 0.25;  // some edges are always divided for the sake of angles
   if (sizes.coast == CoastDetail::Keep && sizes.any())
     if (const double fine = shareOfFineShore(grid, loop); fine > kUsualFine)

@@ -97,6 +97,7 @@ bool sameCrs(const Crs& a, const Crs& b) {
 
 double metresPerUnit(const Crs& crs) {
   if (crs.isPlane()) return 1.0;
+  const OgrErrors caught;  // of grids of a datum shift, as in `toOgr`
   return crs.geographic ? crs.semi_major_m * std::numbers::pi / 180.0 : toOgr(crs).GetLinearUnits();
 }
 

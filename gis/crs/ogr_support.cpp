@@ -24,14 +24,6 @@ bool saysLeftOut(std::string_view message) {
   return std::ranges::any_of(kWords, [&](std::string_view word) { return message.find(word) != message.npos; });
 }
 
-bool canBeWrittenAs(const OGRSpatialReference& srs, const char* format) {
-  char* text = nullptr;
-  const char* const options[] = {format, nullptr};
-  const bool written = srs.exportToWkt(&text, options) == OGRERR_NONE && text != nullptr && *text != '\0';
-  CPLFree(text);
-  return written;
-}
-
 }  // namespace
 
 OgrErrors::OgrErrors() {
@@ -50,13 +42,20 @@ void OgrErrors::collect(int severity, int, const char* message) {
     self->left_out_ = oneLine(message, kLongest);
   }
   if (severity < CE_Warning) return;
-  const bool error = severity >= CE_Failure;
-  if (self->text_.empty() || (error && !self->failed_)) self->text_ = oneLine(message, kLongest);
+  // PROJ tries forms of a CRS one after another, and calls it an error that one does not suit: WKT 1 for Equal Earth or
+  // for a datum shift by a grid, which it also looks for. What reads and writes features needs neither.
+  constexpr std::string_view kOfProj = "PROJ: ";
+  const bool of_proj = std::string_view(message).starts_with(kOfProj);
+  const bool error = severity >= CE_Failure && !of_proj;
+  if (self->text_.empty() || (self->of_proj_ && !of_proj) || (error && !self->failed_)) {
+    self->text_ = oneLine(message, kLongest);
+    self->of_proj_ = of_proj;
+  }
   self->failed_ = self->failed_ || error;
 }
 
 void OgrErrors::clear() {
-  failed_ = false;
+  failed_ = of_proj_ = false;
   text_.clear();
   left_out_.clear();
 }
@@ -74,15 +73,11 @@ OgrOption::~OgrOption() { CPLSetThreadLocalConfigOption(name_, was_set_ ? before
 
 OGRSpatialReference toOgr(const Crs& crs) {
   assert(!crs.isPlane());
+  const OgrErrors caught;  // of grids of a datum shift that are not installed: the CRS is as given without them
   OGRSpatialReference srs;
   srs.SetFromUserInput(crs.authority.empty() ? crs.wkt.c_str() : crs.authority.c_str());
   srs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   return srs;
-}
-
-bool needsWkt2(const OGRSpatialReference& srs) {
-  const OgrErrors caught;  // of what is only tried here
-  return !canBeWrittenAs(srs, "FORMAT=WKT1_GDAL") && canBeWrittenAs(srs, "FORMAT=WKT2_2015");
 }
 
 }  // namespace coastmesh

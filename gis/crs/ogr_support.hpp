@@ -16,8 +16,10 @@ class OgrErrors {
   OgrErrors(const OgrErrors&) = delete;
   OgrErrors& operator=(const OgrErrors&) = delete;
 
-  bool failed() const { return failed_; }            // true after an error (not a warning) since the start or `clear`
-  const std::string& text() const { return text_; }  // the first error, else the first warning, as one short line
+  // True after an error (not a warning, and none of PROJ) since the start or `clear`.
+  bool failed() const { return failed_; }
+  const std::string& text() const { return text_; }  // the first error, else the first message, as one short line
+  bool isOfProj() const { return of_proj_; }         // true if `text` is on a CRS alone, so that features are unharmed
   // The first message of the GeoJSON driver on a geometry, or part of one, that it drops. It is only a debug message,
   // which GDAL issues if CPL_DEBUG is "GeoJSON".
   const std::string& leftOut() const { return left_out_; }
@@ -26,7 +28,7 @@ class OgrErrors {
  private:
   static void collect(int severity, int code, const char* message);
 
-  bool failed_ = false;
+  bool failed_ = false, of_proj_ = false;
   std::string text_;
   std::string left_out_;
 };
@@ -51,9 +53,5 @@ void registerDrivers();
 
 // With x = easting or longitude. REQUIRES: not a plane.
 OGRSpatialReference toOgr(const Crs& crs);
-
-// True if WKT 2 can express it and WKT 1 cannot, as Equal Earth. GDAL reports that as an error where it tries WKT 1
-// first, although it then writes WKT 2.
-bool needsWkt2(const OGRSpatialReference& srs);
 
 }  // namespace coastmesh

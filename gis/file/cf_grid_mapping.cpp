@@ -70,6 +70,7 @@ void addPole(const OGRSpatialReference& srs, CfGridMapping& mapping) {
 }  // namespace
 
 CfGridMapping cfGridMapping(const Crs& crs) {
+  const OgrErrors caught;  // of grids of a datum shift, as in `toOgr`
   const OGRSpatialReference srs = toOgr(crs);
   CfGridMapping mapping;
   const auto add = [&](const Parameter& parameter) {

@@ -14,12 +14,10 @@
 
 namespace coastmesh {
 
-std::string prjBeside(const std::string& path) {
-  return std::filesystem::path(path).replace_extension(".prj").string();
-}
+namespace {
 
-void writePrjBeside(const std::string& path, const Crs& crs) {
-  if (crs.isPlane()) return;
+// The CRS of the mesh file `path` as ESRI's WKT. REQUIRES: not a plane. Throws OutputError.
+std::string prjText(const std::string& path, const Crs& crs) {
   const OgrErrors errors;
   const char* const options[] = {"FORMAT=WKT1_ESRI", nullptr};
   char* wkt = nullptr;
@@ -28,8 +26,24 @@ void writePrjBeside(const std::string& path, const Crs& crs) {
   if (result != OGRERR_NONE || wkt == nullptr || *wkt == '\0')
     throw OutputError("cannot write '" + prjBeside(path) + "': the CRS has no form for a .prj file (" + errors.text() +
                       "); choose .gpkg or .nc");
+  return wkt;
+}
+
+}  // namespace
+
+std::string prjBeside(const std::string& path) {
+  return std::filesystem::path(path).replace_extension(".prj").string();
+}
+
+void requirePrjForm(const std::string& path, const Crs& crs) {
+  if (!crs.isPlane()) prjText(path, crs);
+}
+
+void writePrjBeside(const std::string& path, const Crs& crs) {
+  if (crs.isPlane()) return;
+  const std::string text = prjText(path, crs);
   TextWriter file(prjBeside(path));
-  file << std::string_view(wkt);
+  file << text;
   file.close();
 }
 

@@ -9,6 +9,9 @@ namespace coastmesh {
 // The .prj file with the CRS of `path`, for formats that cannot hold it.
 std::string prjBeside(const std::string& path);
 
+// Throws OutputError if .prj files cannot hold the CRS of the mesh file `path`.
+void requirePrjForm(const std::string& path, const Crs& crs);
+
 // Writes the CRS of the mesh file `path` beside it as ESRI's WKT; nothing for a plane. Throws OutputError.
 void writePrjBeside(const std::string& path, const Crs& crs);
 

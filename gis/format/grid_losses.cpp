@@ -202,6 +202,8 @@ std::string depthWarning(const Grid& grid, const std::string& path) {
 std::string metreWarning(const Grid& grid, const std::string& path) {
   const Crs& crs = grid.crs;
   if (crs.isPlane() || crs.geographic) return {};
+  // SCHISM's two files are written together; the .ll has longitudes and latitudes.
+  if (path.ends_with(".ll")) return metreWarning(grid, path.substr(0, path.size() - 3) + ".gr3");
   if (metresPerUnit(crs) != 1.0)
     return "'" + path + "' has x and y in the unit of " + nameOf(crs) + ", " + unitOf(crs) +
            ", as the input has them, and depths in metres, but models read all of them as metres: reproject the input "

@@ -201,11 +201,10 @@ OGRSpatialReference srsForLayer(const Crs& crs) {
 
 OGRLayer& createLayer(GDALDataset& dataset, const std::string& path, const std::string& name,
                       const OGRSpatialReference* srs, OGRwkbGeometryType type, const char* const* options) {
-  const bool needs_wkt2 = srs != nullptr && needsWkt2(*srs);
   const OgrErrors errors;
   OGRLayer* const layer =
       dataset.CreateLayer(name.c_str(), const_cast<OGRSpatialReference*>(srs), type, const_cast<char**>(options));
-  if (layer == nullptr || (errors.failed() && !needs_wkt2)) failToWrite(path, errors);
+  if (layer == nullptr || errors.failed()) failToWrite(path, errors);
   return *layer;
 }
 
@@ -298,6 +297,7 @@ std::uint64_t tableBytes(const GridLayer& layer) {
 
 void writeShapefile(const Grid& grid, const std::string& path, const ItemLoop&) {
   requireZ(grid, path);
+  requirePrjForm(path, grid.crs);  // GDAL would leave the .prj out
   const std::vector<GridLayer> layers = layersOf(grid);
   constexpr std::uint64_t kTriangleShape = 8 + 44 + 4 + 4 * 16;  // header, type, box and counts, part, four corners
   requireShapefileSize(path, layers[0].rows, kTriangleShape, tableBytes(layers[0]));

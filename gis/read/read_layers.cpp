@@ -270,7 +270,8 @@ std::vector<RawLayer> readLayers(const Source& given, const ReadFilter& filter, 
   }
   report.not_read += not_read;
   requireReadToEnd(source, errors);
-  if (!errors.text().empty()) report.warnings.push_back(sourceInWords(source.name) + ": " + errors.text());
+  if (!errors.text().empty() && !errors.isOfProj())
+    report.warnings.push_back(sourceInWords(source.name) + ": " + errors.text());
   if (!errors.leftOut().empty()) {
     report.warnings.push_back(sourceInWords(source.name) + ": something is left out that is not a geometry (" +
                               errors.leftOut() + ")");

@@ -518,6 +518,9 @@ TEST_F(Coordinates, InOtherUnitsThanMetresAreWarnedOfForModels) {
     EXPECT_EQ(text.find("has x and y"), text.rfind("has x and y")) << text;
     EXPECT_EQ(errorsWith(32618, {model}).find("has x and y"), std::string::npos);
   }
+  // Writing a .ll writes the .gr3 too, and the .ll has longitudes and latitudes.
+  const std::string schism = errorsWith(2263, {"a.ll"});
+  EXPECT_NE(schism.find("a.gr3' has x and y in the unit of"), std::string::npos) << schism;
   EXPECT_EQ(errorsWith(2263, {"a.gpkg", "a.nc", "a.vtu"}), "");
   EXPECT_NE(readText(file("a.nc")).find("US_survey_foot"), std::string::npos);
   const ProgramRun run = runProgram({"convert", file("a.nc"), "-o", file("a.2dm"), "--overwrite"});

@@ -62,6 +62,30 @@ TEST(StepOutcome, LargerSizesAreNoAdviceForSmallWaters) {
   EXPECT_NE(warning(2).find("leave them out"), std::string::npos) << warning(2);
 }
 
+// The advice for a short edge between features is of no use between regions, nor is it for a mesh of one feature.
+TEST(StepOutcome, ShortEdgesAtBordersNameWhatTheBorderIsOf) {
+  Grid grid = strip(10);
+  grid.feature_of.assign(grid.triangles.size(), 0);
+  std::fill(grid.feature_of.begin() + 10, grid.feature_of.end(), 1u);
+  SizeOptions sizes;
+  sizes.size_m = 10.0;
+  sizes.coast = CoastDetail::Follow;
+  // The shortest edge is where the features meet, after three squares.
+  for (const std::uint32_t node : {10u, 11u}) grid.nodes[node].x -= 0.25;
+  const auto warnings = [&](const GridFeature& a, const GridFeature& b) {
+    grid.features = {a, b};
+    std::string all;
+    for (const std::string& warning : measureOutcome(grid, sizes, inOrder).warnings) all += warning + '\n';
+    return all;
+  };
+  EXPECT_NE(warnings({1, "a.shp", {}}, {2, "a.shp", {}}).find("--dissolve makes them one"), std::string::npos);
+  EXPECT_NE(warnings({1, "a.shp", {}}, {1, "b.shp", {}}).find("--dissolve makes them one"), std::string::npos);
+  const std::string of_regions = warnings({1, "a.shp", {}, "bay"}, {1, "a.shp", {}});
+  EXPECT_NE(of_regions.find("border of a region"), std::string::npos) << of_regions;
+  EXPECT_EQ(of_regions.find("--dissolve"), std::string::npos) << of_regions;
+  EXPECT_EQ(warnings({1, "a.shp", {}}, {1, "a.shp", {}}).find("the shortest edge"), std::string::npos);
+}
+
 TEST(StepOutcome, OpenBoundariesAreNoCoast) {
   Grid grid = strip(10);
   for (Boundary& boundary : grid.boundaries) boundary.role = BoundaryRole::Open;

@@ -346,10 +346,11 @@ TEST(GridFormats, KeepCrssThatHaveNoCode) {
   }
 }
 
-// GDAL calls it an error that WKT 1 cannot express Equal Earth, and then writes it as WKT 2.
+// GDAL calls it an error that WKT 1 cannot express Equal Earth or a datum shift by a grid, and then writes WKT 2.
 TEST(GridFormats, KeepCrssThatOnlyWkt2CanExpress) {
   const TemporaryFolder folder;
-  for (const char* text : {"EPSG:8857", "+proj=eqearth +lon_0=20 +R=6371000"}) {
+  for (const char* text : {"EPSG:8857", "+proj=eqearth +lon_0=20 +R=6371000",
+                           "+proj=utm +zone=32 +ellps=intl +nadgrids=@null +type=crs"}) {
     const Grid grid = sampleGrid(parseCrs(text), {500000.0, 5000000.0}, 100.0);
     for (const char* name : {"a.gpkg", "a.fgb"}) {
       const std::string path = folder / name;

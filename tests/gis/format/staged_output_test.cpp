@@ -283,6 +283,17 @@ TEST(StagedOutput, GeoJsonRefusesACrsThatItCannotName) {
   EXPECT_THAT(folder.names(), IsEmpty());
 }
 
+// Without it the mesh would be read as one in a plane.
+TEST(StagedOutput, ShapefilesRefuseACrsThatAPrjCannotHold) {
+  const TemporaryFolder folder;
+  Grid grid = lakes();
+  grid.crs = parseCrs(
+      "+proj=ob_tran +o_proj=longlat +o_lon_p=-162 +o_lat_p=39.25 +lon_0=180 +to_meter=0.0174532925199433 +type=crs");
+  for (const char* name : {"lake.shp", "lake.14"})
+    EXPECT_THAT(errorOf([&] { writeWhole(folder / name, grid); }), HasSubstr("no form for a .prj")) << name;
+  EXPECT_THAT(folder.names(), IsEmpty());
+}
+
 TEST(StagedOutput, GeoJsonIsJsonWhateverNamesHold) {
   const TemporaryFolder folder;
   Grid grid = lakes();

@@ -248,6 +248,26 @@ TEST_F(ReadCoastline, AllLayersOfASource) {
   EXPECT_EQ(coastline.features[0].polygons[0].outer[1], (Point{1, 0}));
 }
 
+// PROJ complains of datum shifts by grids, that it has no WKT 1 for them or that the grids are not installed. The
+// features are as good as any.
+TEST_F(ReadCoastline, DatumShiftsByGridsAreNoErrorsInTheFile) {
+  const std::string polygon = "POLYGON((500000 0,600000 0,600000 100000,500000 0))";
+  for (const char* grids : {"@null", "not_installed.gsb"}) {
+    const std::string crs = std::string("+proj=utm +zone=31 +ellps=intl +type=crs +nadgrids=") + grids;
+    for (const char* driver : {"GPKG", "FlatGeobuf"}) {
+      testing::internal::CaptureStderr();  // GDAL's messages while it writes the file
+      const std::string file = layer(std::string(grids) + '.' + driver, driver, crs.c_str(), {polygon});
+      testing::internal::GetCapturedStderr();
+      testing::internal::CaptureStderr();
+      const Coastline coastline = read(file);
+      EXPECT_EQ(metresPerUnit(coastline.crs), 1.0);
+      EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << grids << ' ' << driver;
+      EXPECT_EQ(coastline.features.size(), 1u);
+      EXPECT_TRUE(report_.warnings.empty()) << report_.warnings.front();
+    }
+  }
+}
+
 TEST_F(ReadCoastline, BringsAllToTheCrsOfTheFirst) {
   const std::string geographic = geojson("first.geojson", {kSquare});
   const std::string utm =
