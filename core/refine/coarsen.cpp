@@ -180,13 +180,13 @@ class Coarsener {
 // Nothing is removed where edges are about as long as requested.
 bool Coarsener::isFinerThanWanted(VertexId v) {
   const Point here = mesh_.point(v);
+  const double longest = kFineShare * size_->at(here), most = longest * longest;
+  const auto isShort = [&](VertexId w) { return bound_.surface.squaredChord(here, mesh_.point(w)) < most; };
+  // Mostly any triangle shows it.
+  const Triangle& home = mesh_.triangle(mesh_.triangleOf(v));
+  if (std::ranges::any_of(home.v, [&](VertexId w) { return w != v && !isShort(w); })) return false;
   mesh_.star(v, star_);
-  double longest = 0.0;
-  for (const EdgeRef e : star_)
-    longest = std::max({longest, bound_.surface.squaredChord(here, mesh_.point(mesh_.origin(e))),
-                        bound_.surface.squaredChord(here, mesh_.point(mesh_.target(e)))});
-  const double most = kFineShare * size_->at(here);
-  return longest < most * most;
+  return std::ranges::all_of(star_, [&](EdgeRef e) { return isShort(mesh_.origin(e)) && isShort(mesh_.target(e)); });
 }
 
 }  // namespace
