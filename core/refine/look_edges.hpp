@@ -12,6 +12,12 @@ namespace coastmesh {
 // Two numbers that one instruction processes. Each has the bits of the same operation on it alone.
 using DoublePair [[gnu::vector_size(16)]] = double;
 
+// The same at any address of two doubles.
+using LooseDoublePair [[gnu::vector_size(16), gnu::aligned(8), gnu::may_alias]] = double;
+
+inline DoublePair pairAt(const double* first) { return *reinterpret_cast<const LooseDoublePair*>(first); }
+inline void putPair(double* first, DoublePair pair) { *reinterpret_cast<LooseDoublePair*>(first) = pair; }
+
 inline DoublePair larger(DoublePair a, DoublePair b) { return a > b ? a : b; }
 inline DoublePair smaller(DoublePair a, DoublePair b) { return a < b ? a : b; }
 inline double larger(double a, double b) { return a > b ? a : b; }

@@ -41,19 +41,40 @@ PetalBox RingLook::boxWithout(std::size_t k) const {
 }
 
 bool Fan::fit(LookEdges& link, const Point& place, const AngleBound& bound) {
-  const std::span<const LookEdgePair> edges = link.pairs();
-  if (pairs_.size() < edges.size()) pairs_.resize(edges.size());
-  Pair* out = pairs_.data();
-  for (const LookEdgePair& e : edges) {
+  count_ = link.size();
+  if (area_.size() < count_ + 2)
+    for (std::vector<double>* values : {&at_x_, &at_y_, &at_place_, &area_}) values->resize(count_ + 2);
+  double *at_x_of = at_x_.data() + 1, *at_y_of = at_y_.data() + 1, *at_place_of = at_place_.data() + 1;
+  double* area_of = area_.data() + 1;
+  for (const LookEdgePair& e : link.pairs()) {
     const DoublePair to_x = place.x - e.to_x, to_y = place.y - e.to_y;
     const DoublePair from_x = e.from_x - place.x, from_y = e.from_y - place.y;
-    out->at_x = -(e.along_x * from_x + e.along_y * from_y);
-    out->at_y = -(e.along_x * to_x + e.along_y * to_y);
-    out->at_place = -(to_x * from_x + to_y * from_y);
-    out->area = -(e.along_x * from_y - e.along_y * from_x);
-    const auto fits = larger(larger(out->at_x, out->at_y), out->at_place) <= bound.cot_min * out->area;
+    const DoublePair at_x = -(e.along_x * from_x + e.along_y * from_y), at_y = -(e.along_x * to_x + e.along_y * to_y);
+    const DoublePair at_place = -(to_x * from_x + to_y * from_y), area = -(e.along_x * from_y - e.along_y * from_x);
+    const auto fits = larger(larger(at_x, at_y), at_place) <= bound.cot_min * area;
     if ((fits[0] & fits[1]) == 0) return false;
-    ++out;
+    putPair(at_x_of, at_x);
+    putPair(at_y_of, at_y);
+    putPair(at_place_of, at_place);
+    putPair(area_of, area);
+    at_x_of += 2;
+    at_y_of += 2;
+    at_place_of += 2;
+    area_of += 2;
+  }
+  return true;
+}
+
+bool Fan::spokesAreDelaunay() {
+  constexpr double kRounding = 1e-14;
+  at_x_[0] = at_x_[count_];
+  area_[0] = area_[count_];
+  // Beyond an odd number there is the last one again: its own two angles add up to less than a half turn.
+  for (std::size_t k = 0; k < count_; k += 2) {
+    const DoublePair before = pairAt(&area_[k]), area = pairAt(&area_[k + 1]);
+    const DoublePair sum = pairAt(&at_x_[k]) * area + pairAt(&at_y_[k + 1]) * before;
+    const auto clear = sum > kRounding * before * area;
+    if ((clear[0] & clear[1]) == 0) return false;
   }
   return true;
 }

@@ -56,16 +56,16 @@ class Fan {
   // good angles is so far from flat that the sign of its area is certain.
   bool fit(LookEdges& link, const Point& place, const AngleBound& bound);
 
-  Triangle operator[](std::size_t k) const {
-    const Pair& p = pairs_[k / 2];
-    return {p.at_x[k % 2], p.at_y[k % 2], p.at_place[k % 2], p.area[k % 2]};
-  }
+  Triangle operator[](std::size_t k) const { return {at_x_[k + 1], at_y_[k + 1], at_place_[k + 1], area_[k + 1]}; }
+
+  // True if every edge from the place to a corner of the link, a loop that it fits, is Delaunay: the two angles
+  // opposite it clearly add up to less than a half turn, so that the sum of their cotangents is above 0.
+  bool spokesAreDelaunay();
 
  private:
-  struct Pair {
-    DoublePair at_x, at_y, at_place, area;
-  };
-  std::vector<Pair> pairs_;  // at least as many as needed
+  std::size_t count_ = 0;
+  // Those of triangle k at k + 1. Before them is room for the last one, behind them for one more.
+  std::vector<double> at_x_, at_y_, at_place_, area_;
 };
 
 }  // namespace coastmesh

@@ -342,30 +342,24 @@ std::optional<Point> VertexOps::placeTowards(const Point& to, const Frame& frame
 
 // True if a bad triangle lies beyond the ring of a vertex.
 bool VertexOps::isBesideBad(VertexId v, const Ring& ring) const {
-  if (std::ranges::all_of(ring.corners, [&](VertexId w) { return isClearOfBad(w); })) return false;
   return std::ranges::any_of(ring.triangles,
                              [&](TriId t) { return isBadBeyond(mesh_.twin(edgeRef(t, mesh_.cornerOf(t, v)))); });
 }
 
-// True if an edge of a free vertex's star may not be Delaunay, with the vertex at the place last passed to `fitsAt`:
-// angles opposite an edge add up to less than a half turn if the sum of their cotangents is above 0. Plane only.
-bool VertexOps::needsFlips(VertexId v, const Ring& ring) const {
-  constexpr double kRounding = 1e-14, kClear = 1e-6;
-  const Fan& fan = memory_.fan;
+// True if an edge of a free vertex's star may not be Delaunay, with the vertex at the place last passed to `fitsAt`.
+// `all_clear`: of bad triangles. Plane only.
+bool VertexOps::needsFlips(VertexId v, const Ring& ring, bool all_clear) {
+  constexpr double kClear = 1e-6;
+  Fan& fan = memory_.fan;
+  if (!fan.spokesAreDelaunay()) return true;
   const std::size_t count = ring.corners.size();
-  Fan::Triangle before = fan[count - 1];
-  for (std::size_t k = 0; k < count; ++k) {
-    const Fan::Triangle t = fan[k];
-    if (!(before.at_x * t.area + t.at_y * before.area > kRounding * before.area * t.area)) return true;
-    before = t;
-  }
   const Point& here = mesh_.point(v);
   // Edge k leads to corner k; its triangle is the one before the triangle at that corner.
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t at = k == 0 ? count - 1 : k - 1;
     const Fan::Triangle t = fan[k];
     const bool is_safe = t.at_place > cot_safe_ * t.area;
-    if (is_safe && (isClearOfBad(ring.corners[at]) || isClearOfBad(ring.corners[k]))) continue;
+    if (is_safe && (all_clear || isClearOfBad(ring.corners[at]) || isClearOfBad(ring.corners[k]))) continue;
     const EdgeRef e = edgeRef(ring.triangles[at], mesh_.cornerOf(ring.triangles[at], v));
     if (mesh_.isConstrained(e)) continue;
     const Point &x = mesh_.point(ring.corners[at]), &y = mesh_.point(ring.corners[k]);
@@ -398,10 +392,11 @@ bool VertexOps::relocateFree(VertexId v, const Ring& ring, std::vector<TriId>& t
       place = there;
   }
   if (!place) return false;
-  if (bad_stays_ && isBesideBad(v, ring)) return relocateWatchingFlips(v, touched);
+  const bool all_clear = std::ranges::all_of(ring.corners, [&](VertexId w) { return isClearOfBad(w); });
+  if (bad_stays_ && !all_clear && isBesideBad(v, ring)) return relocateWatchingFlips(v, touched);
   mesh_.setPoint(v, *place);
   touched.insert(touched.end(), ring.triangles.begin(), ring.triangles.end());
-  if (bound_.surface.isCurved() || needsFlips(v, ring)) mesh_.restoreDelaunayRound(v, touched);
+  if (bound_.surface.isCurved() || needsFlips(v, ring, all_clear)) mesh_.restoreDelaunayRound(v, touched);
   return true;
 }
 

@@ -94,7 +94,7 @@ class VertexOps {
   bool fitsAt(const Point& place, const Frame& frame, const Ring& ring);
   bool isClearOfBad(VertexId v) const { return v < at_bad_.size() && at_bad_[v] == 0; }
   bool isBesideBad(VertexId v, const Ring& ring) const;
-  bool needsFlips(VertexId v, const Ring& ring) const;
+  bool needsFlips(VertexId v, const Ring& ring, bool all_clear);
   template <typename Accept>
   bool removeWhere(VertexId v, Flips flips, const Accept& accept, std::vector<TriId>& touched);
   template <typename Accept>

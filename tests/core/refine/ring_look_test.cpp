@@ -52,7 +52,7 @@ TEST(Fan, FitsWhereAllAnglesDo) {
   const AngleBound bound(25.0, 180.0);
   Fan fan;
   LookEdges link;
-  int good = 0, bad = 0;
+  int good = 0, bad = 0, delaunay = 0, flat = 0;
   for (unsigned seed = 1; seed <= 2000; ++seed) {
     std::mt19937_64 random(seed);
     const std::size_t count = 4 + seed % 5;
@@ -83,7 +83,18 @@ TEST(Fan, FitsWhereAllAnglesDo) {
       EXPECT_NEAR(t.at_y / t.area, 1.0 / std::tan(toRadians(angles[1])), 1e-9);
       EXPECT_NEAR(t.at_place / t.area, 1.0 / std::tan(toRadians(angles[2])), 1e-9);
     }
+    // Corner k ends edge k and starts the next one: the angles opposite its spoke are at their other ends.
+    double most = 0.0;
+    for (std::size_t k = 0; k < count; ++k) {
+      const LookEdge before = link[k], after = link[(k + 1) % count];
+      most = std::max(most, anglesDeg(before.from, before.to, place)[0] + anglesDeg(after.from, after.to, place)[1]);
+    }
+    if (std::abs(most - 180.0) < 1e-6) continue;
+    EXPECT_EQ(fan.spokesAreDelaunay(), most < 180.0) << "seed " << seed;
+    (most < 180.0 ? delaunay : flat) += 1;
   }
+  EXPECT_GT(delaunay, 50);
+  EXPECT_GT(flat, 20);
   EXPECT_GT(good, 100);
   EXPECT_GT(bad, 100);
 }
