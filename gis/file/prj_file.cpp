@@ -3,6 +3,7 @@
 #include <cpl_conv.h>
 #include <ogr_spatialref.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -37,6 +38,14 @@ std::string prjBeside(const std::string& path) {
 
 void requirePrjForm(const std::string& path, const Crs& crs) {
   if (!crs.isPlane()) prjText(path, crs);
+}
+
+bool prjLosesDatumShift(const Crs& crs) {
+  if (crs.isPlane()) return false;
+  const OGRSpatialReference srs = toOgr(crs);
+  double shift[7] = {};
+  if (srs.GetTOWGS84(shift) == OGRERR_NONE) return std::ranges::any_of(shift, [](double part) { return part != 0.0; });
+  return srs.GetExtension("DATUM", "PROJ4_GRIDS") != nullptr;
 }
 
 void writePrjBeside(const std::string& path, const Crs& crs) {

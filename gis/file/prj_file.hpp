@@ -12,6 +12,9 @@ std::string prjBeside(const std::string& path);
 // Throws OutputError if .prj files cannot hold the CRS of the mesh file `path`.
 void requirePrjForm(const std::string& path, const Crs& crs);
 
+// True if the CRS says by itself how far its datum is from WGS 84 (+towgs84, +nadgrids): .prj files leave that out.
+bool prjLosesDatumShift(const Crs& crs);
+
 // Writes the CRS of the mesh file `path` beside it as ESRI's WKT; nothing for a plane. Throws OutputError.
 void writePrjBeside(const std::string& path, const Crs& crs);
 

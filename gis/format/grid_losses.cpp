@@ -9,6 +9,8 @@
 
 #include "core/metric.hpp"
 #include "gis/crs/geodesy.hpp"
+#include "gis/file/output_files.hpp"
+#include "gis/file/prj_file.hpp"
 #include "gis/grid/grid_lines.hpp"
 #include "gis/grid/ibtype.hpp"
 
@@ -155,6 +157,15 @@ std::string heightsOf(const Grid& grid) {
   return heights == 0 ? "" : "the heights of " + counted(heights, "node", "nodes") + " above the water, which become 0";
 }
 
+// "the datum shift of the CRS, …", if a .prj has the CRS; otherwise empty.
+std::string datumShiftOf(const Grid& grid, const GridFormat& format) {
+  if (format.endings.empty() || !prjLosesDatumShift(grid.crs)) return "";
+  const OutputFiles files = filesOf(format, "mesh" + std::string(format.endings.front()));
+  const bool has_prj =
+      !files.prj.empty() || std::ranges::any_of(files.targets, [](const auto& path) { return path.ends_with(".prj"); });
+  return has_prj ? "the datum shift of the CRS: readers of the .prj may place the mesh some 100 m away" : "";
+}
+
 constexpr std::array kGivenParts{GridPart::Regions,   GridPart::Pieces,    GridPart::Lines,
                                  GridPart::LineNames, GridPart::Rivers,    GridPart::Ibtypes,
                                  GridPart::Weirs,     GridPart::BareWeirs, GridPart::PartIslands};
@@ -191,6 +202,7 @@ std::string lossesIn(const Grid& grid, const GridFormat& format, LossesOf of) {
   }
   if (format.marks_nodes) losses.push_back(loneShoresOf(grid, format));
   if (format.of_water) losses.push_back(heightsOf(grid));
+  losses.push_back(datumShiftOf(grid, format));
   std::erase(losses, std::string());
   return joined(losses, "; ");
 }

@@ -10,6 +10,7 @@
 #include "gis/error.hpp"
 #include "gis/file/prj_file.hpp"
 #include "gis/format/grid_io.hpp"
+#include "gis/format/grid_losses.hpp"
 #include "gis/format/write_ogr.hpp"
 #include "tests/gis/grid_samples.hpp"
 
@@ -292,6 +293,24 @@ TEST(StagedOutput, ShapefilesRefuseACrsThatAPrjCannotHold) {
   for (const char* name : {"lake.shp", "lake.14"})
     EXPECT_THAT(errorOf([&] { writeWhole(folder / name, grid); }), HasSubstr("no form for a .prj")) << name;
   EXPECT_THAT(folder.names(), IsEmpty());
+}
+
+TEST(StagedOutput, ADatumShiftIsALossWhereAPrjHasTheCrs) {
+  Grid grid = lakes();
+  const std::string bessel = "+proj=utm +zone=33 +ellps=bessel +units=m +type=crs";
+  for (const auto& [crs, has_shift] :
+       {std::pair(bessel + " +towgs84=598.1,73.7,418.2,0.202,0.045,-2.455,6.7", true),
+        std::pair(bessel + " +nadgrids=other.gsb", true), std::pair(bessel + " +towgs84=0,0,0", false),
+        std::pair(bessel, false), std::pair(std::string("EPSG:31467"), false),
+        std::pair(std::string("plane"), false)}) {
+    grid.crs = parseCrs(crs);
+    for (const char* name : {"lake.14", "lake.shp", "lake.gr3", "lake_grd.dat", "lake.nc", "lake.gpkg", "lake.fgb"}) {
+      const std::string losses = lossesIn(grid, gridFormatFor(name, ""), LossesOf::Input);
+      const bool has_prj = !std::string(name).ends_with(".nc") && !std::string(name).ends_with(".gpkg") &&
+                           !std::string(name).ends_with(".fgb");
+      EXPECT_EQ(losses.find("datum shift") != std::string::npos, has_shift && has_prj) << crs << ", " << name;
+    }
+  }
 }
 
 TEST(StagedOutput, GeoJsonIsJsonWhateverNamesHold) {
