@@ -267,8 +267,7 @@ struct ReshapingOfCorner {
 // because several models are requested, those after a move of a node are tried too. REQUIRES: `patch` surrounds
 // `inside` and the triangles of the movable nodes.
 std::optional<ReshapingOfCorner> bestReshapingOfCorner(RepairState& state, std::span<const std::uint32_t> inside,
-                                                       std::span<const std::uint32_t> movable,
-                                                       const GridPatch& patch) {
+                                                       std::span<const std::uint32_t> movable, const GridPatch& patch) {
   std::optional<ReshapingOfCorner> best;
   const auto offer = [&](const PatchEdit* move) {
     const RepairView view = state.view();
