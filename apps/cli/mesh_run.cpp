@@ -330,6 +330,7 @@ int runMesh(const MeshRunUsage& usage, Run& run) {
   const Stopwatch whole;
   RunOutputs outputs(usage.overwrite || skips, run.inputs, run.interrupt);
   outputs.addGrids(grids, usage.format);
+  if (const std::string warning = outputs.unknownDepthWarning(job.finish.depth); !warning.empty()) run.warn(warning);
   if (!usage.edits.empty()) requireVectorFormat(usage.edits, 1);
   StagedFiles* const edits = !usage.edits.empty() ? &outputs.addFile(usage.edits) : nullptr;
   std::vector<StagedFiles*> shard_files;

@@ -228,6 +228,13 @@ void RunOutputs::writeReport(const std::string& text) {
   if (report_to_stdout_) report_text_ = text;
 }
 
+std::string RunOutputs::unknownDepthWarning(const DepthOptions& depth) const {
+  if (depth.files.empty() || depth.fill != DepthFill::None || depth_paths_.empty()) return {};
+  return "--depth-fill none: '" + depth_paths_.front() +
+         "' cannot say that a node has no depth: nothing is written if there is one; choose another --depth-fill, or "
+         "only .nc and .gpkg";
+}
+
 std::vector<std::string> RunOutputs::numberWarnings(const Grid& grid) const {
   std::vector<std::string> warnings;
   if (!depth_paths_.empty()) warnings.push_back(depthWarning(grid, depth_paths_.front()));

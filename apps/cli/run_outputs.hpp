@@ -11,6 +11,7 @@
 #include "gis/file/staged_files.hpp"
 #include "gis/format/grid_io.hpp"
 #include "gis/format/grid_losses.hpp"
+#include "gis/model/depth.hpp"
 
 namespace coastmesh {
 
@@ -48,6 +49,9 @@ class RunOutputs {
   std::size_t grids() const { return grids_.size(); }
   void writeGrid(std::size_t index, const Grid& grid, const ItemLoop& loop) { grids_[index].write(grid, loop); }
   void writeReport(const std::string& text);
+  // A warning, to be given before the mesh is made, if nodes may stay without a depth and an output cannot be written
+  // then; else empty.
+  std::string unknownDepthWarning(const DepthOptions& depth) const;
   // Warnings about numbers that models would misread: depths of 0 where the grid has none, coordinates that are not
   // metres, or not true to scale.
   std::vector<std::string> numberWarnings(const Grid& grid) const;

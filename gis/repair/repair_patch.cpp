@@ -26,8 +26,6 @@ std::optional<PatchEdge> findSide(const RepairView& view, const GridPatch& patch
   return std::nullopt;
 }
 
-bool isShore(const BoundaryKind& kind) { return kind.role == BoundaryRole::Land || kind.role == BoundaryRole::Island; }
-
 // True if the way from `a` by `node` to `b` turns by hardly more than a degree in the grid's CRS, in which sides of the
 // frame are straight.
 bool goesStraight(const RepairView& view, std::uint32_t a, std::uint32_t node, std::uint32_t b) {

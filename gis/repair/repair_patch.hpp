@@ -22,6 +22,10 @@ namespace coastmesh {
 // The key of an edge in either direction: its lesser node first.
 inline NodePair edgeKey(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
 
+inline bool isShore(const BoundaryKind& kind) {
+  return kind.role == BoundaryRole::Land || kind.role == BoundaryRole::Island;
+}
+
 using BoundaryKinds = std::map<NodePair, BoundaryKind>;  // by `edgeKey`
 
 // The adjacency of a grid.
@@ -88,7 +92,7 @@ struct EditedTriangle {
   std::uint32_t source = kNone;  // the triangle that it is cut from
 };
 
-enum class PatchEditKind { EdgeFlip, EdgeSplit, NodeSplit, NodeMove, EdgeCollapse };
+enum class PatchEditKind { EdgeFlip, EdgeSplit, NodeSplit, NodeMove, EdgeCollapse, CornerCut };
 
 struct PatchEdit {
   PatchEditKind kind = PatchEditKind::EdgeFlip;

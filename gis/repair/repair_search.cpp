@@ -131,6 +131,22 @@ std::optional<PatchEdit> bestLengthening(const RepairView& view, std::uint32_t t
   return contest.take();
 }
 
+std::optional<PatchEdit> usefulCornerCut(const RepairView& view, std::uint32_t t, const GridPatch& patch) {
+  std::optional<PatchEdit> edit = cornerCutOf(view, t);
+  if (edit && !scoreAbove(view, patch, scaleOf(view, patch), *edit, {.defects = 0})) edit.reset();
+  return edit;
+}
+
+std::vector<PatchEdit> harmlessMoves(const RepairView& view, std::uint32_t node, const GridPatch& patch) {
+  const PatchScale scale = scaleOf(view, patch);
+  std::vector<PatchEdit> moves;
+  forEachMove(view, node, kMoves, [&](PatchEdit&& edit) {
+    if (scoreAbove(view, patch, scale, edit, {.defects = 1}) && keepsShores(view, edit))
+      moves.push_back(std::move(edit));
+  });
+  return moves;
+}
+
 std::vector<PatchEdit> harmlessSlides(const RepairView& view, std::uint32_t node, const GridPatch& patch) {
   const PatchScale scale = scaleOf(view, patch);
   const ScoreBar bar{

@@ -22,10 +22,17 @@ struct SearchReach {
 std::optional<PatchEdit> bestReshaping(const RepairView& view, std::span<const std::uint32_t> inside,
                                        const SearchReach& reach, const GridPatch& patch);
 
+// Cuts off the corner of a triangle with two boundary edges (`cornerCutOf`). Returns nullopt also if that leaves no
+// fewer defects. REQUIRES: `patch` surrounds the triangles at its corners.
+std::optional<PatchEdit> usefulCornerCut(const RepairView& view, std::uint32_t t, const GridPatch& patch);
+
 // For a triangle with too short a time step: moves a node, or collapses one of the triangle's edges. REQUIRES: `patch`
 // surrounds the triangles at the movable nodes and at the triangle's corners (`patchRound`).
 std::optional<PatchEdit> bestLengthening(const RepairView& view, std::uint32_t t,
                                          std::span<const std::uint32_t> movable, const GridPatch& patch);
+
+// The moves of a node that add no defect.
+std::vector<PatchEdit> harmlessMoves(const RepairView& view, std::uint32_t node, const GridPatch& patch);
 
 // The moves of a node along the boundary that add no defect and keep the bounds on angles of `StepBound`, or make such
 // angles no worse. None for an inner node. REQUIRES: `patch` surrounds the triangles at the node.

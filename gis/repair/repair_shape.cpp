@@ -11,6 +11,7 @@
 #include "core/predicates.hpp"
 #include "core/quality.hpp"
 #include "gis/grid/local_plane.hpp"
+#include "gis/repair/repair_score.hpp"
 #include "gis/repair/repair_search.hpp"
 
 namespace coastmesh {
@@ -48,12 +49,14 @@ void placeNode(RepairState& state, const PatchEdit& edit) {
     case PatchEditKind::EdgeCollapse:
       if (edit.share > 0.0) moveNode(state.grid, edit.placed, b, b, edit.share);
       return;
+    case PatchEditKind::CornerCut:
+      return;
   }
 }
 
 std::string_view textOf(PatchEditKind kind) {
-  constexpr std::array<std::string_view, 5> kTexts{"edge flipped", "edge split", "node split in two", "node moved",
-                                                   "edge collapsed"};
+  constexpr std::array<std::string_view, 6> kTexts{"edge flipped", "edge split",     "node split in two",
+                                                   "node moved",   "edge collapsed", "corner cut off"};
   return kTexts[static_cast<std::size_t>(kind)];
 }
 
@@ -253,6 +256,74 @@ bool lengthenLegs(RepairState& state, std::uint32_t t, std::span<const std::uint
   return false;
 }
 
+// A reshaping, after the move of a node if there is one.
+struct ReshapingOfCorner {
+  std::optional<PatchEdit> move{};
+  PatchEdit reshaping{};
+  EditScore score{};
+};
+
+// The best reshaping of `inside`. Where none keeps the minimum angle, or each leaves another defect, for instance
+// because several models are requested, those after a move of a node are tried too. REQUIRES: `patch` surrounds
+// `inside` and the triangles of the movable nodes.
+std::optional<ReshapingOfCorner> bestReshapingOfCorner(RepairState& state, std::span<const std::uint32_t> inside,
+                                                       std::span<const std::uint32_t> movable, const GridPatch& patch) {
+  std::optional<ReshapingOfCorner> best;
+  const auto offer = [&](const PatchEdit* move) {
+    const RepairView view = state.view();
+    const std::optional<PatchEdit> reshaping = bestReshaping(view, inside, {kShares, {}}, patch);
+    if (!reshaping) return;
+    const EditScore score = scoreOf(view, patch, scaleOf(view, patch), *reshaping);
+    if (best && !score.betterThan(best->score)) return;
+    best = {move == nullptr ? std::nullopt : std::optional(*move), *reshaping, score};
+  };
+  offer(nullptr);
+  if (best && best->score.made_angle >= state.options.min_angle_deg - kAngleSlackDeg) return best;
+  for (const std::uint32_t node : movable) {
+    for (const PatchEdit& move : harmlessMoves(state.view(), node, patch)) {
+      MovedNodes trial(state);
+      trial.tryOut(node, move);
+      offer(&move);
+      trial.putBack();
+    }
+  }
+  return best;
+}
+
+Attempt reshapeCorner(RepairState& state, std::span<const std::uint32_t> inside, const FoundDefect& found) {
+  const std::vector<std::uint32_t> movable = movableCorners(state, inside);
+  std::vector<std::uint32_t> middle(inside.begin(), inside.end());
+  for (const std::uint32_t node : movable)
+    middle.insert(middle.end(), state.links.triangles_at[node].begin(), state.links.triangles_at[node].end());
+  const auto patch = untouchedPatch(state, middle);
+  if (!patch) return {};
+  const std::optional<ReshapingOfCorner> best = bestReshapingOfCorner(state, inside, movable, *patch);
+  if (!best) return {true, false};
+  if (best->move) applyEdit(state, *patch, *best->move);
+  applyRepair(state, *patch, best->reshaping, found);
+  return {true, true};
+}
+
+// Cuts off the corner of the boundary at the triangle.
+Attempt cutCorner(RepairState& state, std::uint32_t t, const FoundDefect& found) {
+  const auto patch = untouchedPatch(state, roundOf(state, t));
+  if (!patch) return {};
+  const std::optional<PatchEdit> cut = usefulCornerCut(state.view(), t, *patch);
+  if (cut) applyRepair(state, *patch, *cut, found);
+  return {true, cut.has_value()};
+}
+
+// True for a corner of the boundary that is too sharp for two triangles.
+bool isTooSharpToDivide(const RepairState& state, std::uint32_t t) {
+  const GridCorners& v = state.grid.triangles[t];
+  const auto p = localPlane(state.grid, v, state.shape());
+  const auto angles = anglesDeg(p[0], p[1], p[2]);
+  for (unsigned i = 0; i < 3; ++i)
+    if (state.links.triangles_at[v[i]].size() == 1)
+      return angles[i] < 2.0 * (state.options.min_angle_deg - kAngleSlackDeg);
+  return false;
+}
+
 bool isInCorner(const RepairState& state, std::uint32_t t) {
   const GridCorners& v = state.grid.triangles[t];
   int edges = 0;
@@ -280,10 +351,17 @@ void unfoldTriangle(RepairState& state, const FoundDefect& found) {
 void reshapeTriangle(RepairState& state, const FoundDefect& found) {
   const auto t = static_cast<std::uint32_t>(found.defect.triangle);
   if (state.hopeless_triangles[t]) return;
+  const bool of_corner =
+      found.defect.kind == TargetDefectKind::TwoOpenEdges || found.defect.kind == TargetDefectKind::OpenAndSolid;
+  if (of_corner && isTooSharpToDivide(state, t)) {
+    const Attempt cut = cutCorner(state, t, found);
+    if (cut.done || !cut.made) return;
+  }
   const std::vector<std::uint32_t> inside = withNeighbours(state.links.mesh, std::array{t});
-  Attempt attempt = reshape(state, inside, {kShares, {}}, found);
+  Attempt attempt = of_corner ? reshapeCorner(state, inside, found) : reshape(state, inside, {kShares, {}}, found);
   if (attempt.made && !attempt.done)
     attempt = reshape(state, inside, {kFarShares, movableCorners(state, inside)}, found);
+  if (of_corner && attempt.made && !attempt.done) attempt = cutCorner(state, t, found);
   state.hopeless_triangles[t] = attempt.made && !attempt.done;
 }
 

@@ -7,7 +7,8 @@ namespace coastmesh {
 // Repairs the shapes of triangles, and their number around a node: flips, splits and moves of nodes.
 
 // Repairs a triangle with an angle, an edge or neighbours that the model rejects: flips and splits, then small moves of
-// nodes too.
+// nodes too. A corner of the boundary that is too sharp for two triangles with the minimum angle is cut off
+// (`cornerCutOf`), and one that nothing else repairs.
 void reshapeTriangle(RepairState& state, const FoundDefect& found);
 
 // Repairs an edge whose triangles have their centres too close together. Small moves of nodes are tried at once.

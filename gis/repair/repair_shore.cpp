@@ -130,4 +130,53 @@ std::optional<PatchEdit> collapseOf(const RepairView& view, std::uint32_t gone, 
   return edit;
 }
 
+std::optional<PatchEdit> cornerCutOf(const RepairView& view, std::uint32_t t) {
+  constexpr std::size_t kMost = 3;  // triangles
+  PatchEdit edit{.kind = PatchEditKind::CornerCut};
+  std::optional<BoundaryKind> exposed;
+  for (std::uint32_t next = t;;) {
+    const GridCorners& v = view.grid.triangles[next];
+    // The edge that stays, opposite the node that goes; the others are on the boundary.
+    unsigned tip = 3;
+    int inner = 0;
+    for (unsigned i = 0; i < 3; ++i) {
+      if (view.links.line_edges.contains(edgeKey(v[next3(i)], v[prev3(i)]))) return std::nullopt;
+      if (kindOf(view, edit, v[next3(i)], v[prev3(i)]) != nullptr) continue;
+      tip = i;
+      ++inner;
+    }
+    if (inner != 1 || view.links.isAsked(v[tip])) return std::nullopt;
+    edit.removed.push_back(next);
+    const auto isKept = [&](std::uint32_t other) { return std::ranges::count(edit.removed, other) == 0; };
+    if (std::ranges::any_of(view.links.triangles_at[v[tip]], isKept)) return std::nullopt;
+    const std::array sides{edgeKey(v[tip], v[next3(tip)]), edgeKey(v[tip], v[prev3(tip)])};
+    for (const NodePair& side : sides) {
+      const BoundaryKind kind = *kindOf(view, edit, side[0], side[1]);
+      if (kind.role != BoundaryRole::Open && !isShore(kind)) return std::nullopt;
+      if (!exposed || isShore(kind)) exposed = kind;
+    }
+    for (const NodePair& side : sides)
+      if (edit.made.erase(side) == 0) edit.gone.push_back(side);
+    const std::uint32_t a = v[next3(tip)], b = v[prev3(tip)];
+    edit.made[edgeKey(a, b)] = *exposed;
+    // The triangle beyond: part of the cut if it has an open edge besides the exposed one.
+    const EdgeRef twin = view.links.mesh.triangles[next].adj[tip];
+    if (twin == kNone) return std::nullopt;
+    const std::uint32_t beyond = triOf(twin);
+    const GridCorners& w = view.grid.triangles[beyond];
+    bool goes_on = false;
+    for (unsigned i = 0; i < 3; ++i) {
+      const BoundaryKind* const kind = kindOf(view, edit, w[next3(i)], w[prev3(i)]);
+      if (kind != nullptr && kind->role == BoundaryRole::Open && edgeKey(w[next3(i)], w[prev3(i)]) != edgeKey(a, b))
+        goes_on = true;
+    }
+    if (!goes_on) {
+      edit.triangles.push_back({w, beyond, beyond});
+      return edit;
+    }
+    if (edit.removed.size() == kMost) return std::nullopt;
+    next = beyond;
+  }
+}
+
 }  // namespace coastmesh

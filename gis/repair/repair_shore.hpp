@@ -7,7 +7,7 @@
 
 namespace coastmesh {
 
-// Edits that move nodes of a grid's shore, or remove them.
+// Edits that move nodes of a grid's boundary, or remove them.
 
 // The boundary edges of a grid, to keep shores from getting too close to one another.
 class ShoreIndex {
@@ -26,5 +26,10 @@ class ShoreIndex {
 // Collapses the node `gone` into its neighbour `kept`, which moves `share` of the way towards it. Returns nullopt if
 // one of them would have to move but may not, or the mesh would become invalid.
 std::optional<PatchEdit> collapseOf(const RepairView& view, std::uint32_t gone, std::uint32_t kept, double share);
+
+// Removes a triangle with two boundary edges, one open and the other open or shore; likewise the next one if that too
+// would then have an open boundary edge besides the new one, and so on. The new edge is shore if the triangle has any.
+// Returns nullopt if there is no such corner, a node or edge that must stay would go, or many triangles would.
+std::optional<PatchEdit> cornerCutOf(const RepairView& view, std::uint32_t t);
 
 }  // namespace coastmesh

@@ -52,6 +52,28 @@ TEST_F(Outputs, NeverReplaceAFileThatAnyOptionReads) {
   expectRefused({"convert", other, "--bathymetry", input, "-o", file("x.2dm"), "-o", input}, "--bathymetry");
 }
 
+// Known before the mesh is made: formats of models cannot say that a node has no depth.
+TEST_F(Outputs, ThatUnknownDepthsPreventAreWarnedOf) {
+  const auto rasterFrom = [this](double west) {
+    return write("depths.asc", "ncols 2\nnrows 2\nxllcorner " + std::to_string(west) +
+                                   "\nyllcorner 41.5\ncellsize 0.1\n-9 -9\n-9 -9\n");
+  };
+  const auto runWith = [&](double west, const char* const fill, const char* const output) {
+    return runProgram({"mesh", lake(), "--bathymetry", rasterFrom(west), "--depth-fill", fill, "-o", file(output),
+                       "--overwrite", "--size", "300"});
+  };
+  const auto warning = HasSubstr("coastmesh: warning: --depth-fill none: '" + file("a.14") + "' cannot say that");
+  const ProgramRun covered = runWith(-87.6, "none", "a.14"), bare = runWith(-87.49, "none", "a.14");
+  EXPECT_EQ(covered.code, 0) << covered.errors;
+  EXPECT_THAT(covered.errors, warning);
+  EXPECT_EQ(bare.code, 4);
+  EXPECT_THAT(bare.errors, warning);
+  for (const ProgramRun& run : {runWith(-87.49, "nearest", "a.14"), runWith(-87.49, "none", "a.nc")}) {
+    EXPECT_EQ(run.code, 0) << run.errors;
+    EXPECT_THAT(run.errors, ::testing::Not(HasSubstr("--depth-fill none:")));
+  }
+}
+
 // No temporary file remains, however low the limit of open files is.
 TEST_F(Outputs, LeaveNothingWhereDescriptorsLack) {
   const std::string input = lake();
