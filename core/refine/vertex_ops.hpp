@@ -50,8 +50,9 @@ class VertexOps {
   // its kind. Either both are free, or `stays` is on a segment and `goes` is free or its neighbour there.
   bool merge(VertexId goes, VertexId stays, std::vector<TriId>& touched);
 
-  // Tries to merge v with each neighbour that is not an input vertex; of two free vertices, if each is processed, only
-  // from the one with the smaller number.
+  // Tries to merge v with each neighbour that is not an input vertex, unless their edge is much longer than the others
+  // around v; a vertex on a segment only along it. If each vertex is processed, two free ones are tried from the one
+  // with the smaller number only; otherwise v is assumed to have a bad triangle, and much shorter edges are out too.
   bool mergeWithNeighbour(VertexId v, bool each_gets_its_turn, std::vector<TriId>& touched);
 
   // The operations to try on a vertex, in this order until one succeeds.
