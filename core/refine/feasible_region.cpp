@@ -138,8 +138,14 @@ bool FeasibleRegion::isForSmallestAnglesAlone() const {
 
 FeasibleRegion::Look FeasibleRegion::look(std::span<const LinkEdge> link) {
   if (bound_.min_angle <= 0.0) return {};
-  edges_.take(link.size(), [&](std::size_t i) -> const LinkEdge& { return link[i]; });
-  return look(edges_, boxOf(edges_));
+  edges_.clear();
+  PetalBox box;
+  LookEdge edge;
+  for (const LinkEdge& e : link) {
+    box.cut(ready(e.x, e.y, edge));
+    edges_.push(edge);
+  }
+  return look(edges_, box);
 }
 
 // The boxes of two petals.

@@ -33,8 +33,8 @@ struct PetalBox {
   Point high{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 
   void cut(const PetalBox& by) {
-    low = {low.x > by.low.x ? low.x : by.low.x, low.y > by.low.y ? low.y : by.low.y};
-    high = {high.x < by.high.x ? high.x : by.high.x, high.y < by.high.y ? high.y : by.high.y};
+    low = {larger(low.x, by.low.x), larger(low.y, by.low.y)};
+    high = {smaller(high.x, by.high.x), smaller(high.y, by.high.y)};
   }
   bool isEmpty() const { return low.x >= high.x || low.y >= high.y; }
 };

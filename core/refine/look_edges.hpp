@@ -62,16 +62,6 @@ class LookEdges {
       before = after;
     }
   }
-  // Any edges, of which edge k leads from x to y of `edge(k)`.
-  template <typename Edge>
-  void take(std::size_t count, const Edge& edge) {
-    count_ = count;
-    if (2 * pairs_.size() < count) pairs_.resize((count + 1) / 2);
-    for (std::size_t k = 0; k < count; k += 2) {
-      const auto &one = edge(k), &other = edge(k + 1 < count ? k + 1 : k);
-      pairs_[k / 2] = pairOf({one.x, one.y}, {other.x, other.y});
-    }
-  }
   // REQUIRES: there is an edge. If their number is odd, the last one fills its pair.
   std::span<LookEdgePair> pairs() {
     const std::size_t used = (count_ + 1) / 2;

@@ -42,6 +42,7 @@ void requirePrjForm(const std::string& path, const Crs& crs) {
 
 bool prjLosesDatumShift(const Crs& crs) {
   if (crs.isPlane()) return false;
+  const OgrErrors caught;  // of grids of a datum shift, as in `toOgr`
   const OGRSpatialReference srs = toOgr(crs);
   double shift[7] = {};
   if (srs.GetTOWGS84(shift) == OGRERR_NONE) return std::ranges::any_of(shift, [](double part) { return part != 0.0; });

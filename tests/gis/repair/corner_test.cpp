@@ -10,10 +10,12 @@
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/local_plane.hpp"
 #include "tests/gis/model/target_samples.hpp"
+#include "tests/gis/repair/slanting_sea.hpp"
 
 namespace coastmesh {
 namespace {
 
+using testing::inDegrees;
 using testing::kindsIn;
 
 constexpr std::uint32_t kRow = 7;  // nodes
@@ -24,30 +26,8 @@ BoundaryKind openInTheSouth(std::uint32_t from, std::uint32_t to) {
   return {from < kRow && to < kRow ? BoundaryRole::Open : BoundaryRole::Land};
 }
 
-// A sea of parallelograms with sides of 1000 m, each cut from north-west to south-east: the south-western and
-// north-eastern corners are one triangle.
 Grid slantingSea(double corner_deg, const BoundaryKindOf& kind_of = openInTheSouth) {
-  const double corner = toRadians(corner_deg);
-  Grid grid;
-  for (std::uint32_t j = 0; j < kRow; ++j)
-    for (std::uint32_t i = 0; i < kRow; ++i)
-      grid.nodes.push_back({1000.0 * (i + j * std::cos(corner)), 1000.0 * j * std::sin(corner)});
-  for (std::uint32_t j = 0; j + 1 < kRow; ++j) {
-    for (std::uint32_t i = 0; i + 1 < kRow; ++i) {
-      const std::uint32_t sw = j * kRow + i, se = sw + 1, nw = sw + kRow, ne = nw + 1;
-      grid.triangles.push_back({sw, se, nw});
-      grid.triangles.push_back({se, ne, nw});
-    }
-  }
-  grid.z.assign(grid.nodes.size(), -20.0);
-  grid.boundaries = cutLoops(grid, boundaryLoops(grid), kind_of);
-  return grid;
-}
-
-Grid inDegrees(Grid grid) {
-  grid.crs = wgs84();
-  for (Point& p : grid.nodes) p = {p.x / 111319.5, p.y / 110574.3};
-  return grid;
+  return testing::slantingSea(kRow - 1, corner_deg, kind_of);
 }
 
 double leastAngleOf(const Grid& grid) {

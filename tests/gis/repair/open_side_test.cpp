@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/quality.hpp"
 #include "gis/grid/linked_grid.hpp"
@@ -12,21 +13,18 @@
 #include "gis/repair/repair_shore.hpp"
 #include "gis/repair/repair_state.hpp"
 #include "tests/gis/model/target_samples.hpp"
+#include "tests/gis/repair/slanting_sea.hpp"
 
 namespace coastmesh {
 namespace {
 
 using testing::openGrid;
+using testing::slantingSea;
 
 constexpr double kStep = 48.0;  // needs edges of 690 to 740 m in water of 20 to 23 m
 
 // Metres; with `geographic`, scaled to degrees at the equator.
-Grid placed(Grid grid, bool geographic) {
-  if (!geographic) return grid;
-  grid.crs = wgs84();
-  for (Point& p : grid.nodes) p = {p.x / 111319.5, p.y / 110574.3};
-  return grid;
-}
+Grid placed(Grid grid, bool geographic) { return geographic ? testing::inDegrees(std::move(grid)) : grid; }
 
 std::size_t tooShort(const Grid& grid) {
   return static_cast<std::size_t>(std::ranges::count_if(timeSteps(grid), [](double step_s) { return step_s < kStep; }));
@@ -34,27 +32,6 @@ std::size_t tooShort(const Grid& grid) {
 
 std::uint32_t nodeAt(const Grid& grid, const Point& place) {
   return static_cast<std::uint32_t>(std::ranges::find(grid.nodes, place) - grid.nodes.begin());
-}
-
-// A sea of `cells` by `cells` parallelograms with sides of 1000 m, each cut from north-west to south-east: the
-// south-western and north-eastern corners are one triangle. `kind_of` decides on boundary edges.
-Grid slantingSea(std::uint32_t cells, double corner_deg, const BoundaryKindOf& kind_of) {
-  const std::uint32_t row = cells + 1;
-  const double corner = toRadians(corner_deg);
-  Grid grid;
-  for (std::uint32_t j = 0; j < row; ++j)
-    for (std::uint32_t i = 0; i < row; ++i)
-      grid.nodes.push_back({1000.0 * (i + j * std::cos(corner)), 1000.0 * j * std::sin(corner)});
-  for (std::uint32_t j = 0; j < cells; ++j) {
-    for (std::uint32_t i = 0; i < cells; ++i) {
-      const std::uint32_t sw = j * row + i, se = sw + 1, nw = sw + row, ne = nw + 1;
-      grid.triangles.push_back({sw, se, nw});
-      grid.triangles.push_back({se, ne, nw});
-    }
-  }
-  grid.z.assign(grid.nodes.size(), -20.0);
-  grid.boundaries = cutLoops(grid, boundaryLoops(grid), kind_of);
-  return grid;
 }
 
 Grid squareSea() {
