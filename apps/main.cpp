@@ -21,7 +21,7 @@
 #include "cluster/cluster.hpp"
 #include "cluster/ranks_started.hpp"
 #include "cluster/serve.hpp"
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/run_control.hpp"
 #include "gis/error.hpp"
 #include "parallel/deal.hpp"

@@ -4,7 +4,7 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 # The public headers of each part. The headers that they include are installed too; all others are internal.
-set(core_headers core/delaunay core/quality core/refine/check core/refine/refine)
+set(core_headers core/triangulate/delaunay core/quality core/refine/check core/refine/refine)
 set(gis_headers gis/clean/clean gis/coast/frame gis/format/grid_io gis/format/poly_io gis/read/read_coastline)
 set(parallel_headers parallel/mesh_regions parallel/workers)
 set(job_headers apps/job/mesh_job)

@@ -9,8 +9,8 @@
 #include <span>
 #include <utility>
 
-#include "core/delaunay.hpp"
-#include "core/label_regions.hpp"
+#include "core/triangulate/delaunay.hpp"
+#include "core/triangulate/label_regions.hpp"
 #include "core/lattice/lattice_core.hpp"
 #include "core/optimise/optimise.hpp"
 #include "core/refine/bound_violations.hpp"

@@ -16,7 +16,7 @@
 #include "apps/job/stopwatch.hpp"
 #include "apps/report/report_sections.hpp"
 #include "apps/usage/input_usage.hpp"
-#include "core/label_regions.hpp"
+#include "core/triangulate/label_regions.hpp"
 #include "gis/error.hpp"
 #include "gis/for_count.hpp"
 #include "gis/format/poly_io.hpp"

@@ -9,7 +9,7 @@
 
 #include "apps/job/places.hpp"
 #include "apps/job/working_plane.hpp"
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "gis/clean/geodesic_area.hpp"
 #include "gis/coast/feature_bounds.hpp"
 #include "gis/coast/feature_names.hpp"

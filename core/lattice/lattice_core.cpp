@@ -5,7 +5,7 @@
 #include <functional>
 #include <utility>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/lattice/grow_list.hpp"
 #include "core/links.hpp"
 

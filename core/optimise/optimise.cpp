@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "core/label_regions.hpp"
+#include "core/triangulate/label_regions.hpp"
 #include "core/optimise/optimiser.hpp"
 #include "core/refine/bound_violations.hpp"
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <unordered_map>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/links.hpp"
 #include "core/metric.hpp"
 #include "core/point_hash.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/edit_mesh.hpp"
-#include "core/label_regions.hpp"
+#include "core/triangulate/label_regions.hpp"
 #include "core/metric.hpp"
 #include "core/refine/bound_violations.hpp"
 #include "core/refine/refine.hpp"

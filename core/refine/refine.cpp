@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/label_regions.hpp"
+#include "core/triangulate/label_regions.hpp"
 #include "core/refine/bound_violations.hpp"
 #include "core/refine/mend_triangles.hpp"
 #include "core/refine/split_segments.hpp"

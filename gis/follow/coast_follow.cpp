@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "core/label_regions.hpp"
+#include "core/triangulate/label_regions.hpp"
 #include "core/metric.hpp"
 #include "gis/coast/segment_tags.hpp"
 #include "gis/follow/domain_shores.hpp"

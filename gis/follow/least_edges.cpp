@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/label_regions.hpp"
+#include "core/triangulate/label_regions.hpp"
 #include "core/metric.hpp"
 #include "gis/follow/domain_shores.hpp"
 #include "gis/follow/shore_sizes.hpp"

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/hilbert.hpp"
 #include "core/links.hpp"
 #include "core/metric.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/metric.hpp"
 #include "gis/coast/segment_tags.hpp"
 #include "gis/geometry/box.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/label_regions.hpp"
+#include "core/triangulate/label_regions.hpp"
 #include "gis/geometry/planar_map.hpp"
 
 namespace coastmesh {

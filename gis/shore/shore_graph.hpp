@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/label_regions.hpp"
+#include "core/triangulate/label_regions.hpp"
 #include "core/pslg.hpp"
 
 namespace coastmesh {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "core/delaunay.hpp"
-#include "core/label_regions.hpp"
+#include "core/triangulate/delaunay.hpp"
+#include "core/triangulate/label_regions.hpp"
 #include "core/metric.hpp"
 #include "core/size/on_surface.hpp"
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include "core/label_regions.hpp"
+#include "core/triangulate/label_regions.hpp"
 #include "core/metric.hpp"
 #include "gis/coast/segment_tags.hpp"
 #include "gis/geometry/box_tree.hpp"

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/hilbert.hpp"
-#include "core/label_regions.hpp"
+#include "core/triangulate/label_regions.hpp"
 #include "core/metric.hpp"
 #include "core/size/on_surface.hpp"
 #include "gis/coast/segment_tags.hpp"

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/refine/refine.hpp"
 #include "gis/format/poly_io.hpp"
 #include "tests/bench/cgal_peers.hpp"

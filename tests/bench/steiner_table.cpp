@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/refine/refine.hpp"
 #include "gis/format/poly_io.hpp"
 #include "tests/bench/cpu_clock.hpp"

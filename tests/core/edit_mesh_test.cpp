@@ -9,7 +9,7 @@
 #include <set>
 #include <utility>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/metric.hpp"
 #include "core/predicates.hpp"
 #include "tests/support/item_loops.hpp"

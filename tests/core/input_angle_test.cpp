@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/edit_mesh.hpp"
 #include "tests/support/pslgs.hpp"
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/refine/mend_triangles.hpp"
 #include "core/refine/refine.hpp"
 #include "core/refine/vertex_notes.hpp"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/pslgs.hpp"
 

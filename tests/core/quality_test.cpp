@@ -7,7 +7,7 @@
 #include <numeric>
 #include <random>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/metric.hpp"
 #include "core/refine/refine.hpp"
 #include "tests/support/mesh_checks.hpp"

@@ -9,7 +9,7 @@
 #include <set>
 #include <utility>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/quality.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/pslgs.hpp"

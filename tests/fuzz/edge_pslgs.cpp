@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/metric.hpp"
 #include "core/tri_mesh.hpp"
 

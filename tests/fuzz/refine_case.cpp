@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/metric.hpp"
 #include "core/quality.hpp"
 #include "tests/fuzz/unexpected_defects.hpp"

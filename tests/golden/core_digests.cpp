@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/lattice/lattice.hpp"
 #include "core/lattice/lattice_core.hpp"
 #include "core/metric.hpp"

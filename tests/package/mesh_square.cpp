@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/quality.hpp"
 #include "core/refine/check.hpp"
 #include "core/refine/refine.hpp"

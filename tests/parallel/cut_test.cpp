@@ -8,8 +8,8 @@
 #include <set>
 #include <vector>
 
-#include "core/delaunay.hpp"
-#include "core/label_regions.hpp"
+#include "core/triangulate/delaunay.hpp"
+#include "core/triangulate/label_regions.hpp"
 #include "core/refine/refine.hpp"
 #include "core/refine/submesh_runs.hpp"
 #include "parallel/near_due.hpp"

@@ -15,7 +15,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/lattice/lattice.hpp"
 #include "core/metric.hpp"
 #include "parallel/workers.hpp"

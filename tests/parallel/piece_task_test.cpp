@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/size/size_tree.hpp"
 #include "parallel/piece_context.hpp"
 #include "tests/support/mesh_checks.hpp"

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "core/delaunay.hpp"
-#include "core/label_regions.hpp"
+#include "core/triangulate/delaunay.hpp"
+#include "core/triangulate/label_regions.hpp"
 #include "core/metric.hpp"
 #include "core/refine/bound_violations.hpp"
 #include "parallel/workers.hpp"

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "core/box_halves.hpp"
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/ids.hpp"
 #include "core/input_corners.hpp"
 #include "core/item_loop.hpp"
-#include "core/label_regions.hpp"
+#include "core/triangulate/label_regions.hpp"
 #include "core/linked_triangles.hpp"
 #include "core/metric.hpp"
 #include "core/point.hpp"
@@ -55,10 +55,11 @@ TEST(CoreExamples, BoxHalves) {
   EXPECT_EQ(near, (std::vector<std::uint32_t>{0, 1}));
 }
 
-// core/delaunay.hpp: The constrained Delaunay triangulation of a plane graph, and errors for an invalid graph.
+// core/triangulate/delaunay.hpp: The constrained Delaunay triangulation of a plane graph, and errors for an invalid
+// graph.
 TEST(CoreExamples, Delaunay) {
   const Pslg square = unitSquare();
-  //! [core/delaunay.hpp]
+  //! [core/triangulate/delaunay.hpp]
   const TriMesh mesh = constrainedDelaunay(square);
 
   Pslg crossed = square;
@@ -69,7 +70,7 @@ TEST(CoreExamples, Delaunay) {
   } catch (const BadPslg& error) {
     wrong = error.defect.message;  // error.defect.place and .segment locate it
   }
-  //! [core/delaunay.hpp]
+  //! [core/triangulate/delaunay.hpp]
   EXPECT_EQ(mesh.triangles.size(), 2u);
   EXPECT_FALSE(wrong.empty());
 }
@@ -155,13 +156,13 @@ TEST(CoreExamples, Point) {
   EXPECT_EQ(points, (std::vector<Point>{{0, 1}, {0, 2}, {1, 0}}));
 }
 
-// core/label_regions.hpp: The regions beside segments, and those of triangles.
+// core/triangulate/label_regions.hpp: The regions beside segments, and those of triangles.
 TEST(CoreExamples, LabelRegions) {
-  //! [core/label_regions.hpp]
+  //! [core/triangulate/label_regions.hpp]
   Pslg square = unitSquare();
   labelSegments(square);  // region 0 inside, kOutside beyond
   const auto sides = std::ranges::count_if(square.segments, isBoundary);
-  //! [core/label_regions.hpp]
+  //! [core/triangulate/label_regions.hpp]
   EXPECT_TRUE(hasRegions(square));
   EXPECT_EQ(sides, 4);
 }

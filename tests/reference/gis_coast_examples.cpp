@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "gis/clean/bend_edges.hpp"
 #include "gis/clean/clean.hpp"
 #include "gis/clean/clean_options.hpp"

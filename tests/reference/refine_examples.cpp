@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/quality.hpp"
 #include "core/refine/check.hpp"
 #include "core/refine/mesh_defect.hpp"

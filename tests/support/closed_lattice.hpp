@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/sphere/close_sphere.hpp"
 #include "core/sphere/sphere_lattice.hpp"
 #include "core/sphere/sphere_place.hpp"

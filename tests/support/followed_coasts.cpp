@@ -5,7 +5,7 @@
 #include <iterator>
 #include <utility>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/metric.hpp"
 #include "gis/follow/water_notes.hpp"
 

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/delaunay.hpp"
-#include "core/label_regions.hpp"
+#include "core/triangulate/delaunay.hpp"
+#include "core/triangulate/label_regions.hpp"
 #include "core/lattice/lattice_core.hpp"
 #include "core/metric.hpp"
 #include "tests/support/mesh_checks.hpp"

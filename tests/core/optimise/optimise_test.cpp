@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/optimise/exchange_diagonal.hpp"
 #include "core/quality.hpp"
 #include "tests/support/excused_twin.hpp"

@@ -8,7 +8,7 @@
 #include <random>
 #include <set>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/metric.hpp"
 #include "core/refine/refine.hpp"
 #include "tests/support/mesh_checks.hpp"

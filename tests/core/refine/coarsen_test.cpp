@@ -5,7 +5,7 @@
 #include <numeric>
 #include <vector>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/metric.hpp"
 #include "core/quality.hpp"
 #include "core/refine/refine.hpp"

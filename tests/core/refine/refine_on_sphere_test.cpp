@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/links.hpp"
 #include "core/optimise/optimise.hpp"
 #include "core/quality.hpp"

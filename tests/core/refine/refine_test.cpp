@@ -11,7 +11,7 @@
 #include <sstream>
 #include <string>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/metric.hpp"
 #include "core/quality.hpp"
 #include "core/refine/vertex_notes.hpp"

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/quality.hpp"
 #include "core/refine/refine.hpp"
 #include "tests/support/pslgs.hpp"

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "core/delaunay.hpp"
-#include "core/label_regions.hpp"
+#include "core/triangulate/delaunay.hpp"
+#include "core/triangulate/label_regions.hpp"
 #include "core/refine/refine.hpp"
 #include "tests/support/item_loops.hpp"
 #include "tests/support/mesh_checks.hpp"

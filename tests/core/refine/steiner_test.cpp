@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/predicates.hpp"
 #include "tests/support/pslgs.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/refine/bound_violations.hpp"
 #include "tests/support/pslgs.hpp"
 

@@ -7,9 +7,9 @@
 #include <set>
 #include <vector>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/flip.hpp"
-#include "core/label_regions.hpp"
+#include "core/triangulate/label_regions.hpp"
 #include "core/links.hpp"
 #include "core/metric.hpp"
 #include "core/refine/refine.hpp"

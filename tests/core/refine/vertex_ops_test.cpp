@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/refine/refine.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/mesh_figures.hpp"

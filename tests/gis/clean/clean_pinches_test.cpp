@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/refine/check.hpp"
 #include "gis/clean/clean.hpp"
 #include "tests/support/cleaned.hpp"

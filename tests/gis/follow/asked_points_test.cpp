@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "gis/follow/coast_follow.hpp"
 #include "gis/follow/least_edges.hpp"
 #include "tests/support/followed_coasts.hpp"

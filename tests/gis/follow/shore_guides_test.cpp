@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/metric.hpp"
 #include "gis/coast/segment_tags.hpp"
 #include "gis/follow/coast_follow.hpp"

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "tests/support/gis_shapes.hpp"
 
 namespace coastmesh {

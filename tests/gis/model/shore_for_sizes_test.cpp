@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/metric.hpp"
 #include "gis/coast/segment_tags.hpp"
 #include "gis/model/assign_boundaries.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/metric.hpp"
 #include "gis/follow/coast_follow.hpp"
 #include "tests/support/followed_coasts.hpp"

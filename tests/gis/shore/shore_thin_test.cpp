@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/metric.hpp"
 #include "gis/shore/shore_graph.hpp"
 #include "tests/support/item_loops.hpp"

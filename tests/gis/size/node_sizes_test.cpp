@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/refine/refine.hpp"
 #include "tests/support/pslgs.hpp"
 #include "tests/support/size_figures.hpp"

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "core/metric.hpp"
 #include "core/size/on_surface.hpp"
 #include "gis/follow/coast_follow.hpp"

@@ -1,10 +1,10 @@
-#include "core/label_regions.hpp"
+#include "core/triangulate/label_regions.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 
 namespace coastmesh {
 

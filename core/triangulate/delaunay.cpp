@@ -1,4 +1,4 @@
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/delaunay_builder.hpp"
+#include "core/triangulate/delaunay_builder.hpp"
 #include "core/hilbert.hpp"
 #include "core/links.hpp"
 #include "core/metric.hpp"

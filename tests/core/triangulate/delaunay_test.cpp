@@ -1,4 +1,4 @@
-#include "core/delaunay.hpp"
+#include "core/triangulate/delaunay.hpp"
 
 #include <gtest/gtest.h>
 

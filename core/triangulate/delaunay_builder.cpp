@@ -1,4 +1,4 @@
-#include "core/delaunay_builder.hpp"
+#include "core/triangulate/delaunay_builder.hpp"
 
 #include <algorithm>
 #include <array>
