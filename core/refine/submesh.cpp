@@ -5,7 +5,7 @@
 
 #include "core/links.hpp"
 #include "core/refine/fill_holes.hpp"
-#include "core/size/large_list.hpp"
+#include "core/large_list.hpp"
 
 namespace coastmesh {
 

@@ -11,7 +11,7 @@
 #include "core/ids.hpp"
 #include "core/metric.hpp"
 #include "core/size/grade_leaves.hpp"
-#include "core/size/large_list.hpp"
+#include "core/large_list.hpp"
 #include "core/size/size_cells.hpp"
 #include "core/size/size_demand.hpp"
 #include "core/size/size_leaves.hpp"

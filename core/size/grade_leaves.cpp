@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/metric.hpp"
-#include "core/size/large_list.hpp"
+#include "core/large_list.hpp"
 #include "core/size/on_surface.hpp"
 #include "core/size/size_grading.hpp"
 

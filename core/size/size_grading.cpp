@@ -7,7 +7,7 @@
 
 #include "core/ids.hpp"
 #include "core/metric.hpp"
-#include "core/size/large_list.hpp"
+#include "core/large_list.hpp"
 #include "core/size/on_surface.hpp"
 #include "core/size/size_queue.hpp"
 

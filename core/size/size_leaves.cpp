@@ -4,7 +4,7 @@
 #include <iterator>
 #include <utility>
 
-#include "core/size/large_list.hpp"
+#include "core/large_list.hpp"
 #include "core/size/size_subtrees.hpp"
 
 namespace coastmesh {

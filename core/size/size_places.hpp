@@ -11,7 +11,7 @@
 
 #include "core/ids.hpp"
 #include "core/item_loop.hpp"
-#include "core/size/large_list.hpp"
+#include "core/large_list.hpp"
 
 namespace coastmesh {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/item_loop.hpp"
-#include "core/size/large_list.hpp"
+#include "core/large_list.hpp"
 #include "core/size/size_tree.hpp"
 
 namespace coastmesh {

@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/size/large_list.hpp"
+#include "core/large_list.hpp"
 
 namespace coastmesh {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <utility>
 
-#include "core/size/large_list.hpp"
+#include "core/large_list.hpp"
 #include "core/size/on_surface.hpp"
 #include "core/size/size_demand.hpp"
 
