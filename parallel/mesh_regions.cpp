@@ -9,8 +9,6 @@
 #include <span>
 #include <utility>
 
-#include "core/triangulate/delaunay.hpp"
-#include "core/triangulate/label_regions.hpp"
 #include "core/lattice/lattice_core.hpp"
 #include "core/optimise/optimise.hpp"
 #include "core/refine/bound_violations.hpp"
@@ -18,6 +16,8 @@
 #include "core/refine/vertex_notes.hpp"
 #include "core/run_control.hpp"
 #include "core/size/plane_sizes.hpp"
+#include "core/triangulate/delaunay.hpp"
+#include "core/triangulate/label_regions.hpp"
 #include "parallel/byte_hash.hpp"
 #include "parallel/bytes.hpp"
 #include "parallel/deal.hpp"

@@ -5,9 +5,9 @@
 #include <functional>
 #include <utility>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/lattice/grow_list.hpp"
 #include "core/links.hpp"
+#include "core/triangulate/delaunay.hpp"
 
 namespace coastmesh {
 

@@ -2,9 +2,9 @@
 
 #include <utility>
 
-#include "core/triangulate/label_regions.hpp"
 #include "core/optimise/optimiser.hpp"
 #include "core/refine/bound_violations.hpp"
+#include "core/triangulate/label_regions.hpp"
 
 namespace coastmesh {
 

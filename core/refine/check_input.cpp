@@ -8,12 +8,12 @@
 #include <span>
 #include <unordered_map>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/links.hpp"
 #include "core/metric.hpp"
 #include "core/point_hash.hpp"
 #include "core/quality.hpp"
 #include "core/sphere/close_sphere.hpp"
+#include "core/triangulate/delaunay.hpp"
 
 namespace coastmesh {
 

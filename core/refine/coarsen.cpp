@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "core/edit_mesh.hpp"
-#include "core/triangulate/label_regions.hpp"
 #include "core/metric.hpp"
 #include "core/refine/bound_violations.hpp"
 #include "core/refine/refine.hpp"
 #include "core/refine/submesh_runs.hpp"
 #include "core/refine/vertex_ops.hpp"
+#include "core/triangulate/label_regions.hpp"
 
 namespace coastmesh {
 

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/triangulate/label_regions.hpp"
 #include "core/refine/bound_violations.hpp"
 #include "core/refine/mend_triangles.hpp"
 #include "core/refine/split_segments.hpp"
+#include "core/triangulate/label_regions.hpp"
 
 namespace coastmesh {
 

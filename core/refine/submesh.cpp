@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/large_list.hpp"
 #include "core/links.hpp"
 #include "core/refine/fill_holes.hpp"
-#include "core/large_list.hpp"
 
 namespace coastmesh {
 

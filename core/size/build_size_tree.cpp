@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "core/ids.hpp"
+#include "core/large_list.hpp"
 #include "core/metric.hpp"
 #include "core/size/grade_leaves.hpp"
-#include "core/large_list.hpp"
 #include "core/size/size_cells.hpp"
 #include "core/size/size_demand.hpp"
 #include "core/size/size_leaves.hpp"

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "core/metric.hpp"
 #include "core/large_list.hpp"
+#include "core/metric.hpp"
 #include "core/size/on_surface.hpp"
 #include "core/size/size_grading.hpp"
 

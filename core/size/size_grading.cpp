@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "core/ids.hpp"
-#include "core/metric.hpp"
 #include "core/large_list.hpp"
+#include "core/metric.hpp"
 #include "core/size/on_surface.hpp"
 #include "core/size/size_queue.hpp"
 

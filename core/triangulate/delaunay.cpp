@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/triangulate/delaunay_builder.hpp"
 #include "core/hilbert.hpp"
 #include "core/links.hpp"
 #include "core/metric.hpp"
+#include "core/triangulate/delaunay_builder.hpp"
 
 namespace coastmesh {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "core/triangulate/label_regions.hpp"
 #include "core/metric.hpp"
+#include "core/triangulate/label_regions.hpp"
 #include "gis/coast/segment_tags.hpp"
 #include "gis/follow/domain_shores.hpp"
 #include "gis/follow/follow_notes.hpp"

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
-#include "core/triangulate/label_regions.hpp"
 #include "core/metric.hpp"
+#include "core/triangulate/label_regions.hpp"
 #include "gis/follow/domain_shores.hpp"
 #include "gis/follow/shore_sizes.hpp"
 #include "gis/projection/scale_table.hpp"

@@ -6,11 +6,11 @@
 #include <limits>
 #include <numbers>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/hilbert.hpp"
 #include "core/links.hpp"
 #include "core/metric.hpp"
 #include "core/predicates.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "gis/follow/shore_flips.hpp"
 
 namespace coastmesh {

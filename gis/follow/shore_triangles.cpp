@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/metric.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "gis/coast/segment_tags.hpp"
 #include "gis/geometry/box.hpp"
 

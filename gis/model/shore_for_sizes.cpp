@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/metric.hpp"
 #include "core/tri_mesh.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "gis/coast/segment_tags.hpp"
 #include "gis/grid/loop_role.hpp"
 

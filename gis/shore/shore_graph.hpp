@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "core/triangulate/label_regions.hpp"
 #include "core/pslg.hpp"
+#include "core/triangulate/label_regions.hpp"
 
 namespace coastmesh {
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <utility>
 
-#include "core/triangulate/delaunay.hpp"
-#include "core/triangulate/label_regions.hpp"
 #include "core/metric.hpp"
 #include "core/size/on_surface.hpp"
+#include "core/triangulate/delaunay.hpp"
+#include "core/triangulate/label_regions.hpp"
 
 namespace coastmesh {
 

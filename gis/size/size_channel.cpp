@@ -6,8 +6,8 @@
 #include <numbers>
 #include <optional>
 
-#include "core/triangulate/label_regions.hpp"
 #include "core/metric.hpp"
+#include "core/triangulate/label_regions.hpp"
 #include "gis/coast/segment_tags.hpp"
 #include "gis/geometry/box_tree.hpp"
 

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "core/hilbert.hpp"
-#include "core/triangulate/label_regions.hpp"
 #include "core/metric.hpp"
 #include "core/size/on_surface.hpp"
+#include "core/triangulate/label_regions.hpp"
 #include "gis/coast/segment_tags.hpp"
 #include "gis/geometry/box.hpp"
 

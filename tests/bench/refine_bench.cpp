@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/refine/refine.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "gis/format/poly_io.hpp"
 #include "tests/bench/cgal_peers.hpp"
 #include "tests/bench/cpu_clock.hpp"

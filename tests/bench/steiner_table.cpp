@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/refine/refine.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "gis/format/poly_io.hpp"
 #include "tests/bench/cpu_clock.hpp"
 #include "tests/fuzz/refine_case.hpp"

@@ -9,9 +9,9 @@
 #include <set>
 #include <utility>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/metric.hpp"
 #include "core/predicates.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "tests/support/item_loops.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/mesh_figures.hpp"

@@ -7,8 +7,8 @@
 #include <limits>
 #include <numbers>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/edit_mesh.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "tests/support/pslgs.hpp"
 
 namespace coastmesh {

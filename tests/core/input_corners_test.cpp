@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/refine/mend_triangles.hpp"
 #include "core/refine/refine.hpp"
 #include "core/refine/vertex_notes.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "tests/support/excused_twin.hpp"
 #include "tests/support/pslgs.hpp"
 

@@ -9,8 +9,8 @@
 #include <set>
 #include <utility>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/quality.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/pslgs.hpp"
 

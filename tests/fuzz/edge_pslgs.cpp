@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/metric.hpp"
 #include "core/tri_mesh.hpp"
+#include "core/triangulate/delaunay.hpp"
 
 namespace coastmesh {
 

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/metric.hpp"
 #include "core/quality.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "tests/fuzz/unexpected_defects.hpp"
 #include "tests/support/excused_twin.hpp"
 #include "tests/support/mesh_figures.hpp"

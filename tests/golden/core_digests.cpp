@@ -12,13 +12,13 @@
 #include <utility>
 #include <vector>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/lattice/lattice.hpp"
 #include "core/lattice/lattice_core.hpp"
 #include "core/metric.hpp"
 #include "core/optimise/optimise.hpp"
 #include "core/refine/refine.hpp"
 #include "core/refine/vertex_notes.hpp"
+#include "core/triangulate/delaunay.hpp"
 
 namespace {
 

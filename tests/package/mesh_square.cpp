@@ -2,10 +2,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/quality.hpp"
 #include "core/refine/check.hpp"
 #include "core/refine/refine.hpp"
+#include "core/triangulate/delaunay.hpp"
 
 int main() {
   using namespace coastmesh;

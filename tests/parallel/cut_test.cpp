@@ -8,10 +8,10 @@
 #include <set>
 #include <vector>
 
-#include "core/triangulate/delaunay.hpp"
-#include "core/triangulate/label_regions.hpp"
 #include "core/refine/refine.hpp"
 #include "core/refine/submesh_runs.hpp"
+#include "core/triangulate/delaunay.hpp"
+#include "core/triangulate/label_regions.hpp"
 #include "parallel/near_due.hpp"
 #include "parallel/stitch.hpp"
 #include "parallel/workers.hpp"

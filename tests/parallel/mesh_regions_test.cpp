@@ -15,9 +15,9 @@
 #include <thread>
 #include <vector>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/lattice/lattice.hpp"
 #include "core/metric.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "parallel/workers.hpp"
 #include "tests/support/excused_twin.hpp"
 #include "tests/support/mesh_checks.hpp"

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/size/size_tree.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "parallel/piece_context.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/pslgs.hpp"

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "core/triangulate/delaunay.hpp"
-#include "core/triangulate/label_regions.hpp"
 #include "core/metric.hpp"
 #include "core/refine/bound_violations.hpp"
+#include "core/triangulate/delaunay.hpp"
+#include "core/triangulate/label_regions.hpp"
 #include "parallel/workers.hpp"
 #include "tests/support/excused_twin.hpp"
 #include "tests/support/mesh_checks.hpp"

@@ -8,11 +8,9 @@
 #include <vector>
 
 #include "core/box_halves.hpp"
-#include "core/triangulate/delaunay.hpp"
 #include "core/ids.hpp"
 #include "core/input_corners.hpp"
 #include "core/item_loop.hpp"
-#include "core/triangulate/label_regions.hpp"
 #include "core/linked_triangles.hpp"
 #include "core/metric.hpp"
 #include "core/point.hpp"
@@ -23,6 +21,8 @@
 #include "core/space_point.hpp"
 #include "core/surface.hpp"
 #include "core/tri_mesh.hpp"
+#include "core/triangulate/delaunay.hpp"
+#include "core/triangulate/label_regions.hpp"
 
 namespace coastmesh {
 namespace {

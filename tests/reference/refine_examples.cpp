@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/quality.hpp"
 #include "core/refine/check.hpp"
 #include "core/refine/mesh_defect.hpp"
@@ -19,6 +18,7 @@
 #include "core/size/size_box.hpp"
 #include "core/size/size_tree.hpp"
 #include "core/sphere/close_sphere.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "parallel/mesh_regions.hpp"
 #include "parallel/work_log.hpp"
 #include "parallel/workers.hpp"

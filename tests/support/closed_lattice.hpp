@@ -2,11 +2,11 @@
 
 #include <span>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/sphere/close_sphere.hpp"
 #include "core/sphere/sphere_lattice.hpp"
 #include "core/sphere/sphere_place.hpp"
 #include "core/tri_mesh.hpp"
+#include "core/triangulate/delaunay.hpp"
 
 namespace coastmesh {
 

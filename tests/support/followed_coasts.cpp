@@ -5,8 +5,8 @@
 #include <iterator>
 #include <utility>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/metric.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "gis/follow/water_notes.hpp"
 
 namespace coastmesh {

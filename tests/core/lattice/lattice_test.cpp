@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/triangulate/delaunay.hpp"
-#include "core/triangulate/label_regions.hpp"
 #include "core/lattice/lattice_core.hpp"
 #include "core/metric.hpp"
+#include "core/triangulate/delaunay.hpp"
+#include "core/triangulate/label_regions.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/pslgs.hpp"
 

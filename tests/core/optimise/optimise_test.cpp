@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/optimise/exchange_diagonal.hpp"
 #include "core/quality.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "tests/support/excused_twin.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/mesh_figures.hpp"

@@ -8,9 +8,9 @@
 #include <random>
 #include <set>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/metric.hpp"
 #include "core/refine/refine.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/pslgs.hpp"
 

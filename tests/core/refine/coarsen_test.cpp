@@ -5,10 +5,10 @@
 #include <numeric>
 #include <vector>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/metric.hpp"
 #include "core/quality.hpp"
 #include "core/refine/refine.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "tests/support/excused_twin.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/mesh_figures.hpp"

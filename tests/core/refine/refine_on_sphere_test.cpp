@@ -6,13 +6,13 @@
 #include <limits>
 #include <numbers>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/links.hpp"
 #include "core/optimise/optimise.hpp"
 #include "core/quality.hpp"
 #include "core/refine/mend_triangles.hpp"
 #include "core/refine/refine.hpp"
 #include "core/space_point.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "tests/support/mesh_checks.hpp"
 
 namespace coastmesh {

@@ -11,10 +11,10 @@
 #include <sstream>
 #include <string>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/metric.hpp"
 #include "core/quality.hpp"
 #include "core/refine/vertex_notes.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "tests/support/excused_twin.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/mesh_figures.hpp"

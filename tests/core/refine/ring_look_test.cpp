@@ -8,9 +8,9 @@
 #include <random>
 #include <vector>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/quality.hpp"
 #include "core/refine/refine.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "tests/support/pslgs.hpp"
 
 namespace coastmesh {

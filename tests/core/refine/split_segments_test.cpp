@@ -6,9 +6,9 @@
 #include <cmath>
 #include <utility>
 
+#include "core/refine/refine.hpp"
 #include "core/triangulate/delaunay.hpp"
 #include "core/triangulate/label_regions.hpp"
-#include "core/refine/refine.hpp"
 #include "tests/support/item_loops.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/size_cases.hpp"

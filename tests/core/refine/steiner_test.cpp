@@ -8,8 +8,8 @@
 #include <limits>
 #include <vector>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/predicates.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "tests/support/pslgs.hpp"
 
 namespace coastmesh {

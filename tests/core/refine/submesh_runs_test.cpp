@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/refine/bound_violations.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "tests/support/pslgs.hpp"
 
 namespace coastmesh {

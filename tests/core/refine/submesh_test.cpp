@@ -7,12 +7,12 @@
 #include <set>
 #include <vector>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/flip.hpp"
-#include "core/triangulate/label_regions.hpp"
 #include "core/links.hpp"
 #include "core/metric.hpp"
 #include "core/refine/refine.hpp"
+#include "core/triangulate/delaunay.hpp"
+#include "core/triangulate/label_regions.hpp"
 #include "tests/support/item_loops.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/mesh_figures.hpp"

@@ -7,8 +7,8 @@
 #include <limits>
 #include <vector>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/refine/refine.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/mesh_figures.hpp"
 #include "tests/support/pslgs.hpp"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <set>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/refine/check.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "gis/clean/clean.hpp"
 #include "tests/support/cleaned.hpp"
 #include "tests/support/gis_shapes.hpp"

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/metric.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "gis/coast/segment_tags.hpp"
 #include "gis/follow/coast_follow.hpp"
 #include "tests/support/followed_coasts.hpp"

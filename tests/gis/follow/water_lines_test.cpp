@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/metric.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "gis/coast/segment_tags.hpp"
 #include "gis/follow/coast_follow.hpp"
 #include "tests/support/followed_coasts.hpp"

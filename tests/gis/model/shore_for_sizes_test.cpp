@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/metric.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "gis/coast/segment_tags.hpp"
 #include "gis/model/assign_boundaries.hpp"
 #include "gis/model/make_grid.hpp"

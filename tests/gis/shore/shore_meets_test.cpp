@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/metric.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "gis/follow/coast_follow.hpp"
 #include "tests/support/followed_coasts.hpp"
 

@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/metric.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "gis/shore/shore_graph.hpp"
 #include "tests/support/item_loops.hpp"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/refine/refine.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "tests/support/pslgs.hpp"
 #include "tests/support/size_figures.hpp"
 

@@ -7,9 +7,9 @@
 #include <numbers>
 #include <random>
 
-#include "core/triangulate/delaunay.hpp"
 #include "core/metric.hpp"
 #include "core/size/on_surface.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "gis/follow/coast_follow.hpp"
 #include "gis/size/domain_mask.hpp"
 #include "gis/size/node_sizes.hpp"
