@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <utility>
+
+#include "core/distribute.hpp"
 
 namespace coastmesh {
 
@@ -40,14 +43,49 @@ constexpr std::array<std::uint16_t, 1024> makeSteps() {
 
 constexpr std::array<std::uint16_t, 1024> kSteps = makeSteps();
 
-// The numbers of the points in order of their indices; equal ones by number.
-std::vector<std::uint32_t> sortedByIndex(std::span<const std::uint32_t> indices) {
-  std::vector<std::uint64_t> keys(indices.size());
-  for (std::size_t i = 0; i < keys.size(); ++i) keys[i] = std::uint64_t{indices[i]} << 32 | i;
-  std::ranges::sort(keys);
-  std::vector<std::uint32_t> order(keys.size());
-  std::ranges::transform(keys, order.begin(), [](std::uint64_t key) { return static_cast<std::uint32_t>(key); });
-  return order;
+// Sorts numbers of points by the lower bits of the points' indices; equal ones keep their order.
+void sortByIndex(std::span<const std::uint32_t> indices, unsigned bits, std::span<std::uint32_t> numbers) {
+  // Radix sort takes thousands of steps even for few points: a fifth of the total time for a lake of ten points.
+  constexpr std::size_t kWorthCounting = 512;
+  const std::uint32_t mask = bits < 32 ? (1u << bits) - 1 : ~0u;
+  if (numbers.size() < kWorthCounting) {
+    std::vector<std::uint64_t> keys(numbers.size());
+    for (std::size_t i = 0; i < keys.size(); ++i)
+      keys[i] = std::uint64_t{indices[numbers[i]] & mask} << 32 | numbers[i];
+    std::ranges::sort(keys);
+    std::ranges::transform(keys, numbers.begin(), [](std::uint64_t key) { return static_cast<std::uint32_t>(key); });
+    return;
+  }
+  // Last digit first; each pass is stable.
+  constexpr unsigned kDigitBits = 11;
+  std::vector<std::uint32_t> order(numbers.begin(), numbers.end()), sorted(numbers.size());
+  for (unsigned shift = 0; shift < bits; shift += kDigitBits) {
+    std::array<std::uint32_t, (1u << kDigitBits) + 1> first{};
+    const auto digit = [&](std::uint32_t i) { return (indices[i] & mask) >> shift & ((1u << kDigitBits) - 1); };
+    for (const std::uint32_t i : order) ++first[digit(i) + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    for (const std::uint32_t i : order) sorted[first[digit(i)]++] = i;
+    order.swap(sorted);
+  }
+  std::ranges::copy(order, numbers.begin());
+}
+
+// The least and the greatest coordinates.
+std::pair<Point, Point> extentOf(std::span<const Point> points, const ItemLoop& loop) {
+  const auto parts = overStretches(loop, points.size(), [&](std::size_t first, std::size_t last) {
+    std::pair extent{points[first], points[first]};
+    for (const Point& p : points.subspan(first, last - first)) {
+      extent.first = {std::min(extent.first.x, p.x), std::min(extent.first.y, p.y)};
+      extent.second = {std::max(extent.second.x, p.x), std::max(extent.second.y, p.y)};
+    }
+    return extent;
+  });
+  std::pair<Point, Point> all = parts.front();
+  for (const auto& [low, high] : parts) {
+    all.first = {std::min(all.first.x, low.x), std::min(all.first.y, low.y)};
+    all.second = {std::max(all.second.x, high.x), std::max(all.second.y, high.y)};
+  }
+  return all;
 }
 
 }  // namespace
@@ -62,49 +100,49 @@ std::uint32_t hilbertIndex(std::uint32_t x, std::uint32_t y) {
   return index;
 }
 
-std::vector<std::uint32_t> hilbertIndices(std::span<const Point> points) {
+std::vector<std::uint32_t> hilbertIndices(std::span<const Point> points, const ItemLoop& loop) {
   std::vector<std::uint32_t> indices(points.size());
   if (points.empty()) return indices;
-  const auto [left, right] = std::ranges::minmax(points, {}, &Point::x);
-  const auto [lower, upper] = std::ranges::minmax(points, {}, &Point::y);
-  const double extent = std::max(right.x - left.x, upper.y - lower.y);
+  const auto [low, high] = extentOf(points, loop);
+  const double extent = std::max(high.x - low.x, high.y - low.y);
   const double scale = extent > 0.0 ? 65535.0 / extent : 0.0;
   // Too far apart or too close for doubles: any order will do.
   if (!std::isfinite(extent) || !std::isfinite(scale)) return indices;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    indices[i] = hilbertIndex(static_cast<std::uint32_t>((points[i].x - left.x) * scale),
-                              static_cast<std::uint32_t>((points[i].y - lower.y) * scale));
+  forEachByStretches(loop, points.size(), [&, low = low](std::size_t i) {
+    indices[i] = hilbertIndex(static_cast<std::uint32_t>((points[i].x - low.x) * scale),
+                              static_cast<std::uint32_t>((points[i].y - low.y) * scale));
+  });
   return indices;
 }
 
-std::vector<std::uint32_t> hilbertOrder(std::span<const Point> points) {
-  // Radix sort takes thousands of steps even for few points: a fifth of the total time for a lake of ten points.
-  constexpr std::size_t kWorthCounting = 512;
-  const std::vector<std::uint32_t> indices = hilbertIndices(points);
-  if (points.size() < kWorthCounting) return sortedByIndex(indices);
-  std::vector<std::uint32_t> order(points.size()), sorted(points.size());
-  std::iota(order.begin(), order.end(), 0u);
-  // Radix sort, last digit first; each pass is stable.
-  constexpr unsigned kDigitBits = 11;
-  for (unsigned shift = 0; shift < 32; shift += kDigitBits) {
-    std::array<std::uint32_t, (1u << kDigitBits) + 1> first{};
-    const auto digit = [&](std::uint32_t i) { return indices[i] >> shift & ((1u << kDigitBits) - 1); };
-    for (const std::uint32_t i : order) ++first[digit(i) + 1];
-    std::partial_sum(first.begin(), first.end(), first.begin());
-    for (const std::uint32_t i : order) sorted[first[digit(i)]++] = i;
-    order.swap(sorted);
+std::vector<std::uint32_t> hilbertOrder(std::span<const Point> points, const ItemLoop& loop) {
+  constexpr std::size_t kWorthDividing = 1 << 15;
+  const std::vector<std::uint32_t> indices = hilbertIndices(points, loop);
+  if (points.size() < kWorthDividing) {
+    std::vector<std::uint32_t> order(points.size());
+    std::iota(order.begin(), order.end(), 0u);
+    sortByIndex(indices, 32, order);
+    return order;
   }
+  // By the upper bits first, so that the rest can be sorted at the same time.
+  constexpr unsigned kUpperBits = 8, kLowerBits = 32 - kUpperBits;
+  constexpr std::size_t kParts = std::size_t{1} << kUpperBits;
+  auto [order, starts] =
+      distribute(loop, points.size(), kParts, [&](std::size_t i) { return indices[i] >> kLowerBits; });
+  loop(kParts, [&, &order = order, &starts = starts](std::size_t p) {
+    sortByIndex(indices, kLowerBits, std::span(order).subspan(starts[p], starts[p + 1] - starts[p]));
+  });
   return order;
 }
 
-std::vector<std::uint32_t> hilbertOrder(std::span<const Point> points, const Surface& surface) {
-  if (!surface.isCurved()) return hilbertOrder(points);
+std::vector<std::uint32_t> hilbertOrder(std::span<const Point> points, const Surface& surface, const ItemLoop& loop) {
+  if (!surface.isCurved()) return hilbertOrder(points, loop);
   std::vector<Point> on_map(points.size());
-  std::ranges::transform(points, on_map.begin(), [&](const Point& x) {
-    const double shrink = std::sqrt(surface.shrinkAt(x));
-    return Point{shrink * x.x, shrink * x.y};
+  forEachByStretches(loop, points.size(), [&](std::size_t i) {
+    const double shrink = std::sqrt(surface.shrinkAt(points[i]));
+    on_map[i] = {shrink * points[i].x, shrink * points[i].y};
   });
-  return hilbertOrder(on_map);
+  return hilbertOrder(on_map, loop);
 }
 
 }  // namespace coastmesh

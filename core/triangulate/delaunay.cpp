@@ -10,10 +10,12 @@
 #include <utility>
 #include <vector>
 
-#include "core/hilbert.hpp"
+#include "core/distribute.hpp"
 #include "core/links.hpp"
 #include "core/metric.hpp"
-#include "core/triangulate/delaunay_builder.hpp"
+#include "core/triangulate/carve.hpp"
+#include "core/triangulate/segment_inserter.hpp"
+#include "core/triangulate/triangulate_points.hpp"
 
 namespace coastmesh {
 
@@ -48,194 +50,143 @@ Point crossingOf(const Pslg& pslg, SegmentId s, SegmentId other) {
   return a + (from / (from - to)) * (b - a);
 }
 
-void insertSegments(const Pslg& pslg, DelaunayBuilder& builder) {
-  for (SegmentId s = 0; s < pslg.segments.size(); ++s) {
-    const auto& [a, b, tag, left, right] = pslg.segments[s];
-    try {
-      builder.insertSegment(a, b, s);
-    } catch (const DelaunayBuilder::Clash& clash) {
-      switch (clash.kind) {
-        case DelaunayBuilder::Clash::Kind::SegmentsCross:
-          refuse(PslgDefect::Kind::SegmentsCross, crossingOf(pslg, s, clash.other), s, "two segments cross",
-                 clash.other);
-        case DelaunayBuilder::Clash::Kind::SegmentsCoincide:
-          refuse(PslgDefect::Kind::SegmentsCoincide, midpoint(pslg.points[a], pslg.points[b]), s,
-                 "two segments have the same ends", clash.other);
-        default:
-          refuse(PslgDefect::Kind::PointOnSegment, pslg.points[clash.at], s, "a vertex lies inside a segment");
+[[noreturn]] void refuse(const Clash& clash, const Pslg& pslg, SegmentId s) {
+  const Point &a = pslg.points[pslg.segments[s].a], &b = pslg.points[pslg.segments[s].b];
+  // Of two segments the later one is refused, whichever was inserted first.
+  const SegmentId later = std::max(s, clash.other), earlier = std::min(s, clash.other);
+  switch (clash.kind) {
+    case Clash::Kind::SegmentsCross:
+      refuse(PslgDefect::Kind::SegmentsCross, crossingOf(pslg, later, earlier), later, "two segments cross", earlier);
+    case Clash::Kind::SegmentsCoincide:
+      refuse(PslgDefect::Kind::SegmentsCoincide, midpoint(a, b), later, "two segments have the same ends", earlier);
+    default:
+      refuse(PslgDefect::Kind::PointOnSegment, pslg.points[clash.at], s, "a vertex lies inside a segment");
+  }
+}
+
+// Most segments are edges already: these are found first, on all threads.
+void insertSegments(const Pslg& pslg, Triangulation& triangulation, const ItemLoop& loop) {
+  SegmentInserter inserter(triangulation);
+  std::vector<EdgeRef> edges(pslg.segments.size());
+  forEachByStretches(loop, edges.size(),
+                     [&](std::size_t s) { edges[s] = inserter.findEdge(pslg.segments[s].a, pslg.segments[s].b); });
+  const auto forSegments = [&](const auto& insert) {
+    for (SegmentId s = 0; s < edges.size(); ++s) {
+      try {
+        insert(s);
+      } catch (const Clash& clash) {
+        refuse(clash, pslg, s);
       }
     }
-  }
+  };
+  forSegments([&](SegmentId s) {
+    if (edges[s] != kNone) inserter.mark(edges[s], s);
+  });
+  forSegments([&](SegmentId s) {
+    if (edges[s] == kNone) inserter.insert(pslg.segments[s].a, pslg.segments[s].b, s);
+  });
 }
 
 // Edges suffice, since a Delaunay triangulation joins nearest neighbours.
-void checkDistances(const Pslg& pslg, const DelaunayBuilder& builder) {
-  for (TriId t = 0; t < builder.triangles().size(); ++t) {
-    if (builder.isGhost(t)) continue;
-    const auto& v = builder.triangles()[t].v;
-    for (unsigned i = 0; i < 3; ++i) {
-      const Point &a = pslg.points[v[i]], &b = pslg.points[v[next3(i)]];
-      if (std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)) >= kLeastDistance) continue;
-      refuse(PslgDefect::Kind::OutOfRange, a, kNone, "two vertices are nearer to one another than 1e-70");
-    }
-  }
+void checkDistances(const Triangulation& triangulation, const ItemLoop& loop) {
+  const std::vector<Triangle>& triangles = triangulation.mesh.triangles;
+  const auto isTooNear = [&](EdgeRef e) {
+    const Point &a = triangulation.points[triangulation.mesh.origin(e)],
+                &b = triangulation.points[triangulation.mesh.target(e)];
+    return std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)) < kLeastDistance;
+  };
+  const auto found = overStretches(loop, triangles.size(), [&](std::size_t first, std::size_t last) -> EdgeRef {
+    for (TriId t = static_cast<TriId>(first); t < last; ++t)
+      for (unsigned i = 0; i < 3 && !triangulation.isGhost(t); ++i)
+        if (isTooNear(edgeRef(t, i))) return edgeRef(t, i);
+    return kNone;
+  });
+  for (const EdgeRef e : found)
+    if (e != kNone)
+      refuse(PslgDefect::Kind::OutOfRange, triangulation.points[triangulation.mesh.origin(e)], kNone,
+             "two vertices are nearer to one another than 1e-70");
 }
 
-constexpr RegionId kUnvisited = kUnlabelled;
-
-// Assigns a region to every triangle: floods from labels, holes and the outside, up to the segments.
-class Carver {
- public:
-  Carver(const Pslg& pslg, const DelaunayBuilder& builder)
-      : pslg_(pslg), builder_(builder), triangles_(builder.triangles()), region_(triangles_.size(), kUnvisited) {}
-
-  std::vector<RegionId> run() {
-    const auto isLabelled = [](const Segment& s) { return s.left != kUnlabelled || s.right != kUnlabelled; };
-    if (std::ranges::any_of(pslg_.segments, isLabelled)) {
-      floodFromLabels();
-    } else {
-      if (!pslg_.segments.empty()) flood(firstGhost(), kOutside);
-      TriId at = 0;
-      for (const std::uint32_t hole : hilbertOrder(pslg_.holes)) {
-        at = builder_.locate(pslg_.holes[hole], at);
-        flood(at, kOutside);
-      }
-      std::ranges::replace(region_, kUnvisited, 0);
-    }
-    for (TriId t = 0; t < triangles_.size(); ++t)
-      if (region_[t] == kUnvisited || builder_.isGhost(t)) region_[t] = kOutside;
-    return std::move(region_);
-  }
-
- private:
-  TriId firstGhost() const {
-    TriId t = 0;
-    while (!builder_.isGhost(t)) ++t;
-    return t;
-  }
-
-  void floodFromLabels() {
-    for (TriId t = 0; t < triangles_.size(); ++t) {
-      for (unsigned i = 0; i < 3; ++i) {
-        if (triangles_[t].seg[i] == kNone) continue;
-        const RegionId label = labelOn(t, i);
-        if (label == kUnlabelled) continue;
-        flood(t, label);
-        if (region_[t] != label) refuseLabel(t, i);
-      }
-    }
-  }
-
-  // Reports that edge i labels triangle t differently from its region; searches for a segment that gave it that region.
-  [[noreturn]] void refuseLabel(TriId t, unsigned i) {
-    const SegmentId here = triangles_[t].seg[i];
-    const RegionId given = region_[t];
-    SegmentId other = kNone;
-    std::vector<bool> seen(triangles_.size(), false);
-    seen[t] = true;
-    stack_.assign(1, t);
-    while (!stack_.empty() && other == kNone) {
-      const TriId at = stack_.back();
-      stack_.pop_back();
-      for (unsigned j = 0; j < 3; ++j) {
-        const SegmentId s = triangles_[at].seg[j];
-        const TriId next = triOf(triangles_[at].adj[j]);
-        if (s != kNone && labelOn(at, j) == given) other = s;
-        if (s != kNone || seen[next]) continue;
-        seen[next] = true;
-        stack_.push_back(next);
-      }
-    }
-    const Segment& segment = pslg_.segments[here];
-    refuse(PslgDefect::Kind::LabelsContradict, midpoint(pslg_.points[segment.a], pslg_.points[segment.b]), here,
-           "two segments label the same place differently", other);
-  }
-
-  // The label that the segment on edge i gives to triangle t.
-  RegionId labelOn(TriId t, unsigned i) const {
-    const Segment& segment = pslg_.segments[triangles_[t].seg[i]];
-    return triangles_[t].v[next3(i)] == segment.a ? segment.left : segment.right;
-  }
-
-  void flood(TriId start, RegionId label) {
-    if (region_[start] != kUnvisited) return;
-    region_[start] = label;
-    stack_.push_back(start);
-    while (!stack_.empty()) {
-      const Triangle& here = triangles_[stack_.back()];
-      stack_.pop_back();
-      for (unsigned i = 0; i < 3; ++i) {
-        const TriId other = triOf(here.adj[i]);
-        if (here.seg[i] != kNone || region_[other] != kUnvisited) continue;
-        region_[other] = label;
-        stack_.push_back(other);
-      }
-    }
-  }
-
-  const Pslg& pslg_;
-  const DelaunayBuilder& builder_;
-  std::span<const Triangle> triangles_;
-  std::vector<RegionId> region_;
-  std::vector<TriId> stack_;
+// The triangles of the domain, ordered by their last corner along Hilbert's curve.
+struct Numbering {
+  std::vector<TriId> number;  // by slot; kNone outside the domain
+  TriId count = 0;
 };
 
-// The new numbers of the triangles that are kept, ordered by their last corner along Hilbert's curve; kNone for the
-// others.
-std::vector<TriId> numberAlongCurve(const DelaunayBuilder& builder, const std::vector<RegionId>& region, TriId& count) {
-  const std::span<const Triangle> triangles = builder.triangles();
-  std::vector<std::uint32_t> place(builder.alongCurve().size());
-  for (std::uint32_t i = 0; const VertexId v : builder.alongCurve()) place[v] = i++;
+Numbering numberAlongCurve(const Triangulation& triangulation, const std::vector<RegionId>& region,
+                           const ItemLoop& loop) {
+  const std::size_t slots = region.size(), vertices = triangulation.along_curve.size();
+  std::vector<std::uint32_t> place(vertices);
+  forEachByStretches(loop, vertices,
+                     [&](std::size_t i) { place[triangulation.along_curve[i]] = static_cast<std::uint32_t>(i); });
   const auto last = [&](TriId t) {
-    const auto& v = triangles[t].v;
+    const auto& v = triangulation.mesh.triangles[t].v;
     return std::max({place[v[0]], place[v[1]], place[v[2]]});
   };
-  std::vector<TriId> first(place.size() + 1, 0);
-  for (TriId t = 0; t < triangles.size(); ++t)
-    if (region[t] != kOutside) ++first[last(t) + 1];
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  count = first.back();
-  std::vector<TriId> numbers(triangles.size(), kNone);
-  for (TriId t = 0; t < triangles.size(); ++t)
-    if (region[t] != kOutside) numbers[t] = first[last(t)]++;
+  // Stretches of the curve, each of which is sorted by counting; a further part holds what is outside.
+  constexpr std::size_t kVerticesInPart = 8192;
+  const std::size_t parts = std::clamp<std::size_t>(vertices / kVerticesInPart, 1, 1024);
+  const std::size_t in_part = (vertices + parts - 1) / parts;
+  const Distribution sorted = distribute(loop, slots, parts + 1, [&](std::size_t t) {
+    return region[t] == kOutside ? parts : last(static_cast<TriId>(t)) / in_part;
+  });
+  Numbering numbers{std::vector<TriId>(slots, kNone), sorted.starts[parts]};
+  loop(parts, [&](std::size_t p) {
+    const auto own = std::span(sorted.items).subspan(sorted.starts[p], sorted.starts[p + 1] - sorted.starts[p]);
+    const auto begin = static_cast<std::uint32_t>(p * in_part);
+    std::vector<TriId> first(in_part + 1, 0);
+    for (const TriId t : own) ++first[last(t) - begin + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    for (const TriId t : own) numbers.number[t] = sorted.starts[p] + first[last(t) - begin]++;
+  });
   return numbers;
 }
 
-DelaunayBuilder triangulate(const Pslg& pslg, const Surface& surface) {
+Triangulation triangulate(const Pslg& pslg, const Surface& surface, const ItemLoop& loop) {
   try {
-    return DelaunayBuilder(pslg.points, surface);
-  } catch (const DelaunayBuilder::Clash& clash) {
+    return triangulatePoints(pslg.points, surface, loop);
+  } catch (const Clash& clash) {
     refuse(PslgDefect::Kind::PointsCoincide, pslg.points[clash.at], kNone, "two vertices lie at the same place");
+  }
+}
+
+std::vector<RegionId> carve(const Triangulation& triangulation, const Pslg& pslg, const ItemLoop& loop) {
+  try {
+    return regionsOf(triangulation, pslg, loop);
+  } catch (const LabelClash& clash) {
+    const Segment& segment = pslg.segments[clash.segment];
+    refuse(PslgDefect::Kind::LabelsContradict, midpoint(pslg.points[segment.a], pslg.points[segment.b]), clash.segment,
+           "two segments label the same place differently", clash.other);
   }
 }
 
 }  // namespace
 
-TriMesh constrainedDelaunay(const Pslg& pslg, const Surface& surface) {
+TriMesh constrainedDelaunay(const Pslg& pslg, const Surface& surface, const ItemLoop& loop) {
   checkReferences(pslg);
-  DelaunayBuilder builder = triangulate(pslg, surface);
-  if (!builder.hasTriangles())
+  Triangulation triangulation = triangulate(pslg, surface, loop);
+  if (!triangulation.hasTriangles())
     refuse(PslgDefect::Kind::NoArea, pslg.points.empty() ? Point{} : pslg.points.front(), kNone,
            "the vertices lie on one line and enclose no area");
-  checkDistances(pslg, builder);
-  insertSegments(pslg, builder);
-
-  const std::vector<RegionId> region = Carver(pslg, builder).run();
-  TriId count = 0;
-  const std::vector<TriId> numbers = numberAlongCurve(builder, region, count);
-  if (count == 0) refuse(PslgDefect::Kind::NoArea, pslg.points.front(), kNone, "the segments enclose no area");
+  checkDistances(triangulation, loop);
+  insertSegments(pslg, triangulation, loop);
+  const std::vector<RegionId> region = carve(triangulation, pslg, loop);
+  const Numbering numbers = numberAlongCurve(triangulation, region, loop);
+  if (numbers.count == 0) refuse(PslgDefect::Kind::NoArea, pslg.points.front(), kNone, "the segments enclose no area");
 
   TriMesh mesh;
   mesh.points = pslg.points;
   mesh.input_vertices = static_cast<VertexId>(pslg.points.size());
-  mesh.triangles.resize(count);
-  mesh.regions.resize(count);
-  for (TriId from = 0; from < numbers.size(); ++from) {
-    if (numbers[from] == kNone) continue;
-    mesh.triangles[numbers[from]] = renumbered(
-        builder.triangles()[from], [&](TriId t) { return numbers[t]; }, std::identity());
-    mesh.regions[numbers[from]] = region[from];
-  }
+  reserveOn(loop, mesh.triangles, numbers.count);
+  mesh.triangles.resize(numbers.count);
+  mesh.regions.resize(numbers.count);
+  forEachByStretches(loop, region.size(), [&](std::size_t from) {
+    const TriId to = numbers.number[from];
+    if (to == kNone) return;
+    mesh.triangles[to] = renumbered(
+        triangulation.mesh.triangles[from], [&](TriId t) { return numbers.number[t]; }, std::identity());
+    mesh.regions[to] = region[from];
+  });
   assert(findBrokenLink(mesh.triangles) == kNone);
   return mesh;
 }

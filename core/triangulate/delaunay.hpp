@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/item_loop.hpp"
 #include "core/pslg.hpp"
 #include "core/surface.hpp"
 #include "core/tri_mesh.hpp"
@@ -37,7 +38,7 @@ struct BadPslg : std::runtime_error {
 
 // The constrained Delaunay triangulation of the PSLG's domain: holes and outside are removed, regions labelled. Throws
 // only BadPslg, if the input is not a valid PSLG or encloses no area. O(n log n) time, O(n) memory. The surface affects
-// only the numbering: vertices close together on it get close numbers.
-TriMesh constrainedDelaunay(const Pslg& pslg, const Surface& surface = {});
+// only the numbering: vertices close together on it get close numbers. The result does not depend on the loop.
+TriMesh constrainedDelaunay(const Pslg& pslg, const Surface& surface = {}, const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

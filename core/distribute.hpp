@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "core/item_loop.hpp"
+
+namespace coastmesh {
+
+// Items 0 to `count` sorted by part.
+struct Distribution {
+  std::vector<std::uint32_t> items;   // those of one part in ascending order
+  std::vector<std::uint32_t> starts;  // of the parts in `items`, then its end
+};
+
+// Sorts items by `partOf(i)`, which is below `parts`, on several threads. REQUIRES: at most 65,536 parts.
+template <typename PartOf>
+Distribution distribute(const ItemLoop& loop, std::size_t count, std::size_t parts, const PartOf& partOf) {
+  std::vector<std::uint16_t> part(count);
+  // The number of items of each part in each range; then the place of the next.
+  auto places = overStretches(loop, count, [&](std::size_t first, std::size_t last) {
+    std::vector<std::uint32_t> here(parts, 0);
+    for (std::size_t i = first; i < last; ++i) {
+      part[i] = static_cast<std::uint16_t>(partOf(i));
+      ++here[part[i]];
+    }
+    return here;
+  });
+  Distribution sorted;
+  sorted.starts.reserve(parts + 1);
+  std::uint32_t start = 0;
+  for (std::size_t p = 0; p < parts; ++p) {
+    sorted.starts.push_back(start);
+    for (std::vector<std::uint32_t>& here : places) start += std::exchange(here[p], start);
+  }
+  sorted.starts.push_back(start);
+  sorted.items.resize(count);
+  const std::size_t ranges = places.size();
+  loop(ranges, [&](std::size_t r) {
+    for (std::size_t i = count * r / ranges; i < count * (r + 1) / ranges; ++i)
+      sorted.items[places[r][part[i]]++] = static_cast<std::uint32_t>(i);
+  });
+  return sorted;
+}
+
+}  // namespace coastmesh
