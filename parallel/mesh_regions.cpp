@@ -123,11 +123,12 @@ Pslg withRing(const Pslg& pslg, const MeshOptions& options) {
   return all;
 }
 
-TriMesh triangulateInRing(const Pslg& pslg, const MeshOptions& options, std::span<const Point> seeds) {
+TriMesh triangulateInRing(const Pslg& pslg, const MeshOptions& options, std::span<const Point> seeds,
+                          const ItemLoop& loop) {
   Pslg all = withRing(pslg, options);
   const std::size_t fixed = all.points.size();
   all.points.insert(all.points.end(), seeds.begin(), seeds.end());
-  TriMesh mesh = constrainedDelaunay(all, options.refine.surface);
+  TriMesh mesh = constrainedDelaunay(all, options.refine.surface, loop);
   mesh.input_vertices = static_cast<VertexId>(fixed);
   freezeRing(mesh, static_cast<VertexId>(pslg.points.size()), options.cap);
   return mesh;
@@ -142,12 +143,12 @@ struct Seeds {
 };
 
 // For a mesh to be closed: inserts its initial vertices.
-Seeds seedInRing(MeshedRegion& region, const Pslg& pslg, const MeshOptions& options) {
+Seeds seedInRing(MeshedRegion& region, const Pslg& pslg, const MeshOptions& options, const RunControl& control) {
   Recorder recorder;
   Seeds seeds;
   seeds.notes = noteInput(region.mesh, boundOf(options.refine));
   if (!options.seeds.empty()) {
-    region.mesh = triangulateInRing(pslg, options, options.seeds);
+    region.mesh = triangulateInRing(pslg, options, options.seeds, recorder.loop("triangulate", control));
     noteFurther(region.mesh, seeds.notes);
   }
   region.log.append(recorder.finish("triangulate"));
@@ -157,7 +158,7 @@ Seeds seedInRing(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opti
 // Triangulates again if there are lattices to insert.
 Seeds seed(MeshedRegion& region, const Pslg& pslg, const MeshOptions& all_options, bool with_cores,
            const RunControl& control) {
-  if (!all_options.cap.empty()) return seedInRing(region, pslg, all_options);
+  if (!all_options.cap.empty()) return seedInRing(region, pslg, all_options, control);
   const RefineOptions& options = all_options.refine;
   Recorder recorder;
   const ItemLoop loop = recorder.loop("lattice", control);
@@ -165,7 +166,7 @@ Seeds seed(MeshedRegion& region, const Pslg& pslg, const MeshOptions& all_option
   std::vector<LatticePlaces> lattices = latticesFor(region.mesh, options, loop);
   if (with_cores || !lattices.empty()) seeds.notes = noteInput(region.mesh, boundOf(options));
   if (!lattices.empty()) {
-    LatticeMesh seeded = triangulateWith(pslg, std::move(lattices), with_cores, loop);
+    LatticeMesh seeded = triangulateWith(pslg, std::move(lattices), with_cores, recorder.loop("triangulate", control));
     if (!seeded.cores.empty()) seeds.input = seeds.notes;
     noteFurther(seeded.mesh, seeds.notes);
     seeds.core_vertices = seeded.coreVertices();
@@ -364,11 +365,13 @@ MeshedRegion meshRegion(const Pslg& pslg, MeshOptions options, const RunControl&
   Recorder recorder;
   const bool closed = !options.cap.empty();
   const bool done = takeLattice(region, options, recorder.loop("lattice", control));
-  if (!done) region.mesh = closed ? triangulateInRing(pslg, options, {}) : constrainedDelaunay(pslg);
+  const ItemLoop triangulate = recorder.loop("triangulate", control);
+  if (!done)
+    region.mesh =
+        closed ? triangulateInRing(pslg, options, {}, triangulate) : constrainedDelaunay(pslg, {}, triangulate);
   if (!done && !closed && !labelsTellAll(pslg)) region.cover = coverOf(region.mesh, pslg);
   const bool cut =
-      !done && !options.one_piece &&
-      expectedTriangles(region.mesh, options.refine, recorder.loop("triangulate", control)) >= kWorthCutting;
+      !done && !options.one_piece && expectedTriangles(region.mesh, options.refine, triangulate) >= kWorthCutting;
   region.seconds.triangulate = watch.lap();
   region.log.append(recorder.finish("triangulate"));
   if (!done) (cut ? meshInPieces : meshWhole)(region, pslg, options, control);

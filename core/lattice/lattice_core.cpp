@@ -345,7 +345,7 @@ LatticeMesh triangulateWith(const Pslg& pslg, std::vector<LatticePlaces> lattice
   }
   const auto fixed = static_cast<VertexId>(all.points.size());
   for (const LatticePlaces& some : lattices) add(some.lattice, some.places);
-  made.mesh = constrainedDelaunay(all);
+  made.mesh = constrainedDelaunay(all, {}, loop);
   made.mesh.input_vertices = fixed;
   if (!made.cores.empty()) made.mesh = CoreCarver(made.mesh, made.pslg_vertices, made.cores).run();
   return made;
