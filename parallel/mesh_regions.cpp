@@ -145,11 +145,12 @@ struct Seeds {
 // For a mesh to be closed: inserts its initial vertices.
 Seeds seedInRing(MeshedRegion& region, const Pslg& pslg, const MeshOptions& options, const RunControl& control) {
   Recorder recorder;
+  const ItemLoop loop = recorder.loop("triangulate", control);
   Seeds seeds;
-  seeds.notes = noteInput(region.mesh, boundOf(options.refine));
+  seeds.notes = noteInput(region.mesh, boundOf(options.refine), loop);
   if (!options.seeds.empty()) {
-    region.mesh = triangulateInRing(pslg, options, options.seeds, recorder.loop("triangulate", control));
-    noteFurther(region.mesh, seeds.notes);
+    region.mesh = triangulateInRing(pslg, options, options.seeds, loop);
+    noteFurther(region.mesh, seeds.notes, loop);
   }
   region.log.append(recorder.finish("triangulate"));
   return seeds;
@@ -161,14 +162,14 @@ Seeds seed(MeshedRegion& region, const Pslg& pslg, const MeshOptions& all_option
   if (!all_options.cap.empty()) return seedInRing(region, pslg, all_options, control);
   const RefineOptions& options = all_options.refine;
   Recorder recorder;
-  const ItemLoop loop = recorder.loop("lattice", control);
+  const ItemLoop loop = recorder.loop("triangulate", control);
   Seeds seeds;
-  std::vector<LatticePlaces> lattices = latticesFor(region.mesh, options, loop);
-  if (with_cores || !lattices.empty()) seeds.notes = noteInput(region.mesh, boundOf(options));
+  std::vector<LatticePlaces> lattices = latticesFor(region.mesh, options, recorder.loop("lattice", control));
+  if (with_cores || !lattices.empty()) seeds.notes = noteInput(region.mesh, boundOf(options), loop);
   if (!lattices.empty()) {
     LatticeMesh seeded = triangulateWith(pslg, std::move(lattices), with_cores, recorder.loop("triangulate", control));
     if (!seeded.cores.empty()) seeds.input = seeds.notes;
-    noteFurther(seeded.mesh, seeds.notes);
+    noteFurther(seeded.mesh, seeds.notes, loop);
     seeds.core_vertices = seeded.coreVertices();
     seeds.cores = std::move(seeded.cores);
     region.mesh = std::move(seeded.mesh);

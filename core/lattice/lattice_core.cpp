@@ -51,34 +51,6 @@ LatticeCore coreOf(const LatticePlaces& places, const ItemLoop& loop) {
   return core;
 }
 
-// True if the core has the triangle between a place and its neighbours k and k + 1: to the upper right, above, to the
-// upper left ...
-bool hasTriangle(const LatticeCore& core, const LatticePlace& p, unsigned k) {
-  switch (k) {
-    case 0:
-      return holds(core.up, p.a, p.b);
-    case 1:
-      return holds(core.down, p.a - 1, p.b);
-    case 2:
-      return holds(core.up, p.a - 1, p.b);
-    case 3:
-      return holds(core.down, p.a - 1, p.b - 1);
-    case 4:
-      return holds(core.up, p.a, p.b - 1);
-    default:
-      return holds(core.down, p.a, p.b - 1);
-  }
-}
-
-// True if an edge is on the boundary of a core to its left.
-bool isCoreEdge(const LatticeCore& core, const LatticePlace& from, const LatticePlace& to) {
-  constexpr std::array<std::array<int, 2>, 6> kNeighbours{{{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}}};
-  for (unsigned k = 0; k < 6; ++k)
-    if (to.a - from.a == kNeighbours[k][0] && to.b - from.b == kNeighbours[k][1])
-      return hasTriangle(core, from, k) && !hasTriangle(core, from, (k + 5) % 6);
-  return false;
-}
-
 // Removes the triangles that the boundaries of cores enclose from a triangulation.
 class CoreCarver {
  public:
@@ -91,51 +63,54 @@ class CoreCarver {
     }
   }
 
-  TriMesh run() {
-    std::vector<std::uint8_t> inside(mesh_.triangles.size(), 0);
-    std::vector<TriId> stack;
-    for (TriId start = 0; start < inside.size(); ++start) {
-      if (inside[start] || !isAtCore(start)) continue;
-      inside[start] = 1;
-      for (stack.assign(1, start); !stack.empty();) {
-        const TriId t = stack.back();
-        stack.pop_back();
-        for (unsigned i = 0; i < 3; ++i) {
-          const EdgeRef e = edgeRef(t, i), twin = mesh_.twin(e);
-          if (isBoundary(e) || inside[triOf(twin)]) continue;
-          inside[triOf(twin)] = 1;
-          stack.push_back(triOf(twin));
-        }
-      }
-    }
-    return without(inside);
-  }
-
- private:
-  bool isBoundary(EdgeRef e) const {
-    const VertexId a = mesh_.origin(e) - first_, b = mesh_.target(e) - first_;
-    return a < places_.size() && b < places_.size() && core_of_[a] == core_of_[b] &&
-           isCoreEdge(*core_of_[a], places_[a], places_[b]);
-  }
-  bool isAtCore(TriId t) const {
-    return isBoundary(edgeRef(t, 0)) || isBoundary(edgeRef(t, 1)) || isBoundary(edgeRef(t, 2));
-  }
-
-  TriMesh without(const std::vector<std::uint8_t>& inside) const {
-    std::vector<TriId> number(inside.size(), kNone);
-    TriId count = 0;
-    for (TriId t = 0; t < inside.size(); ++t)
-      if (!inside[t]) number[t] = count++;
+  TriMesh run(const ItemLoop& loop) const {
+    const std::size_t all = mesh_.triangles.size();
+    std::vector<TriId> number(all);
+    const std::vector<TriId> counts = overStretches(loop, all, [&](std::size_t first, std::size_t last) {
+      TriId count = 0;
+      for (std::size_t t = first; t < last; ++t) number[t] = isInCore(static_cast<TriId>(t)) ? kNone : count++;
+      return count;
+    });
+    std::vector<TriId> starts{0};
+    for (const TriId count : counts) starts.push_back(starts.back() + count);
     TriMesh rest;
     rest.points = mesh_.points;
     rest.input_vertices = mesh_.input_vertices;
-    rest.triangles.reserve(count);
-    for (TriId t = 0; t < inside.size(); ++t)
-      if (!inside[t])
-        rest.triangles.push_back(renumbered(
-            mesh_.triangle(t), [&](TriId n) { return number[n]; }, std::identity(), kFrozen));
+    reserveOn(loop, rest.triangles, starts.back());
+    rest.triangles.resize(starts.back());
+    const auto forRange = [&](std::size_t r, const auto& work) {
+      for (std::size_t t = all * r / counts.size(); t < all * (r + 1) / counts.size(); ++t)
+        if (number[t] != kNone) work(static_cast<TriId>(t));
+    };
+    loop(counts.size(), [&](std::size_t r) { forRange(r, [&](TriId t) { number[t] += starts[r]; }); });
+    const auto numberOf = [&](TriId t) { return number[t]; };
+    loop(counts.size(), [&](std::size_t r) {
+      forRange(r, [&](TriId t) {
+        rest.triangles[number[t]] = renumbered(mesh_.triangle(t), numberOf, std::identity(), kFrozen);
+      });
+    });
     assert(findBrokenLink(rest.triangles) == kNone);
     return rest;
+  }
+
+ private:
+  // No triangle crosses the boundary of a core, whose edges are edges of the triangulation: one with three corners
+  // there is inside if its centroid is.
+  bool isInCore(TriId t) const {
+    LatticePlace sum{0, 0};
+    const LatticeCore* core = nullptr;
+    for (const VertexId v : mesh_.triangle(t).v) {
+      const VertexId k = v - first_;
+      if (k >= places_.size() || (core != nullptr && core != core_of_[k])) return false;
+      core = core_of_[k];
+      sum.a += places_[k].a;
+      sum.b += places_[k].b;
+    }
+    // In thirds of the lattice's steps. A centroid on an edge lies inside or outside together with both its sides.
+    const auto below = [](std::int64_t thirds) { return thirds >= 0 ? thirds / 3 : -((2 - thirds) / 3); };
+    const std::int64_t a = below(sum.a), b = below(sum.b);
+    const bool is_upper = sum.a - 3 * a + sum.b - 3 * b > 3;
+    return holds(is_upper ? core->down : core->up, a, b);
   }
 
   const TriMesh& mesh_;
@@ -347,7 +322,7 @@ LatticeMesh triangulateWith(const Pslg& pslg, std::vector<LatticePlaces> lattice
   for (const LatticePlaces& some : lattices) add(some.lattice, some.places);
   made.mesh = constrainedDelaunay(all, {}, loop);
   made.mesh.input_vertices = fixed;
-  if (!made.cores.empty()) made.mesh = CoreCarver(made.mesh, made.pslg_vertices, made.cores).run();
+  if (!made.cores.empty()) made.mesh = CoreCarver(made.mesh, made.pslg_vertices, made.cores).run(loop);
   return made;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/input_corners.hpp"
+#include "core/item_loop.hpp"
 #include "core/metric.hpp"
 #include "core/tri_mesh.hpp"
 
@@ -20,13 +21,13 @@ struct VertexNotes {
 };
 
 // Notes on a mesh made by `constrainedDelaunay`.
-VertexNotes noteInput(const TriMesh& mesh, const TriangleBound& bound);
+VertexNotes noteInput(const TriMesh& mesh, const TriangleBound& bound, const ItemLoop& loop = inOrder);
 
 // Sets the spacing of vertices that have none to the distance of their nearest neighbour.
-void noteSpacingOfNeighbours(const TriMesh& mesh, VertexNotes& notes);
+void noteSpacingOfNeighbours(const TriMesh& mesh, VertexNotes& notes, const ItemLoop& loop = inOrder);
 
 // Extends notes on input vertices, made by `noteInput`, to a mesh that has free vertices too, of which those below
 // `mesh.input_vertices` count as input.
-void noteFurther(const TriMesh& mesh, VertexNotes& notes);
+void noteFurther(const TriMesh& mesh, VertexNotes& notes, const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh
