@@ -38,7 +38,7 @@ Distribution distribute(const ItemLoop& loop, std::size_t count, std::size_t par
   sorted.starts.push_back(start);
   sorted.items.resize(count);
   const std::size_t ranges = places.size();
-  loop(ranges, [&](std::size_t r) {
+  forItems(loop, ranges, [&](std::size_t r) {
     for (std::size_t i = count * r / ranges; i < count * (r + 1) / ranges; ++i)
       sorted.items[places[r][part[i]]++] = static_cast<std::uint32_t>(i);
   });

@@ -15,6 +15,17 @@ inline void inOrder(std::size_t count, const std::function<void(std::size_t)>& w
   for (std::size_t i = 0; i < count; ++i) work(i);
 }
 
+// Calls `work(i)` for every i below `count` by the loop; a single item without it, since to begin takes longer than most
+// items of small meshes.
+template <typename Work>
+void forItems(const ItemLoop& loop, std::size_t count, const Work& work) {
+  if (count == 1) {
+    work(std::size_t{0});
+  } else {
+    loop(count, work);
+  }
+}
+
 // Calls `make(first, last)` for ranges that cover 0 to `count`, and returns the results in order. The ranges depend
 // only on `count` and on `least`, the smallest useful number of items, so that sums over them are the same for any
 // number of threads.
@@ -25,7 +36,7 @@ auto overStretches(const ItemLoop& loop, std::size_t count, const Make& make, st
   using Made = decltype(make(count, count));
   static_assert(!std::is_same_v<Made, bool>, "elements of a std::vector<bool> cannot be written by several threads");
   std::vector<Made> made(stretches);
-  loop(stretches, [&](std::size_t s) { made[s] = make(count * s / stretches, count * (s + 1) / stretches); });
+  forItems(loop, stretches, [&](std::size_t s) { made[s] = make(count * s / stretches, count * (s + 1) / stretches); });
   return made;
 }
 

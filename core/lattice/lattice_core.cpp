@@ -82,9 +82,9 @@ class CoreCarver {
       for (std::size_t t = all * r / counts.size(); t < all * (r + 1) / counts.size(); ++t)
         if (number[t] != kNone) work(static_cast<TriId>(t));
     };
-    loop(counts.size(), [&](std::size_t r) { forRange(r, [&](TriId t) { number[t] += starts[r]; }); });
+    forItems(loop, counts.size(), [&](std::size_t r) { forRange(r, [&](TriId t) { number[t] += starts[r]; }); });
     const auto numberOf = [&](TriId t) { return number[t]; };
-    loop(counts.size(), [&](std::size_t r) {
+    forItems(loop, counts.size(), [&](std::size_t r) {
       forRange(r, [&](TriId t) {
         rest.triangles[number[t]] = renumbered(mesh_.triangle(t), numberOf, std::identity(), kFrozen);
       });

@@ -131,7 +131,7 @@ Numbering numberAlongCurve(const Triangulation& triangulation, const std::vector
     return region[t] == kOutside ? parts : last(static_cast<TriId>(t)) / in_part;
   });
   Numbering numbers{std::vector<TriId>(slots, kNone), sorted.starts[parts]};
-  loop(parts, [&](std::size_t p) {
+  forItems(loop, parts, [&](std::size_t p) {
     const auto own = std::span(sorted.items).subspan(sorted.starts[p], sorted.starts[p + 1] - sorted.starts[p]);
     const auto begin = static_cast<std::uint32_t>(p * in_part);
     std::vector<TriId> first(in_part + 1, 0);
