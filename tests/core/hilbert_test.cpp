@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/metric.hpp"
+#include "tests/support/item_loops.hpp"
 #include "tests/support/pslgs.hpp"
 
 namespace coastmesh {
@@ -74,7 +75,8 @@ TEST(HilbertIndices, KeepNeighboursNear) {
 }
 
 TEST(HilbertOrder, IsTheOrderOfTheIndicesAndKeepsThatOfEqualOnes) {
-  for (const int count : {1, 2, 20, 440, 448, 450, 3000}) {  // every seventh twice: below, at and above 512
+  for (const int count :
+       {1, 2, 20, 440, 448, 450, 3000, 40000}) {  // every seventh twice: below, at and above 512, and in parts
     std::mt19937_64 random(2);
     std::vector<Point> points;
     for (int i = 0; i < count; ++i) {
@@ -87,6 +89,7 @@ TEST(HilbertOrder, IsTheOrderOfTheIndicesAndKeepsThatOfEqualOnes) {
     std::iota(expected.begin(), expected.end(), 0u);
     std::ranges::stable_sort(expected, {}, [&](std::uint32_t i) { return indices[i]; });
     EXPECT_EQ(hilbertOrder(points), expected) << count;
+    EXPECT_EQ(hilbertOrder(points, testing::backwards), expected) << count;
   }
   EXPECT_TRUE(hilbertOrder({}).empty());
 }
