@@ -15,8 +15,8 @@ inline void inOrder(std::size_t count, const std::function<void(std::size_t)>& w
   for (std::size_t i = 0; i < count; ++i) work(i);
 }
 
-// Calls `work(i)` for every i below `count` by the loop; a single item without it, since to begin takes longer than most
-// items of small meshes.
+// Calls `work(i)` for every i below `count` by the loop; a single item without it, since beginning takes longer than
+// most items of small meshes.
 template <typename Work>
 void forItems(const ItemLoop& loop, std::size_t count, const Work& work) {
   if (count == 1) {
