@@ -226,7 +226,7 @@ TriMesh constrainedDelaunay(const Pslg& pslg, const Surface& surface) {
   if (count == 0) refuse(PslgDefect::Kind::NoArea, pslg.points.front(), kNone, "the segments enclose no area");
 
   TriMesh mesh;
-  mesh.points = pslg.points;
+  mesh.points.assign(pslg.points.begin(), pslg.points.end());
   mesh.input_vertices = static_cast<VertexId>(pslg.points.size());
   mesh.triangles.resize(count);
   mesh.regions.resize(count);

@@ -365,8 +365,8 @@ void insertCores(TriMesh& mesh, VertexId pslg_vertices, const std::vector<Lattic
   constexpr std::size_t kSpareShare = 64;
   growOn(loop, mesh.points, vertices, vertices / kSpareShare);
   growOn(loop, mesh.triangles, triangles, triangles / kSpareShare);
-  mesh.points.resize(vertices);
-  mesh.triangles.resize(triangles);
+  resizeUnset(mesh.points, vertices);
+  resizeUnset(mesh.triangles, triangles);
   for (const LatticeCore& core : cores) {
     CoreWriter(mesh, core, frozen, edge_vertex, vertex, triangle).run(loop);
     edge_vertex += static_cast<VertexId>(core.edge.count());
