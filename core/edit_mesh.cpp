@@ -119,7 +119,7 @@ TriMesh EditMesh::releaseOn(const ItemLoop& loop, Renumbering& by) {
     moveTriangles(by.triangle, first.back());
     return released();
   }
-  std::vector<Triangle> moved;
+  BulkList<Triangle> moved;
   resizeAnew(loop, moved, first.back());
   forEachByStretches(loop, moved.size(), [&](std::size_t slot) {
     moved[slot] = renumbered(
@@ -136,7 +136,7 @@ void EditMesh::moveTriangles(const std::vector<TriId>& slot, std::size_t count) 
         t, [&](TriId n) { return slot[n]; }, std::identity());
   };
   if (count <= kMostCopied) {
-    std::vector<Triangle> in_order(count);
+    BulkList<Triangle> in_order(count);
     for (TriId t = 0; t < triangles.size(); ++t)
       if (slot[t] != kNone) in_order[slot[t]] = linkedAnew(triangles[t]);
     triangles = std::move(in_order);

@@ -169,7 +169,7 @@ class EditMesh : private LinkedTriangles {
   bool appendSide(EdgeRef side, const Point& x, Patch& cavity) const;
   void fillFan(VertexId x, const Patch& cavity, std::vector<TriId>& fan);
 
-  std::vector<Point> points_;
+  BulkList<Point> points_;
   std::vector<VertexKind> kinds_;
   std::vector<TriId> triangle_of_;              // one triangle around each vertex
   std::vector<std::uint32_t> triangles_round_;  // number of triangles of each vertex

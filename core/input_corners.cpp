@@ -22,6 +22,23 @@ constexpr double kStraight = toRadians(0.1);
 // Largest angle of a corner (radians): a straight line, even a rounded one, is no cause.
 constexpr double kLargest = std::numbers::pi - 1e-6;
 
+// Lowers a number that other threads may lower at the same time: the smallest remains.
+void lowerTo(std::uint32_t to, std::uint32_t& number) {
+  std::uint32_t held = __atomic_load_n(&number, __ATOMIC_RELAXED);
+  while (to < held && !__atomic_compare_exchange_n(&number, &held, to, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
+  }
+}
+
+// What `add(i, list)` appends for every i below `count`, in this order.
+template <typename Item, typename Add>
+std::vector<Item> listOf(const ItemLoop& loop, std::size_t count, const Add& add) {
+  return joined(overStretches(loop, count, [&](std::size_t first, std::size_t last) {
+    std::vector<Item> some;
+    for (std::size_t i = first; i < last; ++i) add(static_cast<std::uint32_t>(i), some);
+    return some;
+  }));
+}
+
 // A constrained edge, listed once.
 struct Link {
   VertexId a = kNone, b = kNone;
@@ -43,20 +60,28 @@ class Constraints {
       return some;
     }));
     // Vertices of lattices come last and have no constraints.
-    VertexId end = 0;
-    for (const Link& l : links_) end = std::max({end, l.a + 1, l.b + 1});
+    const VertexId end =
+        std::ranges::max(overStretches(loop, links_.size(), [this](std::size_t first, std::size_t last) {
+          VertexId beyond = 0;
+          for (std::size_t l = first; l < last; ++l) beyond = std::max({beyond, links_[l].a + 1, links_[l].b + 1});
+          return beyond;
+        }));
     reserveOn(loop, first_, std::size_t{end} + 1);
     first_.assign(std::size_t{end} + 1, 0);
-    for (const Link& l : links_) {
-      ++first_[l.a];
-      ++first_[l.b];
-    }
+    forEachByStretches(loop, links_.size(), [this](std::size_t l) {
+      for (const VertexId v : {links_[l].a, links_[l].b}) __atomic_add_fetch(&first_[v], 1, __ATOMIC_RELAXED);
+    });
     // first_ holds ends now; filling backwards turns them into starts.
     for (VertexId v = 0; v < end; ++v) first_[v + 1] += first_[v];
     at_.resize(2 * links_.size());
-    for (auto l = static_cast<std::uint32_t>(links_.size()); l-- > 0;)
-      at_[--first_[links_[l].b]] = at_[--first_[links_[l].a]] = l;
-    nameChains();
+    forEachByStretches(loop, links_.size(), [this](std::size_t l) {
+      for (const VertexId v : {links_[l].a, links_[l].b})
+        at_[__atomic_sub_fetch(&first_[v], 1, __ATOMIC_RELAXED)] = static_cast<std::uint32_t>(l);
+    });
+    forEachByStretches(loop, end, [this](std::size_t v) {
+      if (first_[v + 1] - first_[v] > 1) std::sort(at_.begin() + first_[v], at_.begin() + first_[v + 1]);
+    });
+    nameChains(loop);
   }
 
   const std::vector<Link>& links() const { return links_; }
@@ -83,30 +108,35 @@ class Constraints {
   }
 
  private:
-  // Follows links from v to the next input vertex, or around a ring back to the first link.
+  // Follows links from v to the next input vertex, or around a ring back to the first link. Returns the last link.
   template <typename Visit>
-  void follow(std::uint32_t link, VertexId& v, const Visit& visit) const {
+  std::uint32_t follow(std::uint32_t link, VertexId& v, const Visit& visit) const {
     const std::uint32_t begin = link;
     do {
       visit(link);
       v = across(link, v);
-      if (isInput(v)) return;
+      if (isInput(v)) return link;
       link = at(v)[0] == link ? at(v)[1] : at(v)[0];
     } while (link != begin);
+    return begin;
   }
-  void nameChains() {
+  // A chain's name is a number of its links: of the smaller one at its ends, or of a ring's first.
+  void nameChains(const ItemLoop& loop) {
     chain_.assign(links_.size(), kNone);
-    std::uint32_t chains = 0;
-    const auto name = [&](std::uint32_t l, VertexId v) {
-      if (chain_[l] != kNone) return;
-      follow(l, v, [&](std::uint32_t link) { chain_[link] = chains; });
-      ++chains;
+    const auto name = [this](std::uint32_t l, VertexId v) {
+      follow(l, v, [&](std::uint32_t link) { lowerTo(l, chain_[link]); });
     };
-    for (std::uint32_t l = 0; l < links_.size(); ++l)
-      for (const VertexId v : {links_[l].a, links_[l].b})
-        if (isInput(v)) name(l, v);
+    forEachByStretches(loop, links_.size(), [&](std::size_t i) {
+      const auto l = static_cast<std::uint32_t>(i);
+      for (const VertexId v : {links_[l].a, links_[l].b}) {
+        if (!isInput(v)) continue;
+        VertexId end = v;
+        if (follow(l, end, [](std::uint32_t) {}) >= l) name(l, v);
+      }
+    });
     // Rings without an input vertex.
-    for (std::uint32_t l = 0; l < links_.size(); ++l) name(l, links_[l].a);
+    for (std::uint32_t l = 0; l < links_.size(); ++l)
+      if (chain_[l] == kNone) name(l, links_[l].a);
   }
 
   const TriMesh& mesh_;
@@ -122,23 +152,24 @@ struct Feature {
 };
 
 std::vector<Feature> featuresOf(const TriMesh& mesh, const Constraints& constraints, const ItemLoop& loop) {
-  std::vector<Feature> features;
-  for (std::uint32_t l = 0; l < constraints.links().size(); ++l) {
+  const auto addOf = [&](std::uint32_t l, std::vector<Feature>& features) {
     const Link& link = constraints.links()[l];
+    const std::uint32_t chain = constraints.chainOf(l);
     if (mesh.input_vertices == 0) {
-      features.push_back({link.a, link.b, constraints.chainOf(l)});
-      continue;
+      features.push_back({link.a, link.b, chain});
+      return;
     }
     // The whole input segment, since its pieces are rounded; once, from its end with the smaller number.
     for (const VertexId v : {link.a, link.b}) {
       if (!constraints.isInput(v)) continue;
       const VertexId end = constraints.farEnd(l, v);
-      if (v < end) features.push_back({v, end, constraints.chainOf(l)});
+      if (v < end) features.push_back({v, end, chain});
     }
-  }
-  std::vector<VertexId> alone;
-  for (VertexId v = 0; v < mesh.input_vertices; ++v)
-    if (constraints.at(v).empty()) alone.push_back(v);
+  };
+  std::vector<Feature> features = listOf<Feature>(loop, constraints.links().size(), addOf);
+  const auto alone = listOf<VertexId>(loop, mesh.input_vertices, [&](VertexId v, std::vector<VertexId>& list) {
+    if (constraints.at(v).empty()) list.push_back(v);
+  });
   if (alone.empty()) return features;
   const std::vector<std::uint8_t> used = usedVertices(mesh, loop);
   for (const VertexId v : alone)
@@ -225,13 +256,9 @@ InputCorners::InputCorners(const TriMesh& mesh, const TriangleBound& bound, cons
   if (corners_.empty()) return;
 
   const std::vector<Feature> features = featuresOf(mesh, constraints, loop);
-  std::vector<Bounds> boxes(features.size());
-  for (std::size_t f = 0; f < features.size(); ++f) {
-    boxes[f].add(mesh.point(features[f].a));
-    boxes[f].add(mesh.point(features[f].b));
-  }
-  const BoxHalves nearby(boxes);
-  forEachByStretches(loop, corners_.size(), [&](std::size_t k) {
+  // The square of the distance to the nearest of some features, and the ends of the corner's own constraints; `visit`
+  // calls `see(f)` for those to try.
+  const auto nearestOf = [&](std::size_t k, const auto& visit) {
     const Point& at = corners_[k].apex;
     double nearest = std::numeric_limits<double>::infinity();
     std::vector<std::uint32_t> own;
@@ -239,14 +266,40 @@ InputCorners::InputCorners(const TriMesh& mesh, const TriangleBound& bound, cons
       own.push_back(constraints.chainOf(l));
       nearest = std::min(nearest, squaredDistance(at, mesh.point(constraints.farEnd(l, apexes[k]))));
     }
-    nearby.visit([&](const Bounds& node) { return node.squaredDistanceTo(at) < nearest; },
-                 [&](std::uint32_t f) {
-                   if (std::ranges::find(own, features[f].chain) != own.end()) return;
-                   nearest = std::min(
-                       nearest, squaredDistanceToSegment(at, mesh.point(features[f].a), mesh.point(features[f].b)));
-                 });
-    corners_[k].radius = kNearShare * std::sqrt(nearest);
-  });
+    visit(nearest, [&](std::size_t f) {
+      if (std::ranges::find(own, features[f].chain) != own.end()) return;
+      nearest = std::min(nearest, squaredDistanceToSegment(at, mesh.point(features[f].a), mesh.point(features[f].b)));
+    });
+    return nearest;
+  };
+  const auto boxOf = [&](std::size_t f) {
+    Bounds box;
+    box.add(mesh.point(features[f].a));
+    box.add(mesh.point(features[f].b));
+    return box;
+  };
+  constexpr std::size_t kWorthTree = 16;
+  if (corners_.size() < kWorthTree) {
+    for (std::size_t k = 0; k < corners_.size(); ++k) {
+      const auto nearestIn = [&](std::size_t first, std::size_t last) {
+        return nearestOf(k, [&](const double& nearest, const auto& see) {
+          for (std::size_t f = first; f < last; ++f)
+            if (boxOf(f).squaredDistanceTo(corners_[k].apex) < nearest) see(f);
+        });
+      };
+      corners_[k].radius = kNearShare * std::sqrt(std::ranges::min(overStretches(loop, features.size(), nearestIn)));
+    }
+  } else {
+    std::vector<Bounds> boxes(features.size());
+    forEachByStretches(loop, features.size(), [&](std::size_t f) { boxes[f] = boxOf(f); });
+    const BoxHalves nearby(boxes);
+    forEachByStretches(loop, corners_.size(), [&](std::size_t k) {
+      const double nearest = nearestOf(k, [&](const double& so_far, const auto& see) {
+        nearby.visit([&](const Bounds& node) { return node.squaredDistanceTo(corners_[k].apex) < so_far; }, see);
+      });
+      corners_[k].radius = kNearShare * std::sqrt(nearest);
+    });
+  }
   disks_ = disksOf(corners_);
 }
 

@@ -2,9 +2,9 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
 #include "core/ids.hpp"
+#include "core/item_loop.hpp"
 
 namespace coastmesh {
 
@@ -36,7 +36,7 @@ struct Triangle {
 
 // Triangles with links to their neighbours. Only core/links.hpp changes the links.
 struct LinkedTriangles {
-  std::vector<Triangle> triangles;
+  BulkList<Triangle> triangles;
 
   const Triangle& triangle(TriId t) const { return triangles[t]; }
   VertexId origin(EdgeRef e) const { return triangles[triOf(e)].v[next3(indexOf(e))]; }

@@ -12,42 +12,56 @@
 
 namespace coastmesh {
 
-TriMesh linkTriangles(std::vector<Point> points, std::span<const std::array<VertexId, 3>> corners,
+namespace {
+
+BulkList<std::uint32_t> noNumbersOn(const ItemLoop& loop, std::size_t count) {
+  BulkList<std::uint32_t> none;
+  resizeUnset(none, count);
+  forEachByStretches(loop, count, [&](std::size_t i) { none[i] = kNone; });
+  return none;
+}
+
+}  // namespace
+
+TriMesh linkTriangles(BulkList<Point> points, std::span<const std::array<VertexId, 3>> corners,
                       std::vector<EdgeConflict>& conflicts, const ItemLoop& loop) {
   TriMesh mesh;
   mesh.points = std::move(points);
-  mesh.triangles.resize(corners.size());
-  mesh.regions.assign(corners.size(), 0);
+  resizeUnset(mesh.triangles, corners.size());
+  resizeUnset(mesh.regions, corners.size());
 
-  // Edges in buckets by their origin, so that a twin is found among the few edges that leave the target.
-  std::vector<std::uint32_t> first(mesh.points.size() + 1, 0);
-  for (const auto& c : corners)
-    for (VertexId v : c) ++first[v + 1];
-  for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
-  std::vector<EdgeRef> leaving(3 * corners.size());
-  std::vector<std::uint32_t> fill(first.begin(), first.end() - 1);
-  for (TriId t = 0; t < corners.size(); ++t) {
-    mesh.triangles[t].v = corners[t];
+  // Each vertex's edges in a list, so that a twin is found among the few edges that leave the target. Threads prepend
+  // edges in any order, on which nothing below depends.
+  BulkList<EdgeRef> first = noNumbersOn(loop, mesh.points.size()), next;
+  resizeUnset(next, 3 * corners.size());
+  const auto nextOf = [&](EdgeRef e) -> EdgeRef& { return next[3 * std::size_t{triOf(e)} + indexOf(e)]; };
+  forEachByStretches(loop, corners.size(), [&](std::size_t t) {
+    mesh.triangles[t] = unlinked(corners[t]);
+    mesh.regions[t] = 0;
     for (unsigned i = 0; i < 3; ++i) {
-      const EdgeRef e = edgeRef(t, i);
-      leaving[fill[mesh.origin(e)]++] = e;
+      const EdgeRef e = edgeRef(static_cast<TriId>(t), i);
+      nextOf(e) = __atomic_exchange_n(&first[mesh.origin(e)], e, __ATOMIC_RELAXED);
     }
-  }
+  });
+  const auto forEachFrom = [&](VertexId v, const auto& use) {
+    for (EdgeRef e = first[v]; e != kNone; e = nextOf(e)) use(e);
+  };
 
   // The only candidate for the other side of each edge; kNone if there is none, or several.
-  const auto from = [&](VertexId v) { return std::span(leaving).subspan(first[v], first[v + 1] - first[v]); };
-  std::vector<std::array<EdgeRef, 3>> twins(corners.size(), {kNone, kNone, kNone});
+  BulkList<std::array<EdgeRef, 3>> twins;
+  resizeUnset(twins, corners.size());
   const auto findTwins = [&](TriId t, std::vector<EdgeConflict>& found_conflicts) {
     for (unsigned i = 0; i < 3; ++i) {
       const VertexId a = mesh.origin(edgeRef(t, i)), b = mesh.target(edgeRef(t, i));
-      const auto claims = std::ranges::count_if(from(a), [&](EdgeRef f) { return mesh.target(f) == b; });
       EdgeRef twin = kNone;
-      std::size_t found = 0;
-      for (EdgeRef f : from(b)) {
-        if (mesh.target(f) != a) continue;
+      std::size_t claims = 0, found = 0;
+      forEachFrom(a, [&](EdgeRef f) { claims += mesh.target(f) == b ? 1 : 0; });
+      forEachFrom(b, [&](EdgeRef f) {
+        if (mesh.target(f) != a) return;
         twin = f;
         ++found;
-      }
+      });
+      twins[t][i] = kNone;
       if (a == b || claims > 1 || found > 1) {
         if (a <= b || found == 0) found_conflicts.push_back({a, b});
       } else if (found == 1) {
@@ -98,13 +112,14 @@ EdgeRef nextOnBoundary(const TriMesh& mesh, EdgeRef e) {
 // For each edge of `boundary`, which is ascending, the index there of the edge that follows it.
 std::vector<std::uint32_t> followersOf(const TriMesh& mesh, std::span<const EdgeRef> boundary, const ItemLoop& loop) {
   constexpr std::uint32_t kSeveral = kNone - 1;
-  std::vector<std::uint32_t> leaving;
-  reserveOn(loop, leaving, mesh.points.size());
-  leaving.assign(mesh.points.size(), kNone);
-  for (std::uint32_t i = 0; i < boundary.size(); ++i) {
+  BulkList<std::uint32_t> leaving = noNumbersOn(loop, mesh.points.size());
+  forEachByStretches(loop, boundary.size(), [&](std::size_t i) {
+    std::uint32_t none = kNone;
     std::uint32_t& slot = leaving[mesh.origin(boundary[i])];
-    slot = slot == kNone ? i : kSeveral;
-  }
+    if (!__atomic_compare_exchange_n(&slot, &none, static_cast<std::uint32_t>(i), false, __ATOMIC_RELAXED,
+                                     __ATOMIC_RELAXED))
+      __atomic_store_n(&slot, kSeveral, __ATOMIC_RELAXED);
+  });
   std::vector<std::uint32_t> followers(boundary.size());
   forEachByStretches(loop, boundary.size(), [&](std::size_t i) {
     followers[i] = leaving[mesh.target(boundary[i])];

@@ -15,8 +15,8 @@ namespace coastmesh {
 // A compact triangle mesh: every triangle is valid; points may be unused if the input has points outside the domain.
 struct TriMesh : LinkedTriangles {
   // The first `input_vertices` points are the PSLG's, in its order, bit for bit; Steiner points follow.
-  std::vector<Point> points;
-  std::vector<RegionId> regions;  // for each triangle: its feature
+  BulkList<Point> points;
+  BulkList<RegionId> regions;  // for each triangle: its feature
   VertexId input_vertices = 0;
 
   const Point& point(VertexId v) const { return points[v]; }
@@ -30,7 +30,7 @@ struct EdgeConflict {
 
 // Links triangles given by their corners (in any rotation, counter-clockwise) into a mesh without constraints, all in
 // region 0. Edges that cannot be linked become boundary and are listed in `conflicts`.
-TriMesh linkTriangles(std::vector<Point> points, std::span<const std::array<VertexId, 3>> corners,
+TriMesh linkTriangles(BulkList<Point> points, std::span<const std::array<VertexId, 3>> corners,
                       std::vector<EdgeConflict>& conflicts, const ItemLoop& loop = inOrder);
 
 // For each vertex one edge that starts there; a boundary edge if there is one. kNone for an unused vertex.

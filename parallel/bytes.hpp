@@ -48,8 +48,8 @@ class BasicByteWriter {
     sink_.append(reinterpret_cast<const char*>(&value), sizeof value);
   }
   void pass(const std::string& text) { passAll(text); }
-  template <typename T>
-  void pass(const std::vector<T>& values) {
+  template <typename T, typename Allocator>
+  void pass(const std::vector<T, Allocator>& values) {
     passAll(values);
   }
   template <typename A, typename B>
@@ -123,8 +123,8 @@ class BasicByteReader {
     value = byte == 1;
   }
   void pass(std::string& text) { passAll(text); }
-  template <typename T>
-  void pass(std::vector<T>& values) {
+  template <typename T, typename Allocator>
+  void pass(std::vector<T, Allocator>& values) {
     passAll(values);
   }
   template <typename A, typename B>

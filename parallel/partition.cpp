@@ -1,12 +1,10 @@
 #include "parallel/partition.hpp"
 
-#include <oneapi/tbb/parallel_invoke.h>
-#include <oneapi/tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <tuple>
+#include <compare>
+#include <utility>
 
 #include "core/metric.hpp"
 
@@ -14,58 +12,96 @@ namespace coastmesh {
 
 namespace {
 
-// A triangle's centroid in the turned frame.
+// A triangle's centroid in the turned frame: its coordinates along an axis and along the other one. The weight comes
+// last, so that equal samples are identical.
 struct Sample {
-  std::array<double, 2> at;
-  double weight;
+  double along, across, weight;
+
+  friend auto operator<=>(const Sample&, const Sample&) = default;
 };
 
-// The weight comes last, so that the order does not depend on how the sort divides its work.
-void sortAlong(unsigned axis, std::span<Sample> samples) {
-  constexpr std::size_t kWorthThreads = 4096;
-  const auto isBefore = [axis](const Sample& s, const Sample& t) {
-    return std::tuple(s.at[axis], s.at[1 - axis], s.weight) < std::tuple(t.at[axis], t.at[1 - axis], t.weight);
-  };
-  if (samples.size() < kWorthThreads) {
-    std::ranges::sort(samples, isBefore);
-  } else {
-    tbb::parallel_sort(samples.begin(), samples.end(), isBefore);
-  }
-}
+Sample turned(const Sample& s) { return {s.across, s.along, s.weight}; }
 
-// Builds the tree of cuts, splitting samples.
+// Builds the tree of cuts. Samples are sorted once along each axis; splitting keeps both orders.
 class CutTreeBuilder {
  public:
-  explicit CutTreeBuilder(std::vector<CutTree::Node>& nodes) : nodes_(nodes) {}
+  // `samples` are along axis 0.
+  CutTreeBuilder(const std::vector<Sample>& samples, std::vector<CutTree::Node>& nodes, const ItemLoop& loop)
+      : samples_(samples), nodes_(nodes), loop_(loop), beside_(samples.size()) {
+    sorted_.fill(samples);
+    forEachByStretches(loop, samples.size(), [this](std::size_t i) { sorted_[1][i] = turned(sorted_[0][i]); });
+    for (std::vector<Sample>& sorted : sorted_) sortOn(loop, sorted);
+  }
 
-  // Builds the subtree that makes `pieces` pieces, numbered from `first`, in `node` and the 2 * pieces - 2 nodes behind
-  // it.
-  void split(std::uint32_t node, std::span<Sample> samples, PieceId first, PieceId pieces) {
-    nodes_[node].piece = first;
-    if (pieces == 1 || samples.size() < 2) return;
-    std::array<double, 2> low = samples.front().at, high = low;
-    double whole = 0.0;
-    for (const Sample& s : samples) {
-      whole += s.weight;
-      for (unsigned axis = 0; axis < 2; ++axis) {
-        low[axis] = std::min(low[axis], s.at[axis]);
-        high[axis] = std::max(high[axis], s.at[axis]);
-      }
+  void build(PieceId pieces) {
+    std::vector<Part> level{{0, 0, samples_.size(), 0, pieces, samples_}};
+    while (!level.empty()) {
+      std::vector<std::vector<Part>> below(level.size());
+      loop_(level.size(), [&](std::size_t i) { below[i] = split(level[i]); });
+      level = joined(std::move(below));
     }
-    const unsigned axis = high[0] - low[0] >= high[1] - low[1] ? 0 : 1;
-    sortAlong(axis, samples);
-    const PieceId lower = pieces / 2;
-    const double share = whole * lower / pieces;
-    std::size_t middle = 0;
-    for (double sum = 0.0; middle + 1 < samples.size() && sum < share; ++middle) sum += samples[middle].weight;
-    const std::uint32_t left = node + 1, right = node + 2 * lower;
-    nodes_[node] = {axis, samples[middle].at[axis], {left, right}, first, false};
-    tbb::parallel_invoke([&] { split(left, samples.first(middle), first, lower); },
-                         [&] { split(right, samples.subspan(middle), first + lower, pieces - lower); });
   }
 
  private:
+  // The subtree that makes `pieces` pieces, numbered from `first`, in `node` and the 2 * pieces - 2 nodes behind it.
+  struct Part {
+    std::uint32_t node;
+    std::size_t begin, end;  // of its samples
+    PieceId first, pieces;
+    std::span<const Sample> order;  // in which their weights are added up: that along the axis of the last cut
+  };
+
+  // Returns the parts below that are still to be split: small ones are split at once.
+  std::vector<Part> split(const Part& part) {
+    constexpr std::size_t kWorthThreads = 4096;
+    const auto& [node, begin, end, first, pieces, order] = part;
+    nodes_[node].piece = first;
+    if (pieces == 1 || end - begin < 2) return {};
+    double whole = 0.0;
+    for (const Sample& s : order.subspan(begin, end - begin)) whole += s.weight;
+    const auto extent = [&](unsigned axis) { return sorted_[axis][end - 1].along - sorted_[axis][begin].along; };
+    const unsigned axis = extent(0) >= extent(1) ? 0 : 1;
+    const std::vector<Sample>& sorted = sorted_[axis];
+    const PieceId lower = pieces / 2;
+    const double share = whole * lower / pieces;
+    std::size_t middle = begin;
+    for (double sum = 0.0; middle + 1 < end && sum < share; ++middle) sum += sorted[middle].weight;
+    const std::uint32_t left = node + 1, right = node + 2 * lower;
+    nodes_[node] = {axis, sorted[middle].along, {left, right}, first, false};
+    divide(sorted_[1 - axis], sorted, begin, middle, end);
+    const std::array below{Part{left, begin, middle, first, lower, sorted},
+                           Part{right, middle, end, first + lower, pieces - lower, sorted}};
+    if (end - begin > kWorthThreads) return {below[0], below[1]};
+    for (const Part& each : below) split(each);
+    return {};
+  }
+
+  // Moves the samples that `sorted` has before `middle` to the front of `other`, which has the same ones.
+  void divide(std::vector<Sample>& other, const std::vector<Sample>& sorted, std::size_t begin, std::size_t middle,
+              std::size_t end) {
+    const Sample pivot = sorted[middle];
+    std::size_t equal_before = 0;
+    while (middle - equal_before > begin && sorted[middle - equal_before - 1] == pivot) ++equal_before;
+    std::size_t front = begin, back = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Sample sample = turned(other[i]);
+      const bool is_equal = sample == pivot;
+      if (is_equal ? equal_before > 0 : sample < pivot) {
+        if (is_equal) --equal_before;
+        other[front++] = other[i];
+      } else {
+        beside_[begin + back++] = other[i];
+      }
+    }
+    std::copy_n(beside_.begin() + static_cast<std::ptrdiff_t>(begin), back,
+                other.begin() + static_cast<std::ptrdiff_t>(front));
+  }
+
+  const std::vector<Sample>& samples_;
   std::vector<CutTree::Node>& nodes_;
+  const ItemLoop& loop_;
+  std::array<std::vector<Sample>, 2> sorted_;  // along each axis
+  std::vector<Sample> beside_;
 };
 
 Point centroidOf(const TriMesh& mesh, TriId t) {
@@ -128,9 +164,10 @@ void partition(const TriMesh& mesh, std::span<const TriId> some, PieceId pieces,
   const ItemLoop loop = recorder.loop("cut");
   forEachByStretches(loop, samples.size(), [&](std::size_t i) {
     const TriId t = triangle(i * stride);
-    samples[i] = {centre(t), weight(t)};
+    const auto [x, y] = centre(t);
+    samples[i] = {x, y, weight(t)};
   });
-  CutTreeBuilder(tree.nodes).split(0, samples, 0, pieces);
+  CutTreeBuilder(samples, tree.nodes, loop).build(pieces);
 
   parts.pieces = pieces;
   resizeAnew(loop, parts.piece_of, mesh.triangles.size());

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/ids.hpp"
+#include "core/item_loop.hpp"
 #include "core/tri_mesh.hpp"
 #include "parallel/recorder.hpp"
 
@@ -33,11 +34,11 @@ struct CutTree {
 // The piece of each triangle.
 struct Partition {
   PieceId pieces = 0;
-  std::vector<PieceId> piece_of;  // one for each triangle; kNone if it is in no piece
+  BulkList<PieceId> piece_of;  // one for each triangle; kNone if it is in no piece
   // The triangles of piece p, in the order of their numbers: triangles[first[p]] to triangles[first[p + 1]].
-  std::vector<TriId> triangles;
+  BulkList<TriId> triangles;
   std::vector<std::size_t> first;
-  std::vector<TriId> slot_of;  // for each triangle: its index within its piece
+  BulkList<TriId> slot_of;  // for each triangle: its index within its piece
   CutTree tree;
 
   std::span<const TriId> of(PieceId p) const { return std::span(triangles).subspan(first[p], first[p + 1] - first[p]); }

@@ -181,9 +181,18 @@ void resizeBehind(const ItemLoop& loop, std::vector<Item>& items, std::size_t ke
   items.resize(count);
 }
 
-// The same, preserving all items; does nothing for an unused list.
 template <typename Item>
-void growWhereKept(const ItemLoop& loop, std::vector<Item>& items, std::size_t count) {
+void resizeBehind(const ItemLoop& loop, BulkList<Item>& items, std::size_t kept, std::size_t count) {
+  if (count > items.capacity()) {
+    items.resize(kept);
+    growOn(loop, items, count, count / 8);
+  }
+  resizeUnset(items, count);
+}
+
+// The same, preserving all items; does nothing for an unused list.
+template <typename Item, typename Allocator>
+void growWhereKept(const ItemLoop& loop, std::vector<Item, Allocator>& items, std::size_t count) {
   if (!items.empty()) resizeBehind(loop, items, items.size(), count);
 }
 

@@ -6,8 +6,8 @@
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <numeric>
 
+#include "apps/job/mesh_area.hpp"
 #include "apps/job/places.hpp"
 #include "core/run_control.hpp"
 #include "gis/follow/water_notes.hpp"
@@ -46,10 +46,8 @@ std::string textOf(const DroppedWaters& dropped) {
          ": the largest at " + pointText(dropped.place) + "; --keep-water all keeps them";
 }
 
-double sumOf(const std::vector<double>& areas) { return std::accumulate(areas.begin(), areas.end(), 0.0); }
-
-RepairLoss lossOf(double before_m2, const Grid& grid) {
-  const double lost = std::max(0.0, before_m2 - sumOf(grid.area_m2));
+RepairLoss lossOf(double before_m2, const Grid& grid, const ItemLoop& loop) {
+  const double lost = std::max(0.0, before_m2 - meshArea(grid, loop));
   return {lost, before_m2 > 0.0 ? lost / before_m2 : 0.0, grid.crs.isPlane()};
 }
 
@@ -109,7 +107,7 @@ FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunContr
   if (options.drop_apart) report.dropped = dropApartWaters(grid, options.grazed, loop);
   // The report is of the water that is left.
   if (report.dropped.waters > 0 && !depth.files.empty()) report.depth = setDepths(grid, depth, of_depths, loop);
-  const double before_m2 = sumOf(grid.area_m2);
+  const double before_m2 = report.mended ? meshArea(grid, loop) : 0.0;
   RepairMemory memory;
   if (!grid.triangles.empty() && report.mended)
     report.repairs = repairForTargets(grid, targets, options.repair, &memory, stageControl(control, kFirst), loop);
@@ -129,9 +127,9 @@ FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunContr
     std::ranges::move(again.repairs, std::back_inserter(report.repairs.repairs));
     report.repairs.left = std::move(again.left);
   }
-  if (report.mended) report.lost = lossOf(before_m2, grid);
+  if (report.mended) report.lost = lossOf(before_m2, grid, loop);
   std::ranges::set_difference(asked, nodesAmong(grid, asked), std::back_inserter(report.lost_asked), lexLess);
-  if (!targets.empty() && !isOneWater(grid)) report.apart = apartWaters(grid, loop).size();
+  if (!targets.empty() && !isOneWater(grid, loop)) report.apart = apartWaters(grid, loop).size();
   return report;
 }
 

@@ -19,8 +19,8 @@ namespace {
 
 // Some triangles with the numbers of their own nodes.
 struct OwnNumbers {
-  std::vector<std::uint32_t> nodes;                     // the grid's, ascending
-  std::vector<std::array<std::uint32_t, 3>> triangles;  // corners by their place in `nodes`
+  std::vector<std::uint32_t> nodes;                  // the grid's, ascending
+  BulkList<std::array<std::uint32_t, 3>> triangles;  // corners by their place in `nodes`
 };
 
 // By a table of all the grid's nodes. Pieces are often many, so that is for large ones.
@@ -34,7 +34,7 @@ OwnNumbers numbersByTable(const Grid& grid, const std::vector<std::uint32_t>& tr
     number[node] = static_cast<std::uint32_t>(own.nodes.size());
     own.nodes.push_back(node);
   }
-  own.triangles.resize(triangles.size());
+  resizeUnset(own.triangles, triangles.size());
   forEachByStretches(loop, triangles.size(), [&](std::size_t i) {
     const auto& [a, b, c] = grid.triangles[triangles[i]];
     own.triangles[i] = {number[a], number[b], number[c]};
@@ -67,7 +67,7 @@ OwnNumbers ownNumbers(const Grid& grid, const std::vector<std::uint32_t>& triang
 
 // The piece as a grid of its own, from its `OwnNumbers`.
 Grid partOf(const Grid& grid, const std::vector<std::uint32_t>& nodes,
-            std::vector<std::array<std::uint32_t, 3>>&& triangles) {
+            BulkList<std::array<std::uint32_t, 3>>&& triangles) {
   Grid part;
   part.crs = grid.crs;
   part.nodes.reserve(nodes.size());
@@ -153,7 +153,8 @@ Projection fitProjection(const Grid& grid, const std::vector<std::uint32_t>& tri
     return Projection::fitted(outline, {0}, kind);
   }
   // A broken grid may have no boundary.
-  if (outline.features[0].polygons.empty()) outline.features[0].polygons.push_back({part.nodes, {}});
+  if (outline.features[0].polygons.empty())
+    outline.features[0].polygons.push_back({{part.nodes.begin(), part.nodes.end()}, {}});
   return Projection::fitted(outline, {0}, kind);
 }
 

@@ -470,7 +470,7 @@ void gridStage(const GroupTask& task, const Domain& domain, const SizeFunction* 
                GroundPlaces ground, const ItemLoop& loop, GroupResult& result) {
   std::vector<double> size_m;
   if (size != nullptr) {
-    const std::vector<Point>& points = region.mesh.points;
+    const BulkList<Point>& points = region.mesh.points;
     const SmoothTable table =
         measureTable(domain.projection, ground.empty() ? std::span(points) : std::span<const Point>(), loop);
     const auto measure = [&](VertexId v) { return ground.empty() ? table.at(points[v]).x : ground.measure[v]; };

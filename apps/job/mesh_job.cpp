@@ -17,6 +17,7 @@
 #include "apps/job/group_bytes.hpp"
 #include "apps/job/idle_inputs.hpp"
 #include "apps/job/memory_share.hpp"
+#include "apps/job/mesh_area.hpp"
 #include "apps/job/mesh_group.hpp"
 #include "apps/job/places.hpp"
 #include "apps/job/raster_helpers.hpp"
@@ -540,7 +541,7 @@ MeshJobResult runOnThreads(const MeshJob& given, const JobControl& control) {
   Recorder recorder;
   const ItemLoop loop = recorder.loop("grid", RunControl{control.cancelled, {}});
   if (!input.isPoly()) keepInBox(job, input, merged, loop, result);
-  result.mesh_area_m2 = std::accumulate(result.grid.area_m2.begin(), result.grid.area_m2.end(), 0.0);
+  result.mesh_area_m2 = meshArea(result.grid, loop);
   if (job.sizes.coast == CoastDetail::Follow) noteFollowed(job, result);
   if (!given.sizes.choose) noteRaisedShore(result);
   result.log.append(recorder.finish("grid"));
@@ -560,7 +561,7 @@ MeshJobResult runOnThreads(const MeshJob& given, const JobControl& control) {
     if (!result.finish.repairs.repairs.empty() || result.finish.dropped.waters > 0) {
       result.short_before_repairs = result.short_of.count;
       measureAgain(job, input, merged, true, finish_loop, result);
-      result.mesh_area_m2 = std::accumulate(result.grid.area_m2.begin(), result.grid.area_m2.end(), 0.0);
+      result.mesh_area_m2 = meshArea(result.grid, loop);
       result.refine.steiner_points = std::move(vertices).othersIn(result.grid);
       if (result.input_area_m2)
         result.input_area_m2 = inputAreaLeft(*result.input_area_m2, result.grid, merged, result.finish.dropped);

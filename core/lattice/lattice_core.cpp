@@ -76,8 +76,7 @@ class CoreCarver {
     TriMesh rest;
     rest.points = mesh_.points;
     rest.input_vertices = mesh_.input_vertices;
-    reserveOn(loop, rest.triangles, starts.back());
-    rest.triangles.resize(starts.back());
+    resizeUnset(rest.triangles, starts.back());
     const auto forRange = [&](std::size_t r, const auto& work) {
       for (std::size_t t = all * r / counts.size(); t < all * (r + 1) / counts.size(); ++t)
         if (number[t] != kNone) work(static_cast<TriId>(t));
@@ -340,8 +339,8 @@ void insertCores(TriMesh& mesh, VertexId pslg_vertices, const std::vector<Lattic
   constexpr std::size_t kSpareShare = 64;
   growOn(loop, mesh.points, vertices, vertices / kSpareShare);
   growOn(loop, mesh.triangles, triangles, triangles / kSpareShare);
-  mesh.points.resize(vertices);
-  mesh.triangles.resize(triangles);
+  resizeUnset(mesh.points, vertices);
+  resizeUnset(mesh.triangles, triangles);
   for (const LatticeCore& core : cores) {
     CoreWriter(mesh, core, frozen, edge_vertex, vertex, triangle).run(loop);
     edge_vertex += static_cast<VertexId>(core.edge.count());

@@ -123,9 +123,11 @@ void checkDelaunay(const TriMesh& mesh, const CheckOptions& options, const ItemL
   });
 }
 
-void checkUnused(const TriMesh& mesh, std::span<const std::uint8_t> used, Defects& defects) {
-  for (VertexId v = mesh.input_vertices; v < mesh.points.size(); ++v)
-    if (!used[v]) defects.push_back({DefectKind::UnusedVertex, mesh.points[v]});
+void checkUnused(const TriMesh& mesh, std::span<const std::uint8_t> used, const ItemLoop& loop, Defects& defects) {
+  const VertexId first = std::min(mesh.input_vertices, static_cast<VertexId>(mesh.points.size()));
+  findDefects(mesh.points.size() - first, loop, defects, [&](std::uint32_t i, Defects& found) {
+    if (!used[first + i]) found.push_back({DefectKind::UnusedVertex, mesh.points[first + i]});
+  });
 }
 
 BoundCounts checkBounds(const TriMesh& mesh, const CheckOptions& options, const ItemLoop& loop, Defects& defects) {
@@ -150,7 +152,7 @@ std::vector<MeshDefect> checkMesh(const TriMesh& mesh, const Pslg* pslg, const C
   if (!defects.empty()) return defects;  // the other checks need a consistent mesh
   checkOrientation(mesh, options, loop, defects);
   const std::vector<std::uint8_t> used = usedVertices(mesh, loop);
-  checkUnused(mesh, used, defects);
+  checkUnused(mesh, used, loop, defects);
   if (options.pinches) checkPinches(mesh, defects);
   if (pslg != nullptr && mesh.input_vertices == 0 && !pslg->points.empty()) {
     TriMesh marked = mesh;

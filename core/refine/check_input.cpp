@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <compare>
 #include <cstdint>
+#include <iterator>
 #include <numeric>
 #include <span>
 #include <unordered_map>
@@ -12,6 +14,7 @@
 #include "core/metric.hpp"
 #include "core/point_hash.hpp"
 #include "core/quality.hpp"
+#include "core/large_list.hpp"
 #include "core/sphere/close_sphere.hpp"
 #include "core/triangulate/delaunay.hpp"
 
@@ -96,6 +99,8 @@ void checkArea(const TriMesh& mesh, double expected, double tolerance, const Ite
 struct HalfEdge {
   VertexId from;
   VertexId to;
+
+  friend auto operator<=>(const HalfEdge&, const HalfEdge&) = default;
 };
 
 // The half-edges of all segments, grouped by segment.
@@ -123,21 +128,27 @@ SegmentEdges edgesBySegment(const TriMesh& mesh, const Pslg& pslg, const ItemLoo
       }));
   SegmentEdges edges;
   edges.starts.assign(pslg.segments.size() + 1, 0);
-  for (const EdgeRef e : constrained) {
-    if (const SegmentId s = mesh.segment(e); s < pslg.segments.size())
-      edges.starts[std::size_t{s} + 1] += 2;
-    else
-      defects.push_back({DefectKind::BrokenTopology, mesh.points[mesh.origin(e)], triOf(e)});
-  }
+  const auto count = [&](std::size_t i, std::vector<MeshDefect>& unknown) {
+    const EdgeRef e = constrained[i];
+    if (const SegmentId s = mesh.segment(e); s < pslg.segments.size()) {
+      __atomic_add_fetch(&edges.starts[std::size_t{s} + 1], 2, __ATOMIC_RELAXED);
+    } else {
+      unknown.push_back({DefectKind::BrokenTopology, mesh.points[mesh.origin(e)], triOf(e)});
+    }
+  };
+  std::ranges::move(listOver<MeshDefect>(loop, constrained.size(), count), std::back_inserter(defects));
   std::partial_sum(edges.starts.begin(), edges.starts.end(), edges.starts.begin());
   edges.halves.resize(edges.starts.back());
+  // In any order, on which `isChain` does not depend.
   std::vector<std::uint32_t> next(edges.starts.begin(), edges.starts.end() - 1);
-  for (const EdgeRef e : constrained) {
+  forEachByStretches(loop, constrained.size(), [&](std::size_t i) {
+    const EdgeRef e = constrained[i];
     const SegmentId s = mesh.segment(e);
-    if (s >= pslg.segments.size()) continue;
-    edges.halves[next[s]++] = {mesh.origin(e), mesh.target(e)};
-    edges.halves[next[s]++] = {mesh.target(e), mesh.origin(e)};
-  }
+    if (s >= pslg.segments.size()) return;
+    const std::uint32_t at = __atomic_fetch_add(&next[s], 2, __ATOMIC_RELAXED);
+    edges.halves[at] = {mesh.origin(e), mesh.target(e)};
+    edges.halves[at + 1] = {mesh.target(e), mesh.origin(e)};
+  });
   return edges;
 }
 
@@ -147,7 +158,7 @@ bool isChain(const TriMesh& mesh, const Pslg& pslg, const Segment& seg, std::spa
     const auto [from, to] = halves.front();
     return (from == seg.a && to == seg.b) || (from == seg.b && to == seg.a);
   }
-  std::ranges::sort(halves, {}, &HalfEdge::from);
+  std::ranges::sort(halves);
   const Point &a = pslg.points[seg.a], &b = pslg.points[seg.b];
   const double magnitude = std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y)});
   const double room = 8.0 * std::numeric_limits<double>::epsilon() * magnitude * distance(a, b);
@@ -209,7 +220,8 @@ PslgCover coverOf(const TriMesh& coarse, const Pslg& pslg) {
 
 void checkAgainstInput(const TriMesh& mesh, std::span<const std::uint8_t> used, const Pslg& pslg,
                        const PslgCover* known, const ItemLoop& loop, std::vector<MeshDefect>& defects) {
-  const PslgCover expected = known != nullptr ? *known : expectedCover(mesh, pslg);
+  const PslgCover computed = known != nullptr ? PslgCover() : expectedCover(mesh, pslg);
+  const PslgCover& expected = known != nullptr ? *known : computed;
   SegmentEdges edges = edgesBySegment(mesh, pslg, loop, defects);
   reportMissing(
       DefectKind::MissingVertex, pslg.points.size(), loop,

@@ -76,7 +76,7 @@ RefineStats refine(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options
   if (mesh.points.size() > kLargeMesh) return stats;
   std::size_t smallest = coarsenedSize(mesh, pslg, options, control);
   // Meshes of the same points are the same, except for ties: three in four of the further ones.
-  std::vector<std::vector<Point>> known{mesh.points};
+  std::vector<BulkList<Point>> known{mesh.points};
   for (const RefineVariant& variant : furtherVariants(options)) {
     // The input requires a Steiner point, so no mesh has none.
     if (smallest <= mesh.input_vertices + 1) break;

@@ -89,7 +89,7 @@ void insertSegments(const Pslg& pslg, Triangulation& triangulation, const ItemLo
 
 // Edges suffice, since a Delaunay triangulation joins nearest neighbours.
 void checkDistances(const Triangulation& triangulation, const ItemLoop& loop) {
-  const std::vector<Triangle>& triangles = triangulation.mesh.triangles;
+  const std::span<const Triangle> triangles = triangulation.mesh.triangles;
   const auto isTooNear = [&](EdgeRef e) {
     const Point &a = triangulation.points[triangulation.mesh.origin(e)],
                 &b = triangulation.points[triangulation.mesh.target(e)];
@@ -175,11 +175,10 @@ TriMesh constrainedDelaunay(const Pslg& pslg, const Surface& surface, const Item
   if (numbers.count == 0) refuse(PslgDefect::Kind::NoArea, pslg.points.front(), kNone, "the segments enclose no area");
 
   TriMesh mesh;
-  mesh.points = pslg.points;
+  mesh.points.assign(pslg.points.begin(), pslg.points.end());
   mesh.input_vertices = static_cast<VertexId>(pslg.points.size());
-  reserveOn(loop, mesh.triangles, numbers.count);
-  mesh.triangles.resize(numbers.count);
-  mesh.regions.resize(numbers.count);
+  resizeUnset(mesh.triangles, numbers.count);
+  resizeUnset(mesh.regions, numbers.count);
   forEachByStretches(loop, region.size(), [&](std::size_t from) {
     const TriId to = numbers.number[from];
     if (to == kNone) return;

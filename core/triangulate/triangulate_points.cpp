@@ -130,8 +130,7 @@ Triangulation triangulatePoints(std::span<const Point> points, const Surface& su
   all.ghost = static_cast<VertexId>(points.size());
   all.along_curve = hilbertOrder(points, surface, loop);
   all.triangle_of.resize(points.size() + 1, kNone);
-  reserveOn(loop, all.mesh.triangles, 2 * points.size());
-  all.mesh.triangles.resize(2 * points.size());
+  resizeUnset(all.mesh.triangles, 2 * points.size());
   const bool has_triangles = partsFor(points.size()) == 1
                                  ? insertPoints(all, all.along_curve, 0) != kNone
                                  : PartMerger(all, divide(points, all.along_curve, loop)).run(loop);

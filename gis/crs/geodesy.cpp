@@ -144,11 +144,10 @@ void requirePlaces(std::span<const Point> nodes, const Crs& crs, const std::stri
   if (odd != nodes.end()) refuseNode(nodes, static_cast<std::size_t>(odd - nodes.begin()), crs, path);
 }
 
-std::vector<double> triangleAreas(std::span<const Point> nodes, std::span<const std::array<std::uint32_t, 3>> triangles,
-                                  const Crs& crs, const ItemLoop& loop) {
-  std::vector<double> areas;
-  reserveOn(loop, areas, triangles.size());
-  areas.resize(triangles.size());
+BulkList<double> triangleAreas(std::span<const Point> nodes, std::span<const std::array<std::uint32_t, 3>> triangles,
+                               const Crs& crs, const ItemLoop& loop) {
+  BulkList<double> areas;
+  resizeUnset(areas, triangles.size());
   if (crs.isPlane()) {
     forEachByStretches(loop, triangles.size(), [&](std::size_t t) {
       const auto& [a, b, c] = triangles[t];
@@ -188,7 +187,8 @@ std::vector<double> areasOfFew(std::span<const Point> nodes, std::span<const std
     corners.push_back({first, first + 1, first + 2});
     for (const std::uint32_t n : triangle) own.push_back(nodes[n]);
   }
-  return triangleAreas(own, corners, crs);
+  const BulkList<double> areas = triangleAreas(own, corners, crs);
+  return {areas.begin(), areas.end()};
 }
 
 EdgeMeter::EdgeMeter(std::span<const Point> nodes, const Crs& crs, const ItemLoop& loop) : nodes_(nodes) {

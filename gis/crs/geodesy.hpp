@@ -25,8 +25,8 @@ void requirePlaces(std::span<const Point> nodes, const Crs& crs, const std::stri
 // Areas of triangles on the ellipsoid of `crs`, edges geodesic, in square metres; positive for counter-clockwise ones.
 // In a plane: the plane's area in its own units. The sum over a mesh is its geodesic area to better than one part in
 // ten million. Throws InputError if a node has no place on the ellipsoid.
-std::vector<double> triangleAreas(std::span<const Point> nodes, std::span<const std::array<std::uint32_t, 3>> triangles,
-                                  const Crs& crs, const ItemLoop& loop = inOrder);
+BulkList<double> triangleAreas(std::span<const Point> nodes, std::span<const std::array<std::uint32_t, 3>> triangles,
+                               const Crs& crs, const ItemLoop& loop = inOrder);
 // The same for a few triangles among many nodes: only their nodes are used.
 std::vector<double> areasOfFew(std::span<const Point> nodes, std::span<const std::array<std::uint32_t, 3>> triangles,
                                const Crs& crs);

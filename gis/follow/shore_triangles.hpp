@@ -32,9 +32,9 @@ struct ShoreTriangles {
   // those of triangles. Otherwise NaN, and empty.
   double rate = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> size_at;
-  std::vector<RegionId> region_was;  // `mesh.regions` when last settled
-  std::vector<VertexId> helpers;     // temporary points: settling removes those on no segment
-  bool is_new = true;                // never settled: water may touch itself anywhere
+  BulkList<RegionId> region_was;  // `mesh.regions` when last settled
+  std::vector<VertexId> helpers;  // temporary points: settling removes those on no segment
+  bool is_new = true;             // never settled: water may touch itself anywhere
 };
 
 // Cuts segments between water and land where another shore, or one of `lines`, is within about the size wanted, so that

@@ -92,7 +92,7 @@ std::string oneLine(std::string title) {
 
 }  // namespace
 
-void writeFort14(TextWriter& file, const Grid& grid, const std::vector<Point>& places, Fort14Kind kind,
+void writeFort14(TextWriter& file, const Grid& grid, std::span<const Point> places, Fort14Kind kind,
                  const ItemLoop& loop) {
   file << oneLine(grid.title) << '\n' << grid.triangles.size() << ' ' << grid.nodes.size() << '\n';
   file.rows(loop, places.size(), [&](TextBlock& text, std::size_t i) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "gis/file/text_writer.hpp"
@@ -13,7 +14,7 @@ enum class Fort14Kind { Adcirc, Schism };
 // Title, nodes at `places` with their depth (positive down), triangles, then open and land boundaries. Loops other than
 // islands are two linked segments, since neither program accepts a segment that ends where it starts. A river is a flux
 // segment for ADCIRC and an open one for SCHISM. REQUIRES: every z is known.
-void writeFort14(TextWriter& file, const Grid& grid, const std::vector<Point>& places, Fort14Kind kind,
+void writeFort14(TextWriter& file, const Grid& grid, std::span<const Point> places, Fort14Kind kind,
                  const ItemLoop& loop);
 
 // Reads either, without the CRS. Segments are not required to run along the boundary; `notes` report counts, numbers

@@ -27,8 +27,8 @@ struct LayerColumn {
     // Numbers of the rows, from 1.
     Whole() = default;
     // Ids of a corner of the triangles. REQUIRES: they outlive it.
-    Whole(const std::vector<std::array<std::uint32_t, 3>>& triangles, unsigned corner)
-        : triangles_(&triangles), corner_(corner) {}
+    Whole(std::span<const std::array<std::uint32_t, 3>> triangles, unsigned corner)
+        : triangles_(triangles), corner_(corner) {}
     explicit Whole(std::function<std::int64_t(std::size_t row)> value,
                    std::function<bool(std::size_t row)> is_null = {})
         : value_(std::move(value)), is_null_(std::move(is_null)) {}
@@ -36,12 +36,12 @@ struct LayerColumn {
     bool isNull(std::size_t row) const { return is_null_ && is_null_(row); }
     // REQUIRES: not null.
     std::int64_t operator()(std::size_t row) const {
-      if (triangles_ != nullptr) return std::int64_t{(*triangles_)[row][corner_]} + 1;
+      if (!triangles_.empty()) return std::int64_t{triangles_[row][corner_]} + 1;
       return value_ ? value_(row) : static_cast<std::int64_t>(row) + 1;
     }
 
    private:
-    const std::vector<std::array<std::uint32_t, 3>>* triangles_ = nullptr;
+    std::span<const std::array<std::uint32_t, 3>> triangles_;
     unsigned corner_ = 0;
     std::function<std::int64_t(std::size_t row)> value_;
     std::function<bool(std::size_t row)> is_null_;

@@ -12,6 +12,7 @@
 #include <numeric>
 #include <optional>
 #include <regex>
+#include <span>
 #include <tuple>
 
 #include "core/ids.hpp"
@@ -259,7 +260,7 @@ std::vector<double> heightsAt(const std::vector<LayerTriangle>& given, const Gri
 }
 
 // The nodes that a triangle names, if they are at its corners: the layers may have been edited. Else nullopt.
-std::optional<std::array<std::uint32_t, 3>> nodesNamed(const LayerTriangle& triangle, const std::vector<Point>& nodes,
+std::optional<std::array<std::uint32_t, 3>> nodesNamed(const LayerTriangle& triangle, std::span<const Point> nodes,
                                                        const std::vector<std::int64_t>& ids, const MapCutter& cutter) {
   if (!triangle.node_ids) return std::nullopt;
   std::array<std::uint32_t, 3> named;

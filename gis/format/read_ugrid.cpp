@@ -307,8 +307,12 @@ Grid readUgrid(const std::string& path, const Crs& unsaid) {
   if (const std::string name = mesh + "_node_size";
       file.hasVariable(name) && file.shape(name) == std::vector{grid.nodes.size()})
     grid.size_m = file.doubles(name);
-  grid.min_angle_deg = readFaceData(file, mesh + "_min_angle", grid.triangles.size());
-  grid.area_m2 = readFaceData(file, mesh + "_area", grid.triangles.size());
+  const auto readInto = [&](BulkList<double>& values, const char* name) {
+    const std::vector<double> read = readFaceData(file, mesh + name, grid.triangles.size());
+    values.assign(read.begin(), read.end());
+  };
+  readInto(grid.min_angle_deg, "_min_angle");
+  readInto(grid.area_m2, "_area");
   const std::string region_name = mesh + "_region_name";
   addFeatures(readFaceData(file, mesh + "_feature", grid.triangles.size()),
               file.hasVariable(region_name) ? readFaceData(file, mesh + "_region", grid.triangles.size())

@@ -313,8 +313,12 @@ Grid readVtu(const std::string& path, const Crs& unsaid) {
                                               [&](std::size_t i) { return places[3 * i + 2] != 0.0; })) {
     for (std::size_t i = 0; i < nodes; ++i) grid.z.push_back(places[3 * i + 2]);
   }
-  grid.min_angle_deg = readCellData(file, "min_angle", cells);
-  grid.area_m2 = readCellData(file, "area_m2", cells);
+  const auto readInto = [&](BulkList<double>& values, const char* name) {
+    const std::vector<double> read = readCellData(file, name, cells);
+    values.assign(read.begin(), read.end());
+  };
+  readInto(grid.min_angle_deg, "min_angle");
+  readInto(grid.area_m2, "area_m2");
   addFeatures(readCellData(file, "src_fid", cells), readCellData(file, "region", cells),
               readTexts(file, "region_names"), grid);
   readBoundaries(file, grid);

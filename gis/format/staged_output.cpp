@@ -84,7 +84,7 @@ void StagedOutput::write(const Grid& grid, const ItemLoop& loop) {
   std::optional<Grid> changed;
   const auto copy = [&]() -> Grid& { return changed ? *changed : changed.emplace(grid); };
   if (format_->places == NodePlaces::OneTurn && grid.crs.geographic)
-    if (auto turned = inOneTurn(grid.nodes, grid.triangles, loop)) copy().nodes = *std::move(turned);
+    if (auto turned = inOneTurn(grid.nodes, grid.triangles, loop)) copy().nodes.assign(turned->begin(), turned->end());
   if (!format_->beside_grid && !format_->holds.has(GridPart::Weirs) && hasShoresAcross(grid))
     copy().boundaries = weirsAsShores(grid);
   make(changed ? *changed : grid);

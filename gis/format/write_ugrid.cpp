@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <functional>
 #include <limits>
+#include <span>
 #include <string_view>
 #include <type_traits>
 
@@ -283,7 +284,7 @@ void defineFaces(UgridFile& ugrid, const Grid& grid, int faces) {
          [&grid](std::size_t t) { return static_cast<std::int32_t>(grid.part_of[t]); });
 }
 
-void defineLines(UgridFile& ugrid, const Grid& grid, int edge_dimension, const std::vector<NodePair>& edges) {
+void defineLines(UgridFile& ugrid, const Grid& grid, int edge_dimension, std::span<const NodePair> edges) {
   if (grid.lines.empty()) return;
   const int number =
       ugrid.data("edge_line", NC_INT, edge_dimension, "edge", "line that the edge belongs to, 0 to none", {}, [&] {

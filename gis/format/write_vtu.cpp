@@ -34,8 +34,8 @@ class Appendix {
     offset_ += sizeof(bytes) + bytes;
   }
 
-  template <typename T>
-  void write(const std::vector<T>& values) {
+  template <typename T, typename Allocator>
+  void write(const std::vector<T, Allocator>& values) {
     const std::uint64_t bytes = values.size() * sizeof(T);
     file_.raw(&bytes, sizeof(bytes));
     file_.raw(values.data(), bytes);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 
+#include "core/item_loop.hpp"
 #include "core/point.hpp"
 
 namespace coastmesh {
@@ -38,5 +40,17 @@ struct Box {
   }
   Box grownBy(double margin) const { return {xmin - margin, ymin - margin, xmax + margin, ymax + margin}; }
 };
+
+// The box of all points.
+inline Box boxAround(std::span<const Point> points, const ItemLoop& loop) {
+  Box all;
+  for (const Box& some : overStretches(loop, points.size(), [&](std::size_t first, std::size_t last) {
+         Box box;
+         for (std::size_t i = first; i < last; ++i) box.add(points[i]);
+         return box;
+       }))
+    all.add(some);
+  return all;
+}
 
 }  // namespace coastmesh

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/item_loop.hpp"
 #include "gis/geometry/box.hpp"
 
 namespace coastmesh {
@@ -20,7 +21,8 @@ class BoxTree {
   enum class Order { Given, Hilbert };
 
   BoxTree() = default;
-  BoxTree(const std::vector<Box>& boxes, Order order);
+  // `loop` may use threads: the tree is the same.
+  BoxTree(const std::vector<Box>& boxes, Order order, const ItemLoop& loop = inOrder);
 
   std::size_t size() const { return level_begin_.empty() ? 0 : level_begin_[1]; }
   Box bounds() const { return boxes_.empty() ? Box{} : boxes_.back(); }

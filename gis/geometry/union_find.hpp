@@ -1,9 +1,12 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <numeric>
 #include <utility>
 #include <vector>
+
+#include "core/item_loop.hpp"
 
 namespace coastmesh {
 
@@ -24,6 +27,40 @@ class UnionFind {
 
  private:
   std::vector<std::uint32_t> parent_;
+};
+
+// Disjoint sets that several threads may unite at the same time; the roots are the same as those of UnionFind. After
+// Anderson & Woll, "Wait-free parallel algorithms for the union-find problem" (1991).
+class SharedUnionFind {
+ public:
+  SharedUnionFind(std::size_t n, const ItemLoop& loop) {
+    resizeUnset(parent_, n);
+    forEachByStretches(loop, n, [this](std::size_t i) { parent_[i] = static_cast<std::uint32_t>(i); });
+  }
+
+  std::uint32_t find(std::uint32_t i) {
+    for (;;) {
+      const std::uint32_t above = at(i), top = at(above);
+      if (top == above) return above;
+      // Halves the path. Whatever another thread has written here since leads to the same root.
+      __atomic_store_n(&parent_[i], top, __ATOMIC_RELAXED);
+      i = top;
+    }
+  }
+  void unite(std::uint32_t a, std::uint32_t b) {
+    for (;;) {
+      a = find(a), b = find(b);
+      if (a == b) return;
+      if (a > b) std::swap(a, b);
+      std::uint32_t root = b;  // unless another thread has united it meanwhile
+      if (__atomic_compare_exchange_n(&parent_[b], &root, a, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) return;
+    }
+  }
+
+ private:
+  std::uint32_t at(std::uint32_t i) const { return __atomic_load_n(&parent_[i], __ATOMIC_RELAXED); }
+
+  BulkList<std::uint32_t> parent_;
 };
 
 }  // namespace coastmesh

@@ -57,7 +57,7 @@ bool turnsLeft(const Corners& corners, const std::vector<Point>& lonlat) {
 
 // FESOM2 has clockwise triangles: it swaps the second and third corners of counter-clockwise ones.
 std::vector<Corners> clockwise(const Grid& grid, const std::vector<Point>& lonlat) {
-  std::vector<Corners> triangles = grid.triangles;
+  std::vector<Corners> triangles(grid.triangles.begin(), grid.triangles.end());
   for (Corners& corners : triangles)
     if (turnsLeft(corners, lonlat)) std::swap(corners[1], corners[2]);
   return triangles;

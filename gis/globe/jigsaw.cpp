@@ -63,7 +63,7 @@ struct Contents {
   std::vector<std::array<double, 3>> points;
   std::vector<double> values;
   std::vector<MarkedEdge> edges;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
+  BulkList<std::array<std::uint32_t, 3>> triangles;
 };
 
 template <std::size_t Corners>

@@ -8,11 +8,14 @@
 namespace coastmesh {
 
 std::vector<Boundary> findBoundaries(const TriMesh& mesh, const ItemLoop& loop) {
-  std::vector<Boundary> boundaries;
-  for (std::vector<VertexId>& vertices : boundaryLoops(mesh, loop)) {
-    const BoundaryRole role = roleOfLoop(mesh.points, vertices, Crs{});
-    boundaries.push_back({role, true, std::move(vertices)});
-  }
+  constexpr std::size_t kWorthAStretch = 16;
+  std::vector<std::vector<VertexId>> loops = boundaryLoops(mesh, loop);
+  std::vector<Boundary> boundaries(loops.size());
+  const auto make = [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      boundaries[i] = {roleOfLoop(mesh.points, loops[i], Crs{}), true, std::move(loops[i])};
+  };
+  forStretches(loop, loops.size(), make, kWorthAStretch);
   return boundaries;
 }
 

@@ -8,7 +8,7 @@
 namespace coastmesh {
 
 std::vector<Point> geographicNodes(const Grid& grid, const ItemLoop& loop) {
-  if (sameCrs(grid.crs, wgs84())) return grid.nodes;
+  if (sameCrs(grid.crs, wgs84())) return {grid.nodes.begin(), grid.nodes.end()};
   const CrsMap map(toOgr(grid.crs), toOgr(wgs84()));
   std::vector<Point> places(grid.nodes.size());
   forEachByStretches(loop, places.size(), [&](std::size_t i) { places[i] = map.forward(grid.nodes[i]); });

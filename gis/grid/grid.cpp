@@ -36,11 +36,14 @@ void requireZ(const Grid& grid, const std::string& path) {
 
 TriMesh toTriMesh(const Grid& grid, const Projection& projection, std::vector<EdgeConflict>& conflicts,
                   const ItemLoop& loop) {
-  std::vector<Point> points(grid.nodes.size());
+  BulkList<Point> points;
+  resizeUnset(points, grid.nodes.size());
   forEachByStretches(loop, points.size(),
                      [&](std::size_t node) { points[node] = projection.forward(grid.nodes[node]); });
   TriMesh mesh = linkTriangles(std::move(points), grid.triangles, conflicts, loop);
-  if (!grid.feature_of.empty()) std::ranges::copy(grid.feature_of, mesh.regions.begin());
+  if (!grid.feature_of.empty())
+    forEachByStretches(loop, mesh.regions.size(),
+                       [&](std::size_t t) { mesh.regions[t] = static_cast<RegionId>(grid.feature_of[t]); });
   return mesh;
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/item_loop.hpp"
 #include "core/pslg.hpp"
 #include "core/tri_mesh.hpp"
 #include "gis/crs/crs.hpp"
@@ -56,16 +57,16 @@ struct GridFeature {
 struct Grid {
   std::string title;
   Crs crs;
-  std::vector<Point> nodes;                             // in `crs`; those of `makeGrid` all belong to a triangle
-  std::vector<double> z;                                // metres, positive up; empty or one per node, NaN if unknown
-  std::vector<double> size_m;                           // empty or one for each node: the requested edge length there
-  std::vector<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise
-  std::vector<std::uint32_t> feature_of;                // empty or one for each triangle: index into `features`
-  std::vector<std::uint32_t> piece_of;                  // empty or one per triangle: the piece that it was refined in
-  std::vector<std::uint32_t> part_of;                   // empty or one for each triangle: the solver's process, from 0
-  std::vector<std::uint32_t> node_part_of;              // empty or one for each node, in the same way
-  std::vector<double> min_angle_deg;                    // empty or one per triangle, as measured when meshed
-  std::vector<double> area_m2;                          // empty or one for each triangle, on the ellipsoid
+  BulkList<Point> nodes;                             // in `crs`; those of `makeGrid` all belong to a triangle
+  std::vector<double> z;                             // metres, positive up; empty or one per node, NaN if unknown
+  std::vector<double> size_m;                        // empty or one for each node: the requested edge length there
+  BulkList<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise
+  BulkList<std::uint32_t> feature_of;                // empty or one for each triangle: index into `features`
+  std::vector<std::uint32_t> piece_of;               // empty or one per triangle: the piece that it was refined in
+  std::vector<std::uint32_t> part_of;                // empty or one for each triangle: the solver's process, from 0
+  std::vector<std::uint32_t> node_part_of;           // empty or one for each node, in the same way
+  BulkList<double> min_angle_deg;                    // empty or one per triangle, as measured when meshed
+  BulkList<double> area_m2;                          // empty or one for each triangle, on the ellipsoid
   std::vector<GridFeature> features;
   std::vector<Boundary> boundaries;
   std::vector<GridLine> lines;

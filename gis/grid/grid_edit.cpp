@@ -31,8 +31,8 @@ void forEachArray(Arrays to, Arrays from, const Use& use) {
   both(std::make_index_sequence<std::tuple_size_v<Arrays>>());
 }
 
-template <typename T>
-void copyLast(std::vector<T>& values, std::size_t source) {
+template <typename T, typename Allocator>
+void copyLast(std::vector<T, Allocator>& values, std::size_t source) {
   if (!values.empty()) values.push_back(T(values[source]));
 }
 
@@ -206,7 +206,7 @@ Point meanPlace(const Crs& crs, std::span<const Point> places) {
 
 std::uint32_t addNode(Grid& grid, const Point& place) {
   const auto added = static_cast<std::uint32_t>(grid.nodes.size());
-  forEachArray(nodeArrays(grid), [&]<typename T>(std::vector<T>& values) {
+  forEachArray(nodeArrays(grid), [&]<typename T, typename Allocator>(std::vector<T, Allocator>& values) {
     if constexpr (std::is_same_v<T, Point>) {
       values.push_back(place);
     } else if constexpr (std::is_integral_v<T>) {
@@ -228,7 +228,7 @@ std::uint32_t copyNode(Grid& grid, std::uint32_t source, const Point& place) {
 
 std::uint32_t addNodeBetween(Grid& grid, std::uint32_t a, std::uint32_t b, double share) {
   const auto added = static_cast<std::uint32_t>(grid.nodes.size());
-  forEachArray(nodeArrays(grid), [&]<typename T>(std::vector<T>& values) {
+  forEachArray(nodeArrays(grid), [&]<typename T, typename Allocator>(std::vector<T, Allocator>& values) {
     if constexpr (std::is_same_v<T, Point>) {
       values.push_back(placeBetween(grid.crs, values[a], values[b], share));
     } else if constexpr (std::is_integral_v<T>) {
@@ -252,7 +252,7 @@ std::uint32_t addNodeBetween(Grid& grid, std::uint32_t a, std::uint32_t b, doubl
 }
 
 void moveNode(Grid& grid, std::uint32_t node, std::uint32_t a, std::uint32_t b, double share) {
-  forEachArray(nodeArrays(grid), [&]<typename T>(std::vector<T>& values) {
+  forEachArray(nodeArrays(grid), [&]<typename T, typename Allocator>(std::vector<T, Allocator>& values) {
     if constexpr (std::is_same_v<T, Point>) {
       values[node] = placeBetween(grid.crs, values[node], placeBetween(grid.crs, values[a], values[b], 0.5), share);
     } else if constexpr (!std::is_integral_v<T>) {
@@ -384,8 +384,9 @@ void appendGrid(Grid& whole, Grid&& part, std::optional<std::uint32_t> first_pie
   for (std::uint32_t& piece : part.piece_of) piece += piece_shift;
 
   const auto append = [](auto& to, auto& from) { std::move(from.begin(), from.end(), std::back_inserter(to)); };
-  const auto appendUnlessSilent = [&]<typename T>(std::vector<T>& to, std::vector<T>& from, std::size_t to_count,
-                                                  std::size_t from_count) {
+  const auto appendUnlessSilent = [&]<typename T, typename Allocator>(std::vector<T, Allocator>& to,
+                                                                      std::vector<T, Allocator>& from,
+                                                                      std::size_t to_count, std::size_t from_count) {
     if constexpr (std::is_floating_point_v<T>) {
       if (to.empty() && !from.empty()) to.assign(to_count, kUnknown);
       if (from.empty() && !to.empty()) from.assign(from_count, kUnknown);

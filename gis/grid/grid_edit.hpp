@@ -47,10 +47,10 @@ void orderNodes(Grid& grid, const std::vector<std::uint32_t>& order);
 void orderTriangles(Grid& grid, const std::vector<std::uint32_t>& order);
 
 // The values of an array in that order; an empty one stays empty.
-template <typename T>
-void reorder(std::vector<T>& values, const std::vector<std::uint32_t>& order) {
+template <typename T, typename Allocator>
+void reorder(std::vector<T, Allocator>& values, const std::vector<std::uint32_t>& order) {
   if (values.empty()) return;
-  std::vector<T> sorted;
+  std::vector<T, Allocator> sorted;
   sorted.reserve(values.size());
   for (const std::uint32_t i : order) sorted.push_back(std::move(values[i]));
   values = std::move(sorted);

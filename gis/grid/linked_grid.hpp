@@ -16,7 +16,7 @@ struct LinkedGrid {
 // Links the triangles of `grid`; its nodes stay in its CRS. `loop` may use threads: the links are the same.
 inline LinkedGrid linkGrid(const Grid& grid, const ItemLoop& loop = inOrder) {
   LinkedGrid linked;
-  linked.mesh = linkTriangles(grid.nodes, grid.triangles, linked.conflicts, loop);
+  linked.mesh = linkTriangles(copyOn(loop, grid.nodes), grid.triangles, linked.conflicts, loop);
   return linked;
 }
 

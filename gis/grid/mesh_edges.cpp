@@ -75,10 +75,10 @@ void halve(std::vector<Block>& blocks, Stretches& stretches) {
 // The edges of each stretch that far more blocks have an edge in than in others, as in that of the shore's nodes if
 // rows of triangles end there; none for other stretches. One thread would go through nearly all triangles for them.
 // Some are there twice. Counted first: one list for each range of blocks would keep more memory.
-std::vector<std::vector<Edge>> widespreadEdges(const std::vector<Block>& blocks, const Stretches& stretches,
-                                               const ItemLoop& loop) {
+std::vector<BulkList<Edge>> widespreadEdges(const std::vector<Block>& blocks, const Stretches& stretches,
+                                            const ItemLoop& loop) {
   constexpr std::size_t kFarMore = 4, kRanges = 256;
-  std::vector<std::vector<Edge>> edges(stretches.count);
+  std::vector<BulkList<Edge>> edges(stretches.count);
   const std::uint64_t visits = visitsOf(blocks);
   for (std::size_t s = 0; s < stretches.count; ++s) {
     const auto own = std::ranges::count_if(blocks, [&](const Block& block) { return block.has(s); });
@@ -94,7 +94,7 @@ std::vector<std::vector<Edge>> widespreadEdges(const std::vector<Block>& blocks,
     std::vector<std::size_t> next(kRanges + 1, 0);
     loop(kRanges, [&](std::size_t r) { forEachOwn(r, [&](const Edge&) { ++next[r + 1]; }); });
     std::inclusive_scan(next.begin(), next.end(), next.begin());
-    edges[s].resize(next.back());
+    resizeUnset(edges[s], next.back());
     loop(kRanges, [&](std::size_t r) {
       std::size_t at = next[r];
       forEachOwn(r, [&](const Edge& edge) { edges[s][at++] = edge; });
@@ -144,8 +144,8 @@ NodeEdges edgesOfStretch(const std::vector<Block>& blocks, const Stretches& stre
 
 }  // namespace
 
-std::vector<Edge> uniqueEdges(std::size_t nodes, Triangles triangles, const ItemLoop& loop) {
-  std::vector<Edge> edges;
+BulkList<Edge> uniqueEdges(std::size_t nodes, Triangles triangles, const ItemLoop& loop) {
+  BulkList<Edge> edges;
   if (triangles.empty()) return edges;
   // A block is visited once for each stretch that it has an edge in: few if numbers follow the plane. If they do not,
   // stretches are made fewer and longer.
@@ -154,7 +154,7 @@ std::vector<Edge> uniqueEdges(std::size_t nodes, Triangles triangles, const Item
   std::vector<Block> blocks = blocksOf(triangles, stretches, loop);
   while (stretches.count > 1 && visitsOf(blocks) > kMostVisits * blocks.size()) halve(blocks, stretches);
 
-  std::vector<std::vector<Edge>> known = widespreadEdges(blocks, stretches, loop);
+  std::vector<BulkList<Edge>> known = widespreadEdges(blocks, stretches, loop);
   std::vector<NodeEdges> parts(stretches.count);
   loop(parts.size(), [&](std::size_t s) {
     parts[s] = edgesOfStretch(blocks, stretches, s, known[s]);

@@ -3,15 +3,14 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "core/item_loop.hpp"
 
 namespace coastmesh {
 
 // Every edge of the triangles once, the lesser node first, in lexicographic order.
-std::vector<std::array<std::uint32_t, 2>> uniqueEdges(std::size_t nodes,
-                                                      std::span<const std::array<std::uint32_t, 3>> triangles,
-                                                      const ItemLoop& loop = inOrder);
+BulkList<std::array<std::uint32_t, 2>> uniqueEdges(std::size_t nodes,
+                                                   std::span<const std::array<std::uint32_t, 3>> triangles,
+                                                   const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "gis/geometry/box.hpp"
+
 namespace coastmesh {
 namespace {
 
@@ -103,8 +105,8 @@ bool longitudesJump(std::span<const Point> nodes, const Corners& corners) {
 std::optional<std::vector<Point>> inOneTurn(std::span<const Point> nodes, std::span<const Corners> triangles,
                                             const ItemLoop& loop) {
   if (nodes.empty()) return std::nullopt;
-  const auto [least, greatest] = std::ranges::minmax(nodes, {}, &Point::x);
-  if (!(greatest.x - least.x > kTurn / 2)) return std::nullopt;  // skips the triangles of most meshes
+  const Box all = boxAround(nodes, loop);
+  if (!(all.xmax - all.xmin > kTurn / 2)) return std::nullopt;  // skips the triangles of most meshes
   const auto any = overStretches(loop, triangles.size(), [&](std::size_t first, std::size_t last) {
     return static_cast<char>(
         std::ranges::any_of(triangles.subspan(first, last - first),
@@ -133,9 +135,9 @@ std::optional<std::vector<Point>> inOneTurn(std::span<const Point> nodes, std::s
   return turned;
 }
 
-TurnedNodes::TurnedNodes(Grid& grid) {
+TurnedNodes::TurnedNodes(Grid& grid, const ItemLoop& loop) {
   if (!grid.crs.geographic) return;
-  std::optional<std::vector<Point>> turned = inOneTurn(grid.nodes, grid.triangles);
+  std::optional<std::vector<Point>> turned = inOneTurn(grid.nodes, grid.triangles, loop);
   if (!turned) return;
   const auto [least, greatest] = std::ranges::minmax(grid.nodes, {}, &Point::x);
   west_ = least.x;
@@ -144,7 +146,7 @@ TurnedNodes::TurnedNodes(Grid& grid) {
   for (std::size_t i = 0; i < turned->size(); ++i)
     if ((*turned)[i] != grid.nodes[i]) was_.push_back({(*turned)[i], grid.nodes[i].x});
   std::ranges::sort(was_, lexLess, &Turned::place);
-  grid.nodes = *std::move(turned);
+  grid.nodes.assign(turned->begin(), turned->end());
 }
 
 void TurnedNodes::putBack(Grid& grid) const {

@@ -28,7 +28,7 @@ std::optional<std::vector<Point>> inOneTurn(std::span<const Point> nodes,
 class TurnedNodes {
  public:
   // Changes nothing in a grid without longitudes, or one for which `inOneTurn` returns nullopt.
-  explicit TurnedNodes(Grid& grid);
+  explicit TurnedNodes(Grid& grid, const ItemLoop& loop = inOrder);
 
   bool any() const { return !was_.empty(); }
   void putBack(Grid& grid) const;

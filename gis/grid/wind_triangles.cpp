@@ -19,7 +19,7 @@ struct Neighbour {
 };
 
 // The neighbour at each side of each triangle; none at edges of one triangle, or of more than two.
-std::vector<std::array<Neighbour, 3>> neighboursOf(const std::vector<Corners>& triangles) {
+std::vector<std::array<Neighbour, 3>> neighboursOf(std::span<const Corners> triangles) {
   struct Side {
     std::uint32_t low, high, triangle;
     std::uint8_t index;
@@ -49,7 +49,7 @@ std::vector<std::array<Neighbour, 3>> neighboursOf(const std::vector<Corners>& t
 }  // namespace
 
 void windTriangles(std::span<const Point> nodes, const Crs& crs, const std::vector<bool>& wound,
-                   std::vector<Corners>& triangles) {
+                   std::span<Corners> triangles) {
   if (std::ranges::all_of(wound, std::identity())) return;
   const std::vector<std::array<Neighbour, 3>> neighbours = neighboursOf(triangles);
   std::vector<bool> seen = wound, turned(triangles.size(), false);

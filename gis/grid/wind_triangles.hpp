@@ -15,6 +15,6 @@ namespace coastmesh {
 // follows those of its triangles that are correctly `wound`; one without any is turned so that most of it is
 // counter-clockwise on the ground. REQUIRES: one flag for each triangle.
 void windTriangles(std::span<const Point> nodes, const Crs& crs, const std::vector<bool>& wound,
-                   std::vector<std::array<std::uint32_t, 3>>& triangles);
+                   std::span<std::array<std::uint32_t, 3>> triangles);
 
 }  // namespace coastmesh

@@ -21,7 +21,7 @@ struct ApartWater {
 std::vector<ApartWater> apartWaters(const Grid& grid, const ItemLoop& loop = inOrder);
 
 // A fast sufficient test: true only if all triangles are connected. REQUIRES: complete boundaries.
-bool isOneWater(const Grid& grid);
+bool isOneWater(const Grid& grid, const ItemLoop& loop = inOrder);
 
 // Waters with an opening that are less than a tenth as large as the largest of those: the frame only grazes them.
 enum class GrazedWaters { Keep, Drop };

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -63,7 +64,7 @@ struct BoundaryEdges {
 // depth.
 struct BoundaryPlaces {
   const Crs& crs;
-  const std::vector<Point>& places;
+  std::span<const Point> places;
   const std::vector<double>& z;
 };
 

@@ -24,7 +24,7 @@ namespace coastmesh {
 // Edges whose types are wanted: see `BoundaryRules::kindsOf`.
 struct EdgesToType {
   const Crs& crs;
-  const std::vector<Point>& places;
+  std::span<const Point> places;
   const std::vector<NodePair>& edges;
   const std::vector<bool>& outer;
   const std::vector<double>& share;
@@ -359,14 +359,14 @@ void BoundaryRules::add(const std::vector<RawLayer>& layers, const std::string& 
   }
 }
 
-std::vector<std::optional<BoundaryKind>> BoundaryRules::kindsOf(const Crs& crs, const std::vector<Point>& places,
+std::vector<std::optional<BoundaryKind>> BoundaryRules::kindsOf(const Crs& crs, std::span<const Point> places,
                                                                 const std::vector<NodePair>& edges,
                                                                 const std::vector<bool>& outer,
                                                                 const std::vector<double>& share) const {
   return ruledEdges({crs, places, edges, outer, share, {}}, false).kinds;
 }
 
-RuledEdges BoundaryRules::roughKindsOf(const Crs& crs, const std::vector<Point>& places,
+RuledEdges BoundaryRules::roughKindsOf(const Crs& crs, std::span<const Point> places,
                                        const std::vector<NodePair>& edges, const std::vector<bool>& outer,
                                        const std::vector<double>& share,
                                        const std::vector<BoundaryKind>& before) const {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -67,7 +68,7 @@ class BoundaryRules {
   // edges whose loop surrounds the mesh: polygons open no others, since they often contain islands by accident; lines
   // along islands are intended. `share` is the fraction that each is of an edge of the mesh, a fifth of which is the
   // distance allowed from lines; empty: all are whole edges.
-  std::vector<std::optional<BoundaryKind>> kindsOf(const Crs& crs, const std::vector<Point>& places,
+  std::vector<std::optional<BoundaryKind>> kindsOf(const Crs& crs, std::span<const Point> places,
                                                    const std::vector<NodePair>& edges, const std::vector<bool>& outer,
                                                    const std::vector<double>& share = {}) const;
 
@@ -76,7 +77,7 @@ class BoundaryRules {
   // none gets the one closest to its middle, if that is within an element. `missed` are openings and rivers without any
   // edge, and where lines leave walls in what they open. `before`: the types of edges without these rules, which may
   // be openings too; empty: unknown.
-  RuledEdges roughKindsOf(const Crs& crs, const std::vector<Point>& places, const std::vector<NodePair>& edges,
+  RuledEdges roughKindsOf(const Crs& crs, std::span<const Point> places, const std::vector<NodePair>& edges,
                           const std::vector<bool>& outer, const std::vector<double>& share = {},
                           const std::vector<BoundaryKind>& before = {}) const;
   // The number of rules.

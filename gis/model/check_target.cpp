@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "core/metric.hpp"
@@ -122,7 +123,7 @@ class TargetCheck {
 
   // Degrees: the largest angle of a triangle if the model rejects it, else 0.
   double angleBeyond(const std::array<std::uint32_t, 3>& corners) const {
-    const std::vector<Point>& nodes = on_earth_.empty() ? grid_.nodes : on_earth_;
+    const std::span nodes = on_earth_.empty() ? std::span(grid_.nodes) : std::span(on_earth_);
     const Point &a = nodes[corners[0]], &b = nodes[corners[1]], &c = nodes[corners[2]];
     if (target_ == Target::Swan) {
       const double largest = largestFileAngle(a, b, c);
@@ -193,21 +194,37 @@ class TargetCheck {
   static bool isJump(const TargetDefect& defect) { return defect.kind == TargetDefectKind::RoundTheGlobe; }
 
   void checkNodes() {
-    std::vector<int> cells(grid_.nodes.size(), 0), boundary_starts(grid_.nodes.size(), 0);
-    for (const GridCorners& corners : grid_.triangles)
-      for (const std::uint32_t node : corners) ++cells[node];
-    for (const EdgeRef e : boundary_edges_) ++boundary_starts[mesh_.origin(e)];
-    for (std::uint32_t node = 0; node < grid_.nodes.size(); ++node) {
-      const Point& place = grid_.nodes[node];
-      if (cells[node] == 0) add(TargetDefectKind::UnusedNode, place, -1, node);
-      if (boundary_starts[node] > 1) add(TargetDefectKind::PinchedNode, place, -1, node, boundary_starts[node]);
-      if (!grid_.z.empty() && std::isnan(grid_.z[node])) add(TargetDefectKind::UnknownDepth, place, -1, node);
+    // For each node: its triangles, or 1 if the model takes any number; and its boundary edges.
+    const bool counts = target_ == Target::Swan || target_ == Target::Fesom;
+    BulkList<int> cells, boundary_starts;
+    resizeUnset(cells, grid_.nodes.size());
+    resizeUnset(boundary_starts, grid_.nodes.size());
+    forEachByStretches(loop_, grid_.nodes.size(), [&](std::size_t node) { cells[node] = boundary_starts[node] = 0; });
+    forEachByStretches(loop_, grid_.triangles.size(), [&](std::size_t t) {
+      for (const std::uint32_t node : grid_.triangles[t]) {
+        if (counts) {
+          __atomic_add_fetch(&cells[node], 1, __ATOMIC_RELAXED);
+        } else {
+          __atomic_store_n(&cells[node], 1, __ATOMIC_RELAXED);
+        }
+      }
+    });
+    forEachByStretches(loop_, boundary_edges_.size(), [&](std::size_t e) {
+      __atomic_add_fetch(&boundary_starts[mesh_.origin(boundary_edges_[e])], 1, __ATOMIC_RELAXED);
+    });
+    addForEach(grid_.nodes.size(), [&](std::size_t node, std::vector<TargetDefect>& found) {
+      const auto report = [&](TargetDefectKind kind, double value = 0.0) {
+        found.push_back({kind, grid_.nodes[node], -1, static_cast<std::int64_t>(node), value, {}});
+      };
+      if (cells[node] == 0) report(TargetDefectKind::UnusedNode);
+      if (boundary_starts[node] > 1) report(TargetDefectKind::PinchedNode, boundary_starts[node]);
+      if (!grid_.z.empty() && std::isnan(grid_.z[node])) report(TargetDefectKind::UnknownDepth);
       const bool inner = cells[node] > 0 && boundary_starts[node] == 0;
       const bool refused =
           (target_ == Target::Swan && inner && (cells[node] < kSwanFewestCells || cells[node] > kSwanMostCells)) ||
           (target_ == Target::Fesom && cells[node] > kFesomMostCells);
-      if (refused) add(TargetDefectKind::Valence, place, -1, node, cells[node]);
-    }
+      if (refused) report(TargetDefectKind::Valence, cells[node]);
+    });
     for (const std::uint32_t again : repeatedNodes(grid_, loop_))
       add(TargetDefectKind::RepeatedNode, grid_.nodes[again], -1, again);
   }
@@ -233,48 +250,80 @@ class TargetCheck {
   // ADCIRC and SCHISM read segments of nodes.
   void checkSegments() {
     std::vector<NodePair> of_mesh(boundary_edges_.size());
-    std::ranges::transform(boundary_edges_, of_mesh.begin(), [&](EdgeRef e) { return nodesOf(e); });
+    forEachByStretches(loop_, of_mesh.size(), [&](std::size_t e) { of_mesh[e] = nodesOf(boundary_edges_[e]); });
     sortOn(loop_, of_mesh);
     std::vector<int> uses(of_mesh.size(), 0);
-    // The uses of an edge; null if it is not one of the mesh's boundary.
-    const auto usesOf = [&](std::uint32_t from, std::uint32_t to) -> int* {
-      const auto place = std::ranges::lower_bound(of_mesh, NodePair{from, to});
-      return place != of_mesh.end() && *place == NodePair{from, to}
-                 ? &uses[static_cast<std::size_t>(place - of_mesh.begin())]
-                 : nullptr;
-    };
-    for (const Boundary& boundary : grid_.boundaries) {
-      std::vector<NodePair> edges = edgesOf(boundary);
-      const Boundary back{boundary.role, boundary.closed, boundary.back_nodes};
+    const std::vector<SegmentSearch> searches = searchSegments(of_mesh);
+    for (std::size_t b = 0; b < grid_.boundaries.size(); ++b) {
+      const Boundary& boundary = grid_.boundaries[b];
       std::size_t turned = 0;
-      for (const auto& [from, to] : edges) {
-        if (int* const along = usesOf(from, to)) {
-          if (++*along == 2) add(TargetDefectKind::BoundaryTwice, middle(from, to), -1, from);
-        } else if (int* const against = usesOf(to, from)) {
-          ++turned;
-          if (++*against == 2) add(TargetDefectKind::BoundaryTwice, middle(from, to), -1, from);
-        } else {
+      for (const SegmentEdge& edge : searches[b].edges) {
+        const auto [from, to] = edge.nodes;
+        if (edge.place == kNone) {
           add(TargetDefectKind::StrayBoundary, middle(from, to), -1, from);
+          continue;
         }
+        if (edge.is_against) ++turned;
+        if (++uses[edge.place] == 2) add(TargetDefectKind::BoundaryTwice, middle(from, to), -1, from);
       }
-      for (const auto& [from, to] : edgesOf(back)) {
-        int* const along = usesOf(from, to);
-        if (int* const across = along != nullptr ? along : usesOf(to, from)) ++*across;
-      }
+      for (const SegmentEdge& edge : searches[b].back)
+        if (edge.place != kNone) ++uses[edge.place];
       if (boundary.nodes.empty()) continue;
       const std::uint32_t first = boundary.nodes.front();
       if (turned > 0) add(TargetDefectKind::BoundaryTurned, grid_.nodes[first], -1, first, static_cast<double>(turned));
       if (boundary.nodes.size() == 1) add(TargetDefectKind::StrayBoundary, grid_.nodes[first], -1, first);
-      checkLoop(boundary, turned > 0);
+      checkLoop(boundary, searches[b].by_shape, turned > 0);
     }
     for (std::size_t i = 0; i < uses.size(); ++i)
       if (uses[i] == 0) add(TargetDefectKind::NoBoundary, middle(of_mesh[i][0], of_mesh[i][1]), -1, of_mesh[i][0]);
   }
 
-  void checkLoop(const Boundary& boundary, bool turned) {
-    if (!boundary.closed || boundary.nodes.size() < 3) return;
+  // An edge of a segment, and its place among the mesh's boundary edges, kNone if it is none of them.
+  struct SegmentEdge {
+    NodePair nodes;
+    std::uint32_t place = kNone;
+    bool is_against = false;
+  };
+  // What takes long to find out about a segment.
+  struct SegmentSearch {
+    std::vector<SegmentEdge> edges, back;  // along its nodes, and those across
+    BoundaryRole by_shape = BoundaryRole::Land;
+  };
+
+  static bool isLoop(const Boundary& boundary) { return boundary.closed && boundary.nodes.size() >= 3; }
+
+  std::vector<SegmentSearch> searchSegments(std::span<const NodePair> of_mesh) const {
+    const auto placeOf = [&](const NodePair& edge) {
+      const auto place = std::ranges::lower_bound(of_mesh, edge);
+      return place != of_mesh.end() && *place == edge ? static_cast<std::uint32_t>(place - of_mesh.begin()) : kNone;
+    };
+    const auto placesOf = [&](const std::vector<NodePair>& edges) {
+      std::vector<SegmentEdge> found;
+      found.reserve(edges.size());
+      for (const NodePair& edge : edges) {
+        const std::uint32_t along = placeOf(edge);
+        const std::uint32_t place = along != kNone ? along : placeOf({edge[1], edge[0]});
+        found.push_back({edge, place, along == kNone && place != kNone});
+      }
+      return found;
+    };
+    constexpr std::size_t kWorthAStretch = 16;
+    std::vector<SegmentSearch> searches(grid_.boundaries.size());
+    const auto search = [&](std::size_t first, std::size_t last) {
+      for (std::size_t b = first; b < last; ++b) {
+        const Boundary& boundary = grid_.boundaries[b];
+        searches[b].edges = placesOf(edgesOf(boundary));
+        searches[b].back = placesOf(edgesOf(Boundary{boundary.role, boundary.closed, boundary.back_nodes}));
+        if (isLoop(boundary)) searches[b].by_shape = roleOfLoop(grid_.nodes, boundary.nodes, grid_.crs);
+      }
+    };
+    forStretches(loop_, searches.size(), search, kWorthAStretch);
+    return searches;
+  }
+
+  void checkLoop(const Boundary& boundary, BoundaryRole by_shape, bool turned) {
+    if (!isLoop(boundary)) return;
     const std::uint32_t first = boundary.nodes.front();
-    const BoundaryRole by_shape = roleOfLoop(grid_.nodes, boundary.nodes, grid_.crs);
     const bool shore = !isOpening(boundary.role);
     if (shore && !turned && boundary.role != by_shape) add(TargetDefectKind::WrongShore, grid_.nodes[first], -1, first);
     // The models close islands themselves; SCHISM needs other loops as two linked segments.
@@ -284,12 +333,14 @@ class TargetCheck {
 
   void checkOpenings() {
     if (grid_.z.empty()) return;
-    std::vector<bool> dry(grid_.nodes.size(), false);
+    std::vector<std::uint32_t> dry;
     for (const Boundary& boundary : grid_.boundaries)
       if (isOpening(boundary.role))
-        for (const std::uint32_t node : boundary.nodes) dry[node] = grid_.z[node] > 0.0;
-    for (std::uint32_t node = 0; node < dry.size(); ++node)
-      if (dry[node]) add(TargetDefectKind::DryOpening, grid_.nodes[node], -1, node, grid_.z[node]);
+        std::ranges::copy_if(boundary.nodes, std::back_inserter(dry),
+                             [this](std::uint32_t node) { return grid_.z[node] > 0.0; });
+    std::ranges::sort(dry);
+    dry.erase(std::unique(dry.begin(), dry.end()), dry.end());
+    for (const std::uint32_t node : dry) add(TargetDefectKind::DryOpening, grid_.nodes[node], -1, node, grid_.z[node]);
   }
 
   void checkOpenCells() {

@@ -36,7 +36,7 @@ LongitudeRange rangeOf(const std::vector<Point>& input) {
 
 // The index in the grid of each used point of a mesh, kNone for unused ones.
 struct NodeIndices {
-  std::vector<std::uint32_t> of;
+  BulkList<std::uint32_t> of;
   std::uint32_t end = 0;  // one past the last
 };
 
@@ -63,15 +63,15 @@ NodeIndices nodeIndices(const TriMesh& mesh, std::uint32_t next, const ItemLoop&
 }
 
 void appendNodes(const MeshedDomain& part, bool geographic, const NodeIndices& indices, const ItemLoop& loop,
-                 std::vector<Point>& nodes) {
+                 BulkList<Point>& nodes) {
   const Domain& domain = *part.domain;
   const TriMesh& mesh = *part.mesh;
-  const std::vector<std::uint32_t>& index_of = indices.of;
+  const BulkList<std::uint32_t>& index_of = indices.of;
   assert(domain.input_points.size() == mesh.input_vertices);
   // Coordinates meshed without a projection stay unchanged.
   const bool shifts = geographic && !domain.projection.isIdentity();
   const LongitudeRange range = shifts && !domain.input_points.empty() ? rangeOf(domain.input_points) : LongitudeRange{};
-  nodes.resize(indices.end);
+  resizeUnset(nodes, indices.end);
   const SmoothTable inverse =
       inverseTable(domain.projection, part.ground != nullptr ? std::span<const Point>() : std::span(mesh.points), loop);
   forEachByStretches(loop, mesh.points.size(), [&](std::size_t v) {
@@ -89,19 +89,19 @@ void appendNodes(const MeshedDomain& part, bool geographic, const NodeIndices& i
 // Appends triangles, with the mesh's own numbers of corners.
 void appendCorners(const TriMesh& mesh, const ItemLoop& loop, Grid& grid) {
   const std::size_t before = grid.triangles.size();
-  grid.triangles.resize(before + mesh.triangles.size());
+  resizeUnset(grid.triangles, before + mesh.triangles.size());
   forEachByStretches(loop, mesh.triangles.size(),
                      [&](std::size_t t) { grid.triangles[before + t] = mesh.triangles[t].v; });
 }
 
 // Renumbers the corners of triangles from `before` on as nodes of the grid, and sets their features and angles. The
 // mesh's triangles may be gone.
-void finishTriangles(const TriMesh& mesh, const GroundPlaces* ground, const std::vector<std::uint32_t>& index_of,
+void finishTriangles(const TriMesh& mesh, const GroundPlaces* ground, const BulkList<std::uint32_t>& index_of,
                      const std::vector<std::uint32_t>& feature_index, const ItemLoop& loop, std::size_t before,
                      Grid& grid) {
   const std::size_t after = grid.triangles.size();
-  if (!feature_index.empty()) grid.feature_of.resize(after);
-  grid.min_angle_deg.resize(after);
+  if (!feature_index.empty()) resizeUnset(grid.feature_of, after);
+  resizeUnset(grid.min_angle_deg, after);
   forEachByStretches(loop, after - before, [&](std::size_t t) {
     auto& corners = grid.triangles[before + t];
     const auto [a, b, c] = corners;
@@ -120,7 +120,7 @@ std::vector<std::uint32_t> appendFeatures(const std::vector<MeshedDomain>& parts
   std::vector<std::uint32_t> index_of(coastline.features.size(), kNone);
   if (index_of.empty()) return index_of;
   for (const MeshedDomain& part : parts) {
-    const std::vector<RegionId>& regions = part.mesh->regions;
+    const BulkList<RegionId>& regions = part.mesh->regions;
     // Consecutive triangles mostly lie in the same region.
     for (const RegionId region : joined(overStretches(loop, regions.size(), [&](std::size_t first, std::size_t last) {
            std::vector<RegionId> some;
@@ -148,7 +148,7 @@ LineKind kindOf(FeatureUse use) {
 
 // Appends the domain's lines along edges of the mesh, in order. A feature's line stays one line where a region's border
 // runs along a part of it.
-void appendLines(const Domain& domain, const TriMesh& mesh, const std::vector<std::uint32_t>& index_of,
+void appendLines(const Domain& domain, const TriMesh& mesh, const BulkList<std::uint32_t>& index_of,
                  std::vector<GridLine>& lines) {
   if (domain.lines.empty()) return;
   std::vector<std::vector<NodePair>> edges_of(domain.lines.size());
@@ -235,29 +235,37 @@ Grid makeGridWithoutAreas(const std::vector<MeshedDomain>& parts, const Coastlin
     point_count += part.mesh->points.size();
   }
   const std::vector<std::uint32_t> feature_index = appendFeatures(parts, coastline, loop, grid.features);
-  reserveOn(loop, grid.triangles, triangle_count);
+  grid.triangles.reserve(triangle_count);
   for (const MeshedDomain& part : parts) {
     const NodeIndices indices = nodeIndices(*part.mesh, static_cast<std::uint32_t>(grid.nodes.size()), loop);
-    const std::vector<std::uint32_t>& index_of = indices.of;
+    const BulkList<std::uint32_t>& index_of = indices.of;
     const std::size_t before = grid.triangles.size();
     appendCorners(*part.mesh, loop, grid);
     appendLines(*part.domain, *part.mesh, index_of, grid.lines);
     std::vector<Boundary> boundaries;
     const std::vector<NodePair> open = openEdges(*part.domain, *part.mesh, loop);
-    for (Boundary& whole : findBoundaries(*part.mesh, loop))
-      std::ranges::move(splitLoop(std::move(whole), open), std::back_inserter(boundaries));
+    std::vector<Boundary> loops = findBoundaries(*part.mesh, loop);
+    constexpr std::size_t kWorthAStretch = 16;
+    const auto splitLoops = [&](std::size_t first, std::size_t last) {
+      std::vector<Boundary> pieces;
+      for (Boundary& whole : std::span(loops).subspan(first, last - first))
+        std::ranges::move(splitLoop(std::move(whole), open), std::back_inserter(pieces));
+      return pieces;
+    };
+    for (std::vector<Boundary>& pieces : overStretches(loop, loops.size(), splitLoops, kWorthAStretch))
+      std::ranges::move(pieces, std::back_inserter(boundaries));
     if (part.triangles_done) part.triangles_done();
-    reserveOn(loop, grid.nodes, point_count);
-    reserveOn(loop, grid.min_angle_deg, triangle_count);
-    if (!feature_index.empty()) reserveOn(loop, grid.feature_of, triangle_count);
+    grid.nodes.reserve(point_count);
+    grid.min_angle_deg.reserve(triangle_count);
+    if (!feature_index.empty()) grid.feature_of.reserve(triangle_count);
     appendNodes(part, grid.crs.geographic, indices, loop, grid.nodes);
     if (part.size_m != nullptr) {
       grid.size_m.resize(grid.nodes.size());
-      for (std::size_t v = 0; v < index_of.size(); ++v)
+      forEachByStretches(loop, index_of.size(), [&](std::size_t v) {
         if (index_of[v] != kNone) grid.size_m[index_of[v]] = (*part.size_m)[v];
+      });
     }
     finishTriangles(*part.mesh, part.ground, index_of, feature_index, loop, before, grid);
-    constexpr std::size_t kWorthAStretch = 16;
     const auto finish = [&](std::size_t first, std::size_t last) {
       for (Boundary& boundary : std::span(boundaries).subspan(first, last - first)) {
         for (std::uint32_t& node : boundary.nodes) node = index_of[node];

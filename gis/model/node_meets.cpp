@@ -24,35 +24,41 @@ struct PlacedNode {
 }  // namespace
 
 std::vector<std::uint32_t> repeatedNodes(const Grid& grid, const ItemLoop& loop) {
-  std::vector<PlacedNode> nodes(grid.nodes.size());
+  std::vector<PlacedNode> nodes;
+  reserveOn(loop, nodes, grid.nodes.size());
+  nodes.resize(grid.nodes.size());
   forEachByStretches(loop, nodes.size(), [&](std::size_t i) {
     nodes[i] = {grid.nodes[i], static_cast<std::uint32_t>(i)};
   });
   sortOn(loop, nodes);
-  std::vector<std::uint32_t> found;
-  for (std::size_t i = 1; i < nodes.size(); ++i)
-    if (nodes[i].place == nodes[i - 1].place) found.push_back(nodes[i].node);
-  return found;
+  return joined(overStretches(loop, nodes.size(), [&](std::size_t first, std::size_t last) {
+    std::vector<std::uint32_t> found;
+    for (std::size_t i = std::max<std::size_t>(first, 1); i < last; ++i)
+      if (nodes[i].place == nodes[i - 1].place) found.push_back(nodes[i].node);
+    return found;
+  }));
 }
 
 std::vector<std::uint32_t> hangingNodes(const Grid& grid, const TriMesh& mesh, const ItemLoop& loop) {
   constexpr double kOnEdge = 1e-7;  // share of the edge's length
-  std::vector<NodePair> edges;
-  std::vector<Box> boxes;
-  std::vector<std::uint32_t> nodes;
-  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
-    for (unsigned i = 0; i < 3; ++i) {
-      if (mesh.triangles[t].adj[i] != kNone) continue;
-      const std::uint32_t a = mesh.origin(edgeRef(t, i)), b = mesh.target(edgeRef(t, i));
-      edges.push_back({a, b});
-      boxes.push_back(Box::of(grid.nodes[a], grid.nodes[b]));
-      nodes.push_back(a);
-    }
-  }
-  const BoxTree tree(boxes, BoxTree::Order::Hilbert);
-  std::ranges::sort(nodes);
-  const auto repeated = std::ranges::unique(nodes);
-  nodes.erase(repeated.begin(), repeated.end());
+  const std::vector<NodePair> edges =
+      joined(overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
+        std::vector<NodePair> some;
+        for (auto t = static_cast<TriId>(first); t < last; ++t)
+          for (unsigned i = 0; i < 3; ++i)
+            if (mesh.triangles[t].adj[i] == kNone)
+              some.push_back({mesh.origin(edgeRef(t, i)), mesh.target(edgeRef(t, i))});
+        return some;
+      }));
+  std::vector<Box> boxes(edges.size());
+  std::vector<std::uint32_t> nodes(edges.size());
+  forEachByStretches(loop, edges.size(), [&](std::size_t e) {
+    boxes[e] = Box::of(grid.nodes[edges[e][0]], grid.nodes[edges[e][1]]);
+    nodes[e] = edges[e][0];
+  });
+  const BoxTree tree(boxes, BoxTree::Order::Hilbert, loop);
+  sortOn(loop, nodes);
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   const auto isHanging = [&](std::uint32_t node) {
     const Point& p = grid.nodes[node];
     bool hangs = false;

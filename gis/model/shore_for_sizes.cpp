@@ -117,7 +117,7 @@ std::vector<double> depthsAt(const std::vector<Point>& places, const Crs& crs, c
                              const RunControl& control, const ItemLoop& loop) {
   Grid nodes;
   nodes.crs = crs;
-  nodes.nodes = places;
+  nodes.nodes.assign(places.begin(), places.end());
   DepthOptions options = depths;
   options.method = DepthMethod::Bilinear;
   options.fill = DepthFill::None;

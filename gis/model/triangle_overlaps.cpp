@@ -23,8 +23,8 @@ using Corners = std::array<SphereVector, 3>;
 // Places in space: on the unit sphere, or in the plane z = 0.
 class Places {
  public:
-  Places(const Grid& grid, const ItemLoop& loop)
-      : grid_(grid), on_sphere_(grid.crs.geographic), places_(grid.nodes.size()) {
+  Places(const Grid& grid, const ItemLoop& loop) : grid_(grid), on_sphere_(grid.crs.geographic) {
+    resizeUnset(places_, grid.nodes.size());
     forEachByStretches(loop, places_.size(), [&](std::size_t node) {
       const Point& p = grid.nodes[node];
       places_[node] = on_sphere_ ? onSphere(asLonLat(p)) : SphereVector{p.x, p.y, 0.0};
@@ -76,7 +76,7 @@ class Places {
   const Grid& grid_;
   const bool on_sphere_;
   double bend_ = 0.0;
-  std::vector<SphereVector> places_;
+  BulkList<SphereVector> places_;
 };
 
 // The difference of two longitudes, within ±180.
@@ -119,10 +119,10 @@ Box boxOf(const Grid& grid, std::uint32_t t) {
 }
 
 // False if all longitudes are within half a turn.
-bool mayMeetATurnAway(const Grid& grid) {
+bool mayMeetATurnAway(const Grid& grid, const ItemLoop& loop) {
   if (!grid.crs.geographic || grid.nodes.empty()) return false;
-  const auto [west, east] = std::ranges::minmax(grid.nodes, {}, &Point::x);
-  return !(east.x <= 180.0 && west.x >= -180.0 && east.x - west.x < 180.0);
+  const Box all = boxAround(grid.nodes, loop);
+  return !(all.xmax <= 180.0 && all.xmin >= -180.0 && all.xmax - all.xmin < 180.0);
 }
 
 Box shifted(const Box& box, double east) { return {box.xmin + east, box.ymin, box.xmax + east, box.ymax}; }
@@ -132,7 +132,8 @@ Box shifted(const Box& box, double east) { return {box.xmin + east, box.ymin, bo
 std::vector<TriangleOverlap> triangleOverlaps(const Grid& grid, const TriMesh& mesh, const ItemLoop& loop) {
   const auto count = static_cast<std::uint32_t>(grid.triangles.size());
   const Places places(grid, loop);
-  std::vector<std::uint8_t> stands(count);
+  BulkList<std::uint8_t> stands;
+  resizeUnset(stands, count);
   forEachByStretches(loop, count, [&](std::size_t t) {
     stands[t] = places.isCounterClockwise(places.of(static_cast<std::uint32_t>(t)));
   });
@@ -143,7 +144,7 @@ std::vector<TriangleOverlap> triangleOverlaps(const Grid& grid, const TriMesh& m
       if (stands[t] && std::ranges::any_of(mesh.triangles[t].adj, isLoose)) found.push_back(t);
     return found;
   }));
-  const std::vector<double> turns = mayMeetATurnAway(grid) ? std::vector{0.0, -360.0, 360.0} : std::vector{0.0};
+  const std::vector<double> turns = mayMeetATurnAway(grid, loop) ? std::vector{0.0, -360.0, 360.0} : std::vector{0.0};
   std::vector<Box> boxes(loose.size() * turns.size());
   std::vector<std::uint32_t> owner(boxes.size());
   forEachByStretches(loop, loose.size(), [&](std::size_t k) {
@@ -153,7 +154,7 @@ std::vector<TriangleOverlap> triangleOverlaps(const Grid& grid, const TriMesh& m
       owner[k * turns.size() + i] = loose[k];
     }
   });
-  const BoxTree tree(boxes, BoxTree::Order::Hilbert);
+  const BoxTree tree(boxes, BoxTree::Order::Hilbert, loop);
   const auto overlapsWith = [&](std::uint32_t t, const Corners& corners, std::uint32_t k) {
     return owner[k] != t && places.overlap(corners, places.of(owner[k]));
   };

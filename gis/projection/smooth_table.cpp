@@ -129,13 +129,7 @@ SmoothTable tableFor(std::function<Point(const Point&)> map, double side, std::s
                      const ItemLoop& loop) {
   // Evaluations of the map per square, and the factor by which points must outnumber these to be worth a table.
   constexpr double kOfASquare = 61.0, kWorth = 2.0;
-  Box box;
-  for (const Box& some : overStretches(loop, points.size(), [&](std::size_t first, std::size_t last) {
-         Box some_box;
-         for (std::size_t i = first; i < last; ++i) some_box.add(points[i]);
-         return some_box;
-       }))
-    box.add(some);
+  const Box box = boxAround(points, loop);
   const double squares = std::max(1.0, (box.xmax - box.xmin) / side) * std::max(1.0, (box.ymax - box.ymin) / side);
   const bool pays = side > 0.0 && kWorth * kOfASquare * squares < static_cast<double>(points.size());
   return {std::move(map), box, pays ? side : 0.0, loop};

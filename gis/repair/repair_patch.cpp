@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "core/metric.hpp"
 
@@ -185,7 +186,7 @@ bool isMovable(const RepairView& view, std::uint32_t node) {
 
 PatchEdit moveOf(const RepairView& view, std::uint32_t node, std::uint32_t a, std::uint32_t b, double share) {
   const Crs& crs = view.grid.crs;
-  const std::vector<Point>& nodes = view.grid.nodes;
+  const std::span<const Point> nodes = view.grid.nodes;
   PatchEdit edit{.kind = PatchEditKind::NodeMove, .nodes = {a, b}, .share = share, .placed = node};
   edit.place = placeBetween(crs, nodes[node], placeBetween(crs, nodes[a], nodes[b], 0.5), share);
   const double here = zBetween(view.grid, node, node, 0.0), there = zBetween(view.grid, a, b, 0.5);

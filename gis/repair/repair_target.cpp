@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <set>
+#include <span>
 
 #include "core/quality.hpp"
 #include "core/run_control.hpp"
@@ -255,7 +256,7 @@ void reportLeft(std::vector<FoundDefect> defects, RepairReport& report) {
 }
 
 // A flag for each node: true at one of these places.
-std::vector<bool> nodesAt(const std::vector<Point>& nodes, std::vector<Point> places) {
+std::vector<bool> nodesAt(std::span<const Point> nodes, std::vector<Point> places) {
   std::vector<bool> flags;
   if (places.empty()) return flags;
   std::ranges::sort(places, lexLess);
@@ -308,7 +309,7 @@ RepairReport repairForTargets(Grid& grid, std::span<const Target> targets, const
                               RepairMemory* memory, const RunControl& control, const ItemLoop& loop) {
   // Longitudes are unwrapped as in the files that models read: across a jump of 360°, shapes in degrees would be wrong.
   std::vector<bool> asked = nodesAt(grid.nodes, options.asked);
-  const TurnedNodes turned(grid);
+  const TurnedNodes turned(grid, loop);
   RepairReport report = repairInOneTurn(grid, targets, options, std::move(asked), memory, control, loop);
   turned.putBack(grid);
   for (Repair& repair : report.repairs) repair.place = turned.putBack(repair.place);

@@ -4,6 +4,7 @@
 #include <array>
 #include <functional>
 #include <numeric>
+#include <span>
 
 #include "core/predicates.hpp"
 #include "core/quality.hpp"
@@ -96,8 +97,8 @@ void mendClockwise(RepairState& state, std::span<const FoundDefect> defects) {
 }
 
 bool dropCopies(RepairState& state, std::span<const FoundDefect> defects) {
-  const std::vector<GridCorners>& triangles = state.grid.triangles;
-  std::vector<GridCorners> key = triangles;
+  const std::span<const GridCorners> triangles = state.grid.triangles;
+  std::vector<GridCorners> key(triangles.begin(), triangles.end());
   for (GridCorners& corners : key) std::ranges::sort(corners);
   std::vector<std::uint32_t> order(key.size());
   std::iota(order.begin(), order.end(), 0u);

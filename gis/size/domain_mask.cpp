@@ -22,7 +22,7 @@ constexpr double kCellsPerSegment = 16.0;
 Pslg labelledBoundary(const Pslg& pslg) {
   const TriMesh mesh = constrainedDelaunay(pslg);
   Pslg boundary;
-  boundary.points = mesh.points;
+  boundary.points.assign(mesh.points.begin(), mesh.points.end());
   for (TriId t = 0; t < mesh.triangles.size(); ++t) {
     for (unsigned i = 0; i < 3; ++i) {
       const EdgeRef e = edgeRef(t, i);

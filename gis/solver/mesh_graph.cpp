@@ -16,7 +16,7 @@ namespace {
 using Pair = std::array<std::uint32_t, 2>;
 
 // REQUIRES: `pairs` has each edge once.
-MeshGraph graphOf(std::size_t vertices, const std::vector<Pair>& pairs) {
+MeshGraph graphOf(std::size_t vertices, std::span<const Pair> pairs) {
   constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
   if (vertices >= kMost || 2 * pairs.size() >= kMost)
     throw InputError("the mesh is too large to be partitioned: its graph has " + std::to_string(vertices) +
@@ -96,7 +96,7 @@ MeshGraph elementGraph(const Grid& grid, const ItemLoop& loop) {
 }
 
 MeshGraph nodeGraph(const Grid& grid, const ItemLoop& loop) {
-  std::vector<Pair> pairs = uniqueEdges(grid.nodes.size(), grid.triangles, loop);
+  BulkList<Pair> pairs = uniqueEdges(grid.nodes.size(), grid.triangles, loop);
   const std::size_t edges = pairs.size();
   for (const Boundary& boundary : grid.boundaries) {
     for (std::size_t i = 0; i < boundary.back_nodes.size(); ++i) {

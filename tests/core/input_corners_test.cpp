@@ -15,6 +15,7 @@
 #include "core/refine/vertex_notes.hpp"
 #include "core/triangulate/delaunay.hpp"
 #include "tests/support/excused_twin.hpp"
+#include "tests/support/item_loops.hpp"
 #include "tests/support/pslgs.hpp"
 
 namespace coastmesh {
@@ -75,6 +76,28 @@ TEST(InputCorners, ASegmentThatPassesByCounts) {
   EXPECT_NEAR(corners.all()[0].radius, 0.3, 1e-8);
 }
 
+// Many corners are found by a tree, few by a scan, and by threads in any order.
+TEST(InputCorners, ManyAreAsTheFewAre) {
+  const TriangleBound bound(30.0, 180.0, kNoSize);
+  for (const std::size_t count : {1u, 15u, 16u, 40u}) {
+    Pslg all;
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto first = static_cast<VertexId>(all.points.size());
+      const Pslg one = wedgeInABox(i % 2 == 0);
+      for (const Point& p : one.points) all.points.push_back(p + Point{8.0 * static_cast<double>(i), 0.0});
+      for (const Segment& s : one.segments) all.segments.push_back({first + s.a, first + s.b});
+    }
+    const TriMesh mesh = constrainedDelaunay(all);
+    const InputCorners corners(mesh, bound);
+    ASSERT_EQ(corners.all().size(), count);
+    for (const InputCorner& corner : corners.all()) {
+      const auto box = static_cast<int>(std::lround(corner.apex.x / 8.0));
+      EXPECT_NEAR(corner.radius, box % 2 == 0 ? 0.4 : 1.0, 1e-8) << count;
+    }
+    EXPECT_EQ(figuresOf(InputCorners(mesh, bound, testing::backwards)), figuresOf(corners));
+  }
+}
+
 TEST(InputCorners, ExcuseByRule) {
   const InputCorners corners(constrainedDelaunay(wedgeInABox(false)), TriangleBound(30.0, 180.0, kNoSize));
   const Point apex{0, 0};
@@ -116,6 +139,7 @@ TEST_P(InputCornersOf, AreTheSameBeforeAndAfterRefinement) {
       const TriangleBound bound(angle, largest, kNoSize);
       TriMesh mesh = constrainedDelaunay(GetParam().pslg);
       const auto before = figuresOf(InputCorners(mesh, bound));
+      EXPECT_EQ(figuresOf(InputCorners(mesh, bound, testing::backwards)), before);
       refine(mesh, GetParam().pslg, {.min_angle_deg = angle, .max_angle_deg = largest, .max_vertices = 3000});
       EXPECT_EQ(figuresOf(InputCorners(mesh, bound)), before) << angle << " to " << largest;
     }

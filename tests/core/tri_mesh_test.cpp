@@ -11,6 +11,7 @@
 
 #include "core/quality.hpp"
 #include "core/triangulate/delaunay.hpp"
+#include "tests/support/item_loops.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/pslgs.hpp"
 
@@ -110,6 +111,28 @@ TEST(LinkTriangles, EdgeConflictTheOtherWayRoundIsListedToo) {
   linkTriangles({{0, 0}, {1, 0}, {0, 1}, {1, -1}}, std::vector<Corners3>{{1, 0, 3}, {2, 1, 0}}, conflicts);
   ASSERT_THAT(conflicts, ::testing::Not(IsEmpty()));
   for (const EdgeConflict& c : conflicts) EXPECT_EQ(std::minmax(c.a, c.b), std::minmax(0u, 1u));
+}
+
+// Threads may reach triangles in any order.
+TEST(LinkTriangles, InAnyOrderOfWork) {
+  const TriMesh whole = constrainedDelaunay(randomPointsInBox(5, 15000));
+  std::vector<Corners3> corners;
+  for (const Triangle& t : whole.triangles) corners.push_back(t.v);
+  corners.push_back(corners[100]);  // claims the edges of another
+  std::vector<EdgeConflict> conflicts, others;
+  const TriMesh mesh = linkTriangles(whole.points, corners, conflicts);
+  const TriMesh other = linkTriangles(whole.points, corners, others, testing::backwards);
+  ASSERT_EQ(mesh.triangles.size(), other.triangles.size());
+  EXPECT_FALSE(conflicts.empty());
+  ASSERT_EQ(conflicts.size(), others.size());
+  for (std::size_t i = 0; i < conflicts.size(); ++i)
+    EXPECT_EQ(std::pair(conflicts[i].a, conflicts[i].b), std::pair(others[i].a, others[i].b));
+  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
+    EXPECT_EQ(mesh.triangles[t].v, corners[t]);
+    EXPECT_EQ(mesh.triangles[t].adj, other.triangles[t].adj);
+  }
+  EXPECT_EQ(mesh.regions, BulkList<RegionId>(corners.size(), 0));
+  EXPECT_EQ(boundaryLoops(mesh), boundaryLoops(mesh, testing::backwards));
 }
 
 TEST(LinkTriangles, Nothing) {

@@ -80,7 +80,7 @@ inline TriMesh lattice(
     }
   }
   std::vector<EdgeConflict> conflicts;
-  return linkTriangles(std::move(points), corners, conflicts);
+  return linkTriangles({points.begin(), points.end()}, corners, conflicts);
 }
 
 // Two lakes, the first with an island and an open boundary, with full mantissas in all coordinates. Lies around

@@ -6,8 +6,10 @@
 #include <array>
 #include <numeric>
 #include <set>
+#include <tuple>
 #include <vector>
 
+#include "core/metric.hpp"
 #include "core/refine/refine.hpp"
 #include "core/refine/submesh_runs.hpp"
 #include "core/triangulate/delaunay.hpp"
@@ -88,6 +90,70 @@ TEST_P(CutInto, PartitionTakesEveryTriangleOnce) {
       }
     }
     EXPECT_TRUE(std::ranges::all_of(seen, [](int times) { return times == 1; }));
+  }
+}
+
+// Cuts a range of samples as `partition` promises: sorted anew for each cut.
+void cutSorted(std::vector<std::array<double, 3>> samples, PieceId first, PieceId pieces, std::uint32_t node,
+               std::vector<CutTree::Node>& nodes) {
+  nodes[node].piece = first;
+  if (pieces == 1 || samples.size() < 2) return;
+  std::array<double, 2> low{1e9, 1e9}, high{-1e9, -1e9};
+  double whole = 0.0;
+  for (const auto& sample : samples) {
+    whole += sample[2];
+    for (unsigned axis = 0; axis < 2; ++axis) {
+      low[axis] = std::min(low[axis], sample[axis]);
+      high[axis] = std::max(high[axis], sample[axis]);
+    }
+  }
+  const unsigned axis = high[0] - low[0] >= high[1] - low[1] ? 0 : 1;
+  std::ranges::sort(samples, {}, [axis](const auto& s) { return std::tuple(s[axis], s[1 - axis], s[2]); });
+  const PieceId lower = pieces / 2;
+  const double share = whole * lower / pieces;
+  std::size_t middle = 0;
+  for (double sum = 0.0; middle + 1 < samples.size() && sum < share; ++middle) sum += samples[middle][2];
+  nodes[node] = {axis, samples[middle][axis], {node + 1, node + 2 * lower}, first, false};
+  const auto at = samples.begin() + static_cast<std::ptrdiff_t>(middle);
+  cutSorted({samples.begin(), at}, first, lower, node + 1, nodes);
+  cutSorted({at, samples.end()}, first + lower, pieces - lower, node + 2 * lower, nodes);
+}
+
+// Also where many samples are equal, and in meshes so large that threads share the work.
+TEST_P(CutInto, CutsHalveTheWeightAlongTheLongerSide) {
+  std::vector<Point> points;
+  std::vector<std::array<VertexId, 3>> corners;
+  for (const int columns : {20, 150}) {
+    points.clear();
+    corners.clear();
+    for (int i = 0; i < columns; ++i) {
+      for (int j = 0; j < columns; ++j) {
+        const auto first = static_cast<VertexId>(points.size());
+        points.insert(points.end(),
+                      {{i / 2 * 1.0, j / 3 * 1.0}, {i / 2 + 1.0, j / 3 * 1.0}, {i / 2 * 1.0, j / 3 + 1.0}});
+        corners.push_back({first, first + 1, first + 2});
+      }
+    }
+    std::vector<EdgeConflict> conflicts;
+    const TriMesh mesh = linkTriangles({points.begin(), points.end()}, corners, conflicts);
+    const auto weight = [](TriId t) { return 1.0 + 0.1 * (t % 7); };
+    Recorder recorder;
+    Partition parts;
+    partition(mesh, {}, GetParam(), 0.0, weight, recorder, parts);
+    const std::size_t count = corners.size(), stride = std::max<std::size_t>(1, count / (128 * GetParam()));
+    std::vector<std::array<double, 3>> samples;
+    for (std::size_t t = 0; t < count; t += stride) {
+      const Point middle = centroid(points[3 * t], points[3 * t + 1], points[3 * t + 2]);
+      samples.push_back({middle.x, middle.y, weight(static_cast<TriId>(t))});
+    }
+    std::vector<CutTree::Node> expected(2 * GetParam() - 1);
+    cutSorted(samples, 0, GetParam(), 0, expected);
+    for (std::size_t n = 0; n < expected.size(); ++n) {
+      EXPECT_EQ(parts.tree.nodes[n].leaf, expected[n].leaf);
+      EXPECT_EQ(parts.tree.nodes[n].axis, expected[n].axis);
+      EXPECT_EQ(parts.tree.nodes[n].cut, expected[n].cut);
+      EXPECT_EQ(parts.tree.nodes[n].piece, expected[n].piece);
+    }
   }
 }
 

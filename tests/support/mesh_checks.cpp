@@ -34,7 +34,7 @@ void expectValidMesh(const TriMesh& mesh, const CheckOptions& options) {
 
 TriMesh meshOf(std::vector<Point> points, const std::vector<std::array<VertexId, 3>>& corners) {
   std::vector<EdgeConflict> conflicts;
-  TriMesh mesh = linkTriangles(std::move(points), corners, conflicts);
+  TriMesh mesh = linkTriangles({points.begin(), points.end()}, corners, conflicts);
   EXPECT_TRUE(conflicts.empty());
   return mesh;
 }

@@ -44,7 +44,7 @@ using Kinds = std::set<DefectKind>;
 // The mesh as read from a file, which has coordinates and corners only: all links are rebuilt. Steiner points are
 // rounded to multiples of `rounding`.
 TriMesh asRead(const TriMesh& mesh, double rounding) {
-  std::vector<Point> points = mesh.points;
+  std::vector<Point> points(mesh.points.begin(), mesh.points.end());
   if (rounding > 0.0)
     for (std::size_t v = mesh.input_vertices; v < points.size(); ++v)
       points[v] = {std::round(points[v].x / rounding) * rounding, std::round(points[v].y / rounding) * rounding};
@@ -390,7 +390,7 @@ ClosedSample dividedOctahedron(const std::set<VertexId>& face, const SpacePoint&
   const SpacePoint u = (1.0 / std::hypot(w.x, w.y)) * SpacePoint{-w.y, w.x, 0.0}, v = cross(u, w);
   const SpacePoint place = (1.0 / std::sqrt(dot(towards, towards))) * towards;
   sample.places.push_back(place);
-  std::vector<Point> points = sample.mesh.points;
+  std::vector<Point> points(sample.mesh.points.begin(), sample.mesh.points.end());
   const double shrink = 2.0 / (1.0 - dot(place, w));
   points.push_back({shrink * dot(place, u), shrink * dot(place, v)});
   std::vector<std::array<VertexId, 3>> faces;
@@ -495,7 +495,8 @@ TEST(CheckMesh, TriangleThatIsMissing) {
   std::vector<std::array<VertexId, 3>> corners;
   for (const Triangle& t : sample.mesh.triangles) corners.push_back(t.v);
   corners.pop_back();
-  const auto kinds = kindsIn(checkMesh(meshOf(sample.mesh.points, corners), &sample.pslg, {}));
+  const auto kinds =
+      kindsIn(checkMesh(meshOf({sample.mesh.points.begin(), sample.mesh.points.end()}, corners), &sample.pslg, {}));
   EXPECT_TRUE(kinds.contains(DefectKind::WrongArea));
 }
 

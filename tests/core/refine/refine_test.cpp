@@ -511,7 +511,7 @@ TEST(Refine, OptionsBeyondTheirRangesAreMisuse) {
     TriMesh mesh = constrainedDelaunay(pslg);
     EXPECT_THROW(refine(mesh, pslg, options), std::invalid_argument);
     EXPECT_THROW(coarsen(mesh, pslg, options), std::invalid_argument);
-    EXPECT_EQ(mesh.points, pslg.points) << "the mesh stays as it was";
+    EXPECT_TRUE(std::ranges::equal(mesh.points, pslg.points)) << "the mesh stays as it was";
   }
 }
 

@@ -6,17 +6,19 @@
 #include <GeographicLib/PolygonArea.hpp>
 #include <cmath>
 #include <numeric>
+#include <span>
 
 #include "gis/error.hpp"
 #include "gis/projection/projection.hpp"
 #include "tests/gis/grid_samples.hpp"
+#include "tests/support/bulk_lists.hpp"
 
 namespace coastmesh {
 namespace {
 
 using testing::lattice;
 
-double polygonArea(const std::vector<Point>& nodes, const std::vector<std::uint32_t>& loop) {
+double polygonArea(std::span<const Point> nodes, const std::vector<std::uint32_t>& loop) {
   GeographicLib::PolygonArea polygon(GeographicLib::Geodesic::WGS84());
   for (std::uint32_t node : loop) polygon.AddPoint(nodes[node].y, nodes[node].x);
   double perimeter = 0.0, area = 0.0;
@@ -50,7 +52,7 @@ TEST_P(TriangleAreas, AddUpToThePolygon) {
       [&](int i, int j) {
         return Point{south_west.x + degrees * (i + shift(random)), south_west.y + degrees * (j + shift(random))};
       });
-  const std::vector<double> areas = triangleAreas(mesh.points, cornersOf(mesh), wgs84());
+  const BulkList<double> areas = triangleAreas(mesh.points, cornersOf(mesh), wgs84());
   const double sum = std::accumulate(areas.begin(), areas.end(), 0.0);
   const double whole = polygonArea(mesh.points, boundaryLoops(mesh).at(0));
   // PolygonArea is accurate to about 0.1 square metres.
@@ -68,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(Places, TriangleAreas,
 TEST(TriangleAreas, OfFewAreThoseOfAll) {
   const std::vector<Point> nodes{{5.0, 60.0}, {5.12, 60.01}, {5.05, 60.14}, {5.2, 60.1}, {12.0, 61.0}};
   const std::vector<std::array<std::uint32_t, 3>> all{{0, 1, 2}, {1, 3, 2}, {3, 4, 2}}, few{{3, 4, 2}, {0, 1, 2}};
-  const std::vector<double> areas = triangleAreas(nodes, all, wgs84());
+  const BulkList<double> areas = triangleAreas(nodes, all, wgs84());
   EXPECT_EQ(areasOfFew(nodes, few, wgs84()), (std::vector<double>{areas[2], areas[0]}));
 }
 
@@ -110,8 +112,8 @@ TEST(TriangleAreas, AreTheSameInAProjectedCrs) {
   const Projection utm = Projection::to(wgs84(), parseCrs("EPSG:32616"));
   std::vector<Point> projected;
   for (const Point& p : mesh.points) projected.push_back(utm.forward(p));
-  const std::vector<double> areas = triangleAreas(mesh.points, cornersOf(mesh), wgs84());
-  const std::vector<double> again = triangleAreas(projected, cornersOf(mesh), parseCrs("EPSG:32616"));
+  const BulkList<double> areas = triangleAreas(mesh.points, cornersOf(mesh), wgs84());
+  const BulkList<double> again = triangleAreas(projected, cornersOf(mesh), parseCrs("EPSG:32616"));
   for (std::size_t t = 0; t < areas.size(); ++t) EXPECT_NEAR(again[t], areas[t], 1e-8 * areas[t]);
 }
 

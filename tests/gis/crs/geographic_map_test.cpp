@@ -41,7 +41,7 @@ TEST(GeographicMap, HasDegreesWhateverTheCrsCountsIn) {
   EXPECT_NEAR(place.lat, 52 * 0.9, 1e-6);
   const std::vector<Point> square{{600000, 2200000}, {610000, 2200000}, {610000, 2210000}, {600000, 2210000}};
   const std::vector<std::array<std::uint32_t, 3>> triangles{{0, 1, 2}, {0, 2, 3}};
-  const std::vector<double> areas = triangleAreas(square, triangles, france);
+  const BulkList<double> areas = triangleAreas(square, triangles, france);
   EXPECT_NEAR((areas[0] + areas[1]) * 0.99988 * 0.99988, 1e8, 1e4);
   EXPECT_NEAR(edgeLengths(square, triangles, france)[0][0] * 0.99988, 1e4, 0.5);
   EXPECT_NEAR(chainLengths({{square[0], square[1]}}, france)[0] * 0.99988, 1e4, 0.5);

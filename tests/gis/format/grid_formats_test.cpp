@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <span>
 #include <tuple>
 
 #include "gis/crs/crs_map.hpp"
@@ -52,13 +53,13 @@ std::map<std::pair<std::uint32_t, std::uint32_t>, bool> openEdges(const Grid& gr
   return edges;
 }
 
-std::vector<std::uint64_t> bitsOf(const std::vector<double>& values) {
+std::vector<std::uint64_t> bitsOf(std::span<const double> values) {
   std::vector<std::uint64_t> bits;
   for (double value : values) bits.push_back(std::bit_cast<std::uint64_t>(value));
   return bits;
 }
 
-std::vector<std::uint64_t> bitsOf(const std::vector<Point>& points) {
+std::vector<std::uint64_t> bitsOf(std::span<const Point> points) {
   std::vector<std::uint64_t> bits;
   for (const Point& p : points) {
     bits.push_back(std::bit_cast<std::uint64_t>(p.x));
@@ -74,7 +75,7 @@ void expectSame(const Grid& got, const Grid& want, const std::string& format) {
   EXPECT_EQ(bitsOf(got.nodes), bitsOf(want.nodes));
   EXPECT_EQ(bitsOf(got.z), bitsOf(want.z));
   EXPECT_EQ(got.triangles, want.triangles);
-  EXPECT_EQ(got.feature_of, carried.features ? want.feature_of : std::vector<std::uint32_t>());
+  EXPECT_EQ(got.feature_of, carried.features ? want.feature_of : BulkList<std::uint32_t>());
   EXPECT_TRUE(sameCrs(got.crs, want.crs)) << nameOf(got.crs);
   EXPECT_EQ(got.crs.authority, want.crs.authority);
   EXPECT_EQ(openEdges(got), openEdges(want));

@@ -4,6 +4,7 @@
 
 #include <numbers>
 #include <set>
+#include <span>
 
 #include "gis/crs/ogr_support.hpp"
 #include "gis/format/grid_layers.hpp"
@@ -12,6 +13,7 @@
 #include "gis/grid/map_parts.hpp"
 #include "gis/grid/wind_triangles.hpp"
 #include "tests/gis/grid_samples.hpp"
+#include "tests/support/bulk_lists.hpp"
 
 namespace coastmesh {
 namespace {
@@ -52,7 +54,7 @@ Point onGlobe(const Point& centre, const Point& plane, double west) {
 Grid gridOf(const TriMesh& plane, std::vector<Point> nodes) {
   Grid grid;
   grid.crs = wgs84();
-  grid.nodes = std::move(nodes);
+  grid.nodes.assign(nodes.begin(), nodes.end());
   for (const Triangle& t : plane.triangles) grid.triangles.push_back(t.v);
   grid.boundaries = findBoundaries(plane);
   grid.area_m2 = triangleAreas(grid.nodes, grid.triangles, grid.crs);
@@ -150,7 +152,7 @@ class LayersOnTheGlobe : public ::testing::TestWithParam<const char*> {
 };
 
 void expectSame(const Grid& got, const Grid& want) {
-  const auto bits = [](const std::vector<Point>& points) {
+  const auto bits = [](std::span<const Point> points) {
     std::vector<std::array<std::uint64_t, 2>> all;
     for (const Point& p : points) all.push_back({std::bit_cast<std::uint64_t>(p.x), std::bit_cast<std::uint64_t>(p.y)});
     return all;

@@ -14,6 +14,7 @@
 #include "gis/format/grid_io.hpp"
 #include "gis/lower_case.hpp"
 #include "tests/gis/grid_samples.hpp"
+#include "tests/support/bulk_lists.hpp"
 
 namespace coastmesh {
 namespace {

@@ -11,6 +11,7 @@
 
 #include "gis/error.hpp"
 #include "tests/gis/grid_samples.hpp"
+#include "tests/support/bulk_lists.hpp"
 
 namespace coastmesh {
 namespace {

@@ -3,7 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
 #include <random>
+
+#include "core/hilbert.hpp"
+#include "tests/support/item_loops.hpp"
 
 namespace coastmesh {
 namespace {
@@ -39,6 +43,34 @@ TEST_P(BoxTreeTest, FindsWhatAScanFinds) {
       std::sort(found.begin(), found.end());
       EXPECT_EQ(found, expected);
     }
+  }
+}
+
+// So many that threads share the work. One in ten boxes is empty.
+TEST(BoxTreeOrder, IsTheSameHoweverWorkIsShared) {
+  std::mt19937_64 random(3);
+  std::vector<Box> boxes = randomBoxes(random, 70000, 10, 1);
+  for (std::size_t i = 0; i < boxes.size(); i += 10) boxes[i] = Box();
+  for (std::size_t i = 0; i < 20000; ++i) boxes[i] = Box();
+  std::vector<Point> centres;
+  for (const Box& box : boxes)
+    if (!box.empty()) centres.push_back({box.xmin / 2 + box.xmax / 2, box.ymin / 2 + box.ymax / 2});
+  std::vector<std::uint32_t> full, expected;
+  for (std::uint32_t i = 0; i < boxes.size(); ++i)
+    if (!boxes[i].empty()) full.push_back(i);
+  for (const std::uint32_t i : hilbertOrder(centres)) expected.push_back(full[i]);
+  for (const ItemLoop& loop : {ItemLoop(inOrder), ItemLoop(testing::backwards)}) {
+    const BoxTree tree(boxes, BoxTree::Order::Hilbert, loop);
+    std::vector<std::uint32_t> order;
+    for (std::size_t block = 0; block < tree.blockCount(); ++block)
+      std::ranges::copy_if(tree.block(block), std::back_inserter(order),
+                           [&](std::uint32_t item) { return !boxes[item].empty(); });
+    EXPECT_EQ(order, expected);
+    const Box query{-1, -1, 0, 0};
+    std::size_t found = 0;
+    tree.visit(query, [&](std::uint32_t) { ++found; });
+    EXPECT_EQ(found,
+              static_cast<std::size_t>(std::ranges::count_if(boxes, [&](const Box& box) { return box.meets(query); })));
   }
 }
 

@@ -13,6 +13,7 @@
 #include "gis/format/grid_io.hpp"
 #include "tests/gis/globe_samples.hpp"
 #include "tests/gis/grid_samples.hpp"
+#include "tests/support/bulk_lists.hpp"
 
 namespace coastmesh {
 namespace {

@@ -76,7 +76,8 @@ TEST(FindMissingBoundaries, TellsShoresFromIslandsAcrossTheAntimeridian) {
   Grid grid;
   grid.crs = parseCrs("EPSG:4326");
   grid.nodes = mesh.points;
-  grid.triangles = cornersOf(mesh);
+  const auto corners = cornersOf(mesh);
+  grid.triangles.assign(corners.begin(), corners.end());
   findMissingBoundaries(grid);
   ASSERT_EQ(grid.boundaries.size(), 2u);
   for (const Boundary& boundary : grid.boundaries)

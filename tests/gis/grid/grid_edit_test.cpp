@@ -15,6 +15,7 @@
 #include "gis/grid/boundary_kinds.hpp"
 #include "gis/repair/repair_target.hpp"
 #include "tests/gis/grid_samples.hpp"
+#include "tests/support/bulk_lists.hpp"
 
 namespace coastmesh {
 namespace {
@@ -437,7 +438,7 @@ TEST(RepairTarget, TheAntimeridianIsNoDefect) {
       if (i == 5 * (kSide + 1) + 6) p = {p.x + 0.6 * dent, p.y + dent};
       p = {std::remainder(middle + (p.x - kBorderX) * 1e-5, 360.0), p.y * 1e-5};
     }
-    const std::vector<Point> before = grid.nodes;
+    const BulkList<Point> before = grid.nodes;
     const RepairReport report = repairForTargets(grid, std::array{Target::Swan});
     if (dent == 0.0) {
       EXPECT_EQ(grid.nodes, before);

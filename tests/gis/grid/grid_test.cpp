@@ -14,6 +14,7 @@
 #include "gis/grid/one_turn.hpp"
 #include "gis/model/make_grid.hpp"
 #include "tests/gis/grid_samples.hpp"
+#include "tests/support/bulk_lists.hpp"
 
 namespace coastmesh {
 namespace {
@@ -74,7 +75,7 @@ TEST(FindBoundaries, AnIslandThatTouchesTheShore) {
     std::vector<Point> points{{0, 0}, {4, -4}, {8, 0}, {4, 4}, {2, 1}, {3, 0}, {2, -1}};
     for (Point& p : points) p = {side * p.x, side * p.y};
     std::vector<EdgeConflict> conflicts;
-    const TriMesh mesh = linkTriangles(points, corners, conflicts);
+    const TriMesh mesh = linkTriangles({points.begin(), points.end()}, corners, conflicts);
     ASSERT_TRUE(conflicts.empty());
     const auto boundaries = findBoundaries(mesh);
     ASSERT_EQ(rolesOf(boundaries), (Roles{BoundaryRole::Land}));
@@ -103,7 +104,7 @@ struct Lake {
     domain.input_points.assign(lonlat.begin(), lonlat.begin() + input);
     domain.pslg.points.assign(plane.begin(), plane.begin() + input);
     std::vector<EdgeConflict> conflicts;
-    mesh = linkTriangles(plane, corners, conflicts);
+    mesh = linkTriangles({plane.begin(), plane.end()}, corners, conflicts);
     mesh.input_vertices = static_cast<VertexId>(input);
   }
 };
@@ -136,7 +137,8 @@ TEST(MakeGrid, OnlyAWholeLoopIsAnIsland) {
   TriMesh mesh = lattice(3, 3, [](int i, int j) { return i != 1 || j != 1; });
   mesh.input_vertices = static_cast<VertexId>(mesh.points.size());
   Domain domain;
-  domain.input_points = domain.pslg.points = mesh.points;
+  domain.input_points.assign(mesh.points.begin(), mesh.points.end());
+  domain.pslg.points = domain.input_points;
   const auto isSouthOfIsland = [](const Point& a, const Point& b) {
     return a.y == b.y && a.y == 1.0 && std::min(a.x, b.x) == 1.0 && std::max(a.x, b.x) == 2.0;
   };
@@ -201,7 +203,8 @@ TEST(MakeGrid, PartsAreConcatenatedAndUnusedPointsDropped) {
   for (std::size_t p = 0; p < 2; ++p) {
     meshes[p].input_vertices = static_cast<VertexId>(meshes[p].points.size());
     meshes[p].regions.assign(2, p == 0 ? 3 : 1);
-    domains[p].pslg.points = domains[p].input_points = meshes[p].points;
+    domains[p].input_points.assign(meshes[p].points.begin(), meshes[p].points.end());
+    domains[p].pslg.points = domains[p].input_points;
   }
   const Grid grid = makeGrid({{&domains[0], &meshes[0]}, {&domains[1], &meshes[1]}}, coastline);
   EXPECT_EQ(grid.nodes, (std::vector<Point>{{0, 0}, {1, 0}, {0, 1}, {1, 1}, {1, 1}, {2, 1}, {1, 2}, {2, 2}}));
@@ -314,7 +317,7 @@ TEST(InOneTurn, StaysWhereLongitudesAreExpected) {
 TEST(TurnedNodes, ComeBackBitForBit) {
   Grid grid = across(60.0, 0.0);
   for (Point& p : grid.nodes) p.x = std::remainder(60.0 + 40.1 * (p.x - 60.0), 360.0);
-  const std::vector<Point> before = grid.nodes;
+  const BulkList<Point> before = grid.nodes;
   ASSERT_GT(widestIn(before, grid), 180.0);
   const TurnedNodes turned(grid);
   ASSERT_TRUE(turned.any());

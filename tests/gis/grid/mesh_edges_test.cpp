@@ -5,6 +5,7 @@
 #include <random>
 #include <set>
 
+#include "tests/support/bulk_lists.hpp"
 #include "tests/support/item_loops.hpp"
 
 namespace coastmesh {

@@ -6,6 +6,7 @@
 
 #include "gis/crs/geodesy.hpp"
 #include "gis/grid/grid_edit.hpp"
+#include "tests/support/item_loops.hpp"
 
 namespace coastmesh {
 namespace {
@@ -54,6 +55,16 @@ TEST(ApartWaters, OneWaterHangsTogetherThroughEdges) {
   pinched.boundaries.push_back({BoundaryRole::Land, true, {2, 4, 5}});
   EXPECT_FALSE(isOneWater(pinched));
   EXPECT_EQ(apartWaters(pinched).size(), 1u);
+}
+
+TEST(ApartWaters, AreTheSameHoweverWorkIsShared) {
+  std::vector<double> sides(30000, 1.0);
+  const Grid grid = squares(sides);
+  const std::vector<ApartWater> apart = apartWaters(grid);
+  EXPECT_EQ(apart.size(), sides.size() - 1);
+  EXPECT_EQ(apart, apartWaters(grid, testing::backwards));
+  EXPECT_FALSE(isOneWater(grid, testing::backwards));
+  EXPECT_TRUE(isOneWater(squares({2.0}), testing::backwards));
 }
 
 TEST(ApartWaters, AreTakenOutOfTheGrid) {

@@ -46,7 +46,7 @@ void addLine(RawLayer& layer, const std::string& column, const std::string& type
 
 // The types of two edges, from (0, 0) to (1, 0) and on to (2, 0).
 Kinds kindsOfTwo(const BoundaryRules& rules) {
-  return rules.kindsOf(Crs{}, {{0, 0}, {1, 0}, {2, 0}}, {{0, 1}, {1, 2}}, {true, true});
+  return rules.kindsOf(Crs{}, std::vector<Point>{{0, 0}, {1, 0}, {2, 0}}, {{0, 1}, {1, 2}}, {true, true});
 }
 
 const Ring kSquare{{0, 0}, {1, 0}, {1, 1}, {0, 1}};

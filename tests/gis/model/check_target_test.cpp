@@ -453,7 +453,8 @@ TEST(CheckTarget, MpasMeasuresProjectedMeshesOnItsSphere) {
     const RepairReport report = repairForTargets(grid, std::array{Target::Mpas});
     EXPECT_EQ(report.repairs.empty(), sound_on_sphere);
     Grid geographic = grid;
-    geographic.nodes = geographicNodes(grid);
+    const std::vector<Point> lonlat = geographicNodes(grid);
+    geographic.nodes.assign(lonlat.begin(), lonlat.end());
     geographic.crs = wgs84();
     EXPECT_EQ(checkTarget(geographic, Target::Mpas).size(), report.left.size());
     EXPECT_EQ(checkTarget(grid, Target::Mpas).size(), report.left.size());

@@ -105,7 +105,7 @@ TEST(MarkRegions, WithoutRegionsNothingChanges) {
   TriMesh mesh = squares();
   Coastline names = coastlineOf({polygonFeature(0, {})});
   EXPECT_TRUE(markRegions(coastline, {0}, Projection::plane(), mesh, names).empty());
-  EXPECT_EQ(mesh.regions, std::vector<RegionId>(mesh.triangles.size(), 0));
+  EXPECT_EQ(mesh.regions, BulkList<RegionId>(mesh.triangles.size(), 0));
   EXPECT_EQ(names.features.size(), 1u);
 }
 

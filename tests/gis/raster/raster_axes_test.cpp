@@ -55,7 +55,7 @@ class RasterAxesTest : public ::testing::Test {
   DepthReport depthsAt(const std::string& path, const std::string& crs, const std::vector<Point>& places) {
     grid_ = {};
     grid_.crs = parseCrs(crs);
-    grid_.nodes = places;
+    grid_.nodes.assign(places.begin(), places.end());
     DepthOptions options{{path}, DepthMethod::Bilinear};
     options.fill = DepthFill::None;
     return setDepths(grid_, options);

@@ -102,7 +102,7 @@ double sizeAt(const RasterField& field, const Point& place) {
 std::vector<double> depthsAt(const std::string& path, const Crs& crs, const std::vector<Point>& places) {
   Grid grid;
   grid.crs = crs;
-  grid.nodes = places;
+  grid.nodes.assign(places.begin(), places.end());
   DepthOptions options{{path}, DepthMethod::Bilinear};
   options.fill = DepthFill::None;
   setDepths(grid, options);

@@ -71,7 +71,7 @@ TEST(RepairWinding, AFoldOfTheShoreIsLeft) {
   const std::uint32_t node = nodeAt(grid, {4000.0, 0.0});
   ASSERT_LT(node, grid.nodes.size());
   grid.nodes[node].y = 2200.0;
-  const std::vector<GridCorners> before = grid.triangles;
+  const BulkList<GridCorners> before = grid.triangles;
   const RepairReport report = repairForTargets(grid, std::array{Target::Adcirc});
   EXPECT_TRUE(report.repairs.empty());
   EXPECT_EQ(grid.triangles, before);
@@ -93,7 +93,7 @@ TEST(RepairWinding, SheetsOverOneAnotherAreLeft) {
 TEST(RepairWinding, CopiesOfATriangleGo) {
   for (const bool turned : {false, true}) {
     Grid grid = soundGrid();
-    const std::vector<GridCorners> before = grid.triangles;
+    const BulkList<GridCorners> before = grid.triangles;
     for (const std::size_t t : {20u, 20u, 0u}) {
       GridCorners copy = grid.triangles[t];
       if (turned) std::swap(copy[0], copy[1]);
