@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <span>
 #include <sstream>
 #include <string_view>
 #include <utility>
 
+#include "gis/crs/length_unit.hpp"
 #include "gis/error.hpp"
 #include "gis/file/netcdf_file.hpp"
 #include "gis/format/grid_names.hpp"
@@ -178,7 +178,7 @@ Rank rankOf(const NetcdfReader& file, const std::string& name, const std::string
 // The variables with depths or elevations of the bed at the nodes, the most reliable first: with the standard_name of
 // an altitude, then with that of a depth of the sea floor, then with no standard_name but a name that models use
 // (FVCOM's `h`, SCHISM's `depth`, D-Flow FM's `mesh2d_node_z`). For the direction, an attribute `positive` takes
-// precedence over names.
+// precedence over names. What is in no unit of length is no depth.
 std::vector<DepthVariable> depthVariables(const NetcdfReader& file, const std::string& mesh, const std::string& x) {
   std::vector<std::pair<Rank, DepthVariable>> found;
   const std::vector<std::string> at_nodes = file.dimensionsOf(x);
@@ -190,7 +190,7 @@ std::vector<DepthVariable> depthVariables(const NetcdfReader& file, const std::s
     if (file.dimensionsOf(name) != at_nodes || file.shape(name) != file.shape(x)) continue;  // a name may be repeated
     if (!isOrUnsaid(name, "mesh", mesh) || !isOrUnsaid(name, "location", "node")) continue;
     const Rank rank = rankOf(file, name, mesh);
-    if (rank == Rank::None) continue;
+    if (rank == Rank::None || !metresInUnit(file.text(name, "units"))) continue;
     const bool depth = rank == Rank::Depth || rank == Rank::DepthName;
     const std::string positive = file.text(name, "positive");
     found.push_back({rank, {name, positive.empty() ? depth : positive == "down"}});
@@ -205,14 +205,9 @@ void readElevation(const NetcdfReader& file, const std::string& mesh, const std:
   const std::vector<DepthVariable> known = depthVariables(file, mesh, x);
   if (known.empty()) return;
   const auto& [name, down] = known.front();
-  grid.z = file.doubles(name);
-  std::vector<double> unknown;
-  for (const char* attribute : {"_FillValue", "missing_value"})
-    if (const auto value = file.number(name, attribute)) unknown.push_back(*value);
-  for (double& z : grid.z) {
-    const bool is_known = std::isfinite(z) && std::ranges::count(unknown, z) == 0;
-    z = is_known ? (down ? 0.0 - z : z) : std::numeric_limits<double>::quiet_NaN();
-  }
+  grid.z = file.knownDoubles(name);
+  const double metres = *metresInUnit(file.text(name, "units"));
+  for (double& z : grid.z) z = (down ? 0.0 - z : z) * metres;
 }
 
 std::vector<double> readFaceData(const NetcdfReader& file, const std::string& name, std::size_t faces) {
