@@ -433,7 +433,8 @@ TEST_F(ReadGrid, UgridDepthsOfModels) {
       {{"zb", "surface_altitude", "up"}, up},
       {{"depth", "", ""}, down},  // SCHISM
       {{"z", "depth", ""}, down},
-      {{"Topology_node_z", "", ""}, up},  // D-Flow FM
+      {{"depth", "depth below geoid", ""}, down},  // ADCIRC
+      {{"Topology_node_z", "", ""}, up},           // D-Flow FM
       {{"NetNode_z", "", "up"}, up},
       {{"Bathymetry", "", "down"}, down},
       {{"salinity", "", ""}, none},
@@ -473,6 +474,54 @@ TEST_F(ReadGrid, UgridWithPackedNumbersAndOtherUnits) {
   EXPECT_EQ(grid.z[1], -4500.0);
   EXPECT_TRUE(std::isnan(grid.z[2]));
   EXPECT_EQ(grid.z[3], -8500.0);
+}
+
+void putText(const std::string& path, const char* variable, const char* attribute, const std::string& value) {
+  int file = 0, id = 0;
+  ASSERT_EQ(nc_open(path.c_str(), NC_WRITE, &file), NC_NOERR);
+  ASSERT_EQ(nc_inq_varid(file, variable, &id), NC_NOERR);
+  nc_redef(file);
+  ASSERT_EQ(nc_put_att_text(file, id, attribute, value.size(), value.data()), NC_NOERR);
+  nc_close(file);
+}
+
+// The file names latitudes first.
+TEST_F(ReadGrid, UgridCoordinatesAreToldApartByCf) {
+  const std::vector<Point> places{{5, 50}, {6, 50}, {6, 51}, {5, 51}};
+  const std::string path = folder_ / "other.nc";
+  for (const auto& [attribute, of_lat, of_lon] :
+       {std::array{"units", "degrees_north", "degrees_east"}, std::array{"units", "degree_N", "degree_E"},
+        std::array{"axis", "Y", "X"}}) {
+    const Ugrid file(path, false);
+    for (const char* variable : {"lat", "lon"}) putText(path, variable, "standard_name", "");
+    putText(path, "lat", attribute, of_lat);
+    putText(path, "lon", attribute, of_lon);
+    EXPECT_EQ(readGrid(path).nodes, places) << of_lat;
+  }
+}
+
+TEST_F(ReadGrid, UgridCoordinatesInOtherUnits) {
+  const std::string path = folder_ / "other.nc";
+  {
+    const Ugrid file(path, false);
+    for (const char* variable : {"lat", "lon"}) packed(path, variable, 0.01, 0.0, "radians");
+    const Grid grid = readGrid(path);
+    EXPECT_TRUE(grid.crs.geographic);
+    EXPECT_NEAR(grid.nodes[0].x, 2.864788975654116, 1e-9);
+    EXPECT_NEAR(grid.nodes[0].y, 28.64788975654116, 1e-9);
+  }
+  const auto projected = [&](const std::string& units, const std::string& code) {
+    const Ugrid file(path, false);
+    putText(path, "lat", "standard_name", "projection_y_coordinate");
+    putText(path, "lon", "standard_name", "projection_x_coordinate");
+    for (const char* variable : {"lat", "lon"}) putText(path, variable, "units", units);
+    putText(path, "lon", "grid_mapping", "Topology");
+    putText(path, "Topology", "EPSG_code", code);
+    return readGrid(path).nodes[0];
+  };
+  EXPECT_EQ(projected("km", "EPSG:28992"), (Point{5000, 50000}));
+  EXPECT_EQ(projected("m", "EPSG:28992"), (Point{5, 50}));
+  EXPECT_EQ(projected("m", "EPSG:2225"), (Point{5, 50}));  // in feet, as the CRS says
 }
 
 TEST_F(ReadGrid, UgridDepthsAreLengths) {
