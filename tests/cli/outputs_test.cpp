@@ -232,7 +232,11 @@ TEST_F(Outputs, AFileSizeLimitLeavesNothing) {
   }
   ASSERT_EQ(runProgram({"mesh", input, "-o", file("m.nc")}).code, 0);
   const std::set<std::string> before = names();
-  EXPECT_EQ(runShell("ulimit -f 1; \"$0\" plot '" + file("m.nc") + "' -o '" + file("m.png") + "'").code, 4);
+  for (const std::string picture : {"m.png", "m.svg", "m.html"}) {
+    const ProgramRun run = runShell("ulimit -f 1; \"$0\" plot '" + file("m.nc") + "' -o '" + file(picture) + "'");
+    EXPECT_EQ(run.code, 4) << picture;
+    EXPECT_THAT(run.errors, HasSubstr(std::strerror(EFBIG))) << picture;
+  }
   for (const std::string defects : {"d.gpkg", "d.geojson", "d.fgb"}) {
     const ProgramRun run =
         runShell("ulimit -f 1; \"$0\" check '" + file("m.nc") + "' --min-angle 55 -o '" + file(defects) + "'");
