@@ -20,6 +20,7 @@
 #include "apps/job/bytes.hpp"
 #include "apps/job/group_bytes.hpp"
 #include "gis/error.hpp"
+#include "gis/file/remove_folder.hpp"
 #include "parallel/byte_hash.hpp"
 
 namespace coastmesh {
@@ -40,7 +41,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char *kLock = "coastmesh.lock", *kRun = "run", *kGroups = "groups", *kRounds = "rounds-",
-                     *kUnfinished = ".new";
+                     *kOutputs = "outputs", *kUnfinished = ".new";
 
 [[noreturn]] void failToKeep(const fs::path& path, int error) {
   throw OutputError("'" + path.string() + "' cannot be written: " + std::strerror(error));
@@ -271,12 +272,31 @@ void CheckpointFolder::requireSameFiles(const std::vector<FileStamp>& kept) cons
       throw InputError("'" + file.path + "' was read" + when + ", and is not now" + remedy());
 }
 
+void CheckpointFolder::replaceUnfinished(const std::vector<fs::path>& folders) {
+  std::vector<std::string> own, before;
+  for (const fs::path& folder : folders) own.push_back(fs::absolute(folder).string());
+  const auto read = [&before, this](std::string_view bytes) {
+    ByteReader(bytes, "'" + (folder_ / kOutputs).string() + "'").pass(before);
+  };
+  try {
+    restoreWhole(kOutputs, read);
+  } catch (const std::runtime_error&) {
+    before.clear();  // damaged: nothing is removed
+  }
+  for (const std::string& folder : before) {
+    const std::string name = fs::path(folder).filename().string();
+    const bool of_outputs = name.starts_with('.') && name.find(".part-") != name.npos;
+    if (of_outputs && std::ranges::find(own, folder) == own.end()) removeFolder(folder.c_str());
+  }
+  keepWhole(kOutputs, [&own](const RegionCheckpoint::Put& put) { BasicByteWriter<PutSink>({&put}).pass(own); });
+}
+
 void CheckpointFolder::begin(std::uint64_t input_digest, std::size_t groups) {
   if (begun_ && std::tie(header_.input_digest, header_.groups) != std::tuple(input_digest, std::uint64_t{groups}))
     throw InputError("the input has changed since '" + folder_.string() + "' was begun" + remedy());
   if (!begun_) {
     // A run may have ended while it removed its files.
-    removeKept();
+    removeKept(kOutputs);
     header_.input_digest = input_digest;
     header_.groups = groups;
     keepWhole(kRun, [this](const RegionCheckpoint::Put& put) {
@@ -391,12 +411,13 @@ bool CheckpointFolder::restoreWhole(const std::string& name, const RegionCheckpo
 
 CheckpointUse CheckpointFolder::use() const { return {groups_taken_, regions_gone_on_, rounds_kept_, bytes_kept_}; }
 
-void CheckpointFolder::removeKept() const {
+void CheckpointFolder::removeKept(std::string_view besides) const {
   std::error_code ignored;
   // First the file without which no run resumes.
   fs::remove(folder_ / kRun, ignored);
   for (const std::string& name : namesIn(folder_, ignored))
-    if (name == kGroups || name.starts_with(kRounds) || name.ends_with(kUnfinished))
+    if (name != besides &&
+        (name == kGroups || name == kOutputs || name.starts_with(kRounds) || name.ends_with(kUnfinished)))
       fs::remove(folder_ / name, ignored);
 }
 

@@ -6,6 +6,7 @@
 #include <functional>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
@@ -48,6 +49,9 @@ class CheckpointFolder {
   CheckpointFolder(const CheckpointFolder&) = delete;
   CheckpointFolder& operator=(const CheckpointFolder&) = delete;
 
+  // Notes the folders of this run's unfinished outputs, and removes those of the run before: if that was killed, it has
+  // left them.
+  void replaceUnfinished(const std::vector<std::filesystem::path>& folders);
   // To be called once the input is read.
   void begin(std::uint64_t input_digest, std::size_t groups);
   // The functions below may be called from several threads.
@@ -72,7 +76,7 @@ class CheckpointFolder {
   void requireSameRun(const CheckpointHeader& kept) const;
   void requireSameFiles(const std::vector<FileStamp>& kept) const;
   void readGroups();
-  void removeKept() const;
+  void removeKept(std::string_view besides = {}) const;
   void remove(bool folder_too);
   void keepWhole(const std::string& name, const std::function<void(const RegionCheckpoint::Put&)>& write);
   bool restoreWhole(const std::string& name, const RegionCheckpoint::Read& read) const;

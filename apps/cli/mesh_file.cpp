@@ -1,6 +1,7 @@
 #include "apps/cli/mesh_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "gis/crs/geodesy.hpp"
 #include "gis/error.hpp"
@@ -34,6 +35,22 @@ void warnOfNotes(const MeshFile& file, const Grid& grid, Run& run) {
              " more inconsistencies; check with --target finds them");
 }
 
+// Longitudes are those of any turn that files have: 0 to 360, or on past 180.
+bool mayBeDegrees(const Grid& grid) {
+  return std::ranges::all_of(grid.nodes,
+                             [](const Point& p) { return std::abs(p.x) <= 360.0 && std::abs(p.y) <= 90.0; });
+}
+
+// Files for models have no CRS, and models read degrees from many of them.
+void warnOfDegrees(const MeshFile& file, const Grid& grid, Run& run) {
+  const GridFormat* const format = gridFormatOf(file.path);
+  if (!file.crs.empty() || !grid.crs.isPlane() || format == nullptr || !format->says_depth) return;
+  if (!mayBeDegrees(grid)) return;
+  run.warn("'" + file.path +
+           "' does not say its CRS, so coordinates are lengths in a plane; all lie within ±360, ±90: if they are "
+           "degrees, give --assume-crs EPSG:4326, otherwise --assume-crs plane");
+}
+
 }  // namespace
 
 Grid readMeshFile(const MeshFile& file, Run& run, FileNotes notes) {
@@ -42,6 +59,7 @@ Grid readMeshFile(const MeshFile& file, Run& run, FileNotes notes) {
   if (grid.triangles.empty()) throw InputError("'" + file.path + "' holds no triangle");
   if (const std::string remark = remarkOnGrid(file.path); !remark.empty()) run.warn(remark);
   if (notes == FileNotes::Warnings) warnOfNotes(file, grid, run);
+  warnOfDegrees(file, grid, run);
   if (!file.crs.empty() && !sameCrs(grid.crs, assumed)) warnOfCrs(file, "'" + file.path + "' says its CRS", run);
   return grid;
 }

@@ -338,7 +338,10 @@ int runMesh(const MeshRunUsage& usage, Run& run) {
     if (isShardFile(path)) shard_files.push_back(&outputs.addFile(path));
   outputs.addReport(usage.report);
   KeptGroups kept{ShardWriter(given, job.exchange.shard, job.exchange.shards), std::nullopt, to_shard};
-  if (to_checkpoint) kept.checkpoint.emplace(usage.checkpoint, checkpointHeader(run, given, job.exchange));
+  if (to_checkpoint) {
+    kept.checkpoint.emplace(usage.checkpoint, checkpointHeader(run, given, job.exchange));
+    kept.checkpoint->replaceUnfinished(outputs.unfinished());
+  }
   exchangeWith(kept, job.exchange);
   job.keep_edits = edits != nullptr || to_shard || to_checkpoint;  // a later run may write them
   if (run.cluster != nullptr) {

@@ -46,6 +46,8 @@ class RunOutputs {
   // A report: in a file, or on standard output if `path` is "-". Nothing if `path` is empty.
   void addReport(const std::string& path);
 
+  // The folders that hold the outputs until they are moved into place.
+  const std::vector<std::filesystem::path>& unfinished() const { return guarded_; }
   std::size_t grids() const { return grids_.size(); }
   void writeGrid(std::size_t index, const Grid& grid, const ItemLoop& loop) { grids_[index].write(grid, loop); }
   void writeReport(const std::string& text);

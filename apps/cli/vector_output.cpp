@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
@@ -21,10 +22,11 @@ struct VectorFormat {
   const char* ending;
   const char* driver;
   bool several_layers;
+  bool hides_failures;  // OGR does not report when the disk is full
 };
 
 constexpr VectorFormat kFormats[] = {
-    {".gpkg", "GPKG", true}, {".geojson", "GeoJSON", false}, {".fgb", "FlatGeobuf", false}};
+    {".gpkg", "GPKG", true, false}, {".geojson", "GeoJSON", false, true}, {".fgb", "FlatGeobuf", false, true}};
 
 const VectorFormat& formatOf(const std::string& path) {
   const std::string ending = std::filesystem::path(path).extension().string();
@@ -133,14 +135,15 @@ void requireVectorFormat(const std::string& path, std::size_t layers) {
 
 void writeVectorLayers(const std::string& path, const Crs& crs, const std::vector<VectorLayer>& layers) {
   requireVectorFormat(path, layers.size());
-  OgrErrors errors;
+  const VectorFormat& format = formatOf(path);
+  const OgrWriteErrors errors(path);
   // A GeoPackage records when it was written; the same input must give the same bytes.
   const OgrOption date("OGR_CURRENT_DATE", "2000-01-01T00:00:00.000Z");
   registerDrivers();
 
-  GDALDriver* driver = GetGDALDriverManager()->GetDriverByName(formatOf(path).driver);
+  GDALDriver* driver = GetGDALDriverManager()->GetDriverByName(format.driver);
   if (driver == nullptr) {
-    throw OutputError("cannot write '" + path + "': this GDAL has no driver " + formatOf(path).driver);
+    throw OutputError("cannot write '" + path + "': this GDAL has no driver " + format.driver);
   }
   DatasetPtr dataset(driver->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
   if (!dataset) failToWrite(path, errors);
@@ -148,9 +151,8 @@ void writeVectorLayers(const std::string& path, const Crs& crs, const std::vecto
   if (!crs.isPlane()) srs = toOgr(crs);
   for (const VectorLayer& layer : layers) writeLayer(*dataset, path, layer, srs ? &*srs : nullptr, errors);
 
-  // The driver writes its buffers on closing, which fails if the disk is full.
-  dataset.reset();
-  if (errors.failed()) failToWrite(path, errors);
+  closeDataset(std::move(dataset), path, errors);
+  if (format.hides_failures && !layers.empty()) requireComplete(path, layers[0].shapes.size());
 }
 
 }  // namespace coastmesh

@@ -3,6 +3,7 @@
 #include <cairo-svg.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -10,6 +11,7 @@
 #include <utility>
 
 #include "gis/error.hpp"
+#include "gis/file/room_on_disk.hpp"
 
 namespace coastmesh {
 
@@ -220,6 +222,7 @@ void PlotCanvas::clipToMap() {
 void PlotCanvas::unclip() { cairo_restore(context_.get()); }
 
 void PlotCanvas::finish() {
+  errno = 0;  // cairo does not say why it cannot write
   require(cairo_status(context_.get()));
   if (!vector_) require(cairo_surface_write_to_png(surface_.get(), path_.c_str()));
   cairo_surface_finish(surface_.get());
@@ -228,7 +231,8 @@ void PlotCanvas::finish() {
 
 void PlotCanvas::require(cairo_status_t status) const {
   if (status == CAIRO_STATUS_SUCCESS) return;
-  throw OutputError("cannot draw '" + path_ + "': " + cairo_status_to_string(status));
+  const std::string why = status == CAIRO_STATUS_WRITE_ERROR ? whyNoRoom(path_, errno) : "";
+  throw OutputError("cannot draw '" + path_ + "': " + (why.empty() ? cairo_status_to_string(status) : why));
 }
 
 }  // namespace coastmesh

@@ -177,7 +177,13 @@ PYBIND11_MODULE(_coastmesh, m) {
       .def("_write", &writeFile)
       .def("_plot", &plotFile)
       .def(py::pickle([](const MeshResult& mesh) { return py::bytes(bytesOf(mesh)); },
-                      [](const py::bytes& bytes) { return resultOf(bytes); }));
+                      [](const py::bytes& bytes) { return resultOf(bytes); }))
+      // As pickle's protocol 2 makes it: for older ones Python would call the constructor of pybind11's base class,
+      // which ends the process.
+      .def("__reduce__", [](const py::object& mesh) {
+        return py::make_tuple(py::module_::import("copyreg").attr("__newobj__"), py::make_tuple(py::type::of(mesh)),
+                              mesh.attr("__getstate__")());
+      });
 
   m.def("run", &runFromPython, py::arg("keywords"), py::arg("files"), py::arg("text"), py::arg("graph"),
         py::arg("progress"));

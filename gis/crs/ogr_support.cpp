@@ -10,6 +10,7 @@
 #include <exception>
 #include <memory>
 #include <string_view>
+#include <utility>
 
 #include "gis/error.hpp"
 
@@ -26,7 +27,9 @@ bool saysLeftOut(std::string_view message) {
 
 }  // namespace
 
-OgrErrors::OgrErrors() {
+OgrErrors::OgrErrors() : OgrErrors(std::function<std::string()>()) {}
+
+OgrErrors::OgrErrors(std::function<std::string()> reason) : reason_(std::move(reason)) {
   CPLPushErrorHandlerEx(
       [](CPLErr severity, CPLErrorNum code, const char* message) { collect(severity, code, message); }, this);
 }
@@ -48,7 +51,8 @@ void OgrErrors::collect(int severity, int, const char* message) {
   const bool of_proj = std::string_view(message).starts_with(kOfProj);
   const bool error = severity >= CE_Failure && !of_proj;
   if (self->text_.empty() || (self->of_proj_ && !of_proj) || (error && !self->failed_)) {
-    self->text_ = oneLine(message, kLongest);
+    const std::string reason = error && self->reason_ ? self->reason_() : "";
+    self->text_ = reason.empty() ? oneLine(message, kLongest) : reason;
     self->of_proj_ = of_proj;
   }
   self->failed_ = self->failed_ || error;

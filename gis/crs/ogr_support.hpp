@@ -2,6 +2,7 @@
 
 #include <ogr_spatialref.h>
 
+#include <functional>
 #include <string>
 
 #include "gis/crs/crs_definition.hpp"
@@ -12,6 +13,8 @@ namespace coastmesh {
 class OgrErrors {
  public:
   OgrErrors();
+  // Asks `reason` at the first error, before GDAL tidies up: if it knows one, that is the text instead of GDAL's.
+  explicit OgrErrors(std::function<std::string()> reason);
   ~OgrErrors();
   OgrErrors(const OgrErrors&) = delete;
   OgrErrors& operator=(const OgrErrors&) = delete;
@@ -31,6 +34,7 @@ class OgrErrors {
   bool failed_ = false, of_proj_ = false;
   std::string text_;
   std::string left_out_;
+  std::function<std::string()> reason_;
 };
 
 // Sets a GDAL configuration option in this thread during its lifetime.

@@ -2,7 +2,10 @@
 
 #include <netcdf.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <limits>
 
 #include "gis/error.hpp"
 #include "gis/file/netcdf_header.hpp"
@@ -190,9 +193,37 @@ std::size_t NetcdfReader::sizeOf(const std::string& variable) const {
   return size;
 }
 
-std::vector<double> NetcdfReader::doubles(const std::string& variable) const {
+std::vector<double> NetcdfReader::packedDoubles(const std::string& variable) const {
   std::vector<double> values(sizeOf(variable));
   check(nc_get_var_double(id_, variableId(variable), values.data()));
+  return values;
+}
+
+void NetcdfReader::unpack(const std::string& variable, std::vector<double>& values) const {
+  const double factor = number(variable, "scale_factor").value_or(1.0);
+  const double offset = number(variable, "add_offset").value_or(0.0);
+  if (factor == 1.0 && offset == 0.0) return;
+  for (double& value : values) value = value * factor + offset;
+}
+
+std::vector<double> NetcdfReader::doubles(const std::string& variable) const {
+  std::vector<double> values = packedDoubles(variable);
+  unpack(variable, values);
+  return values;
+}
+
+std::vector<double> NetcdfReader::knownDoubles(const std::string& variable) const {
+  std::vector<double> values = packedDoubles(variable), missing;
+  for (const char* attribute : {"_FillValue", "missing_value"})
+    if (const auto value = number(variable, attribute)) missing.push_back(*value);
+  nc_type type = 0;
+  check(nc_inq_vartype(id_, variableId(variable), &type));
+  if (missing.empty() && type == NC_FLOAT) missing.push_back(NC_FILL_FLOAT);
+  if (missing.empty() && type == NC_DOUBLE) missing.push_back(NC_FILL_DOUBLE);
+  for (double& value : values)
+    if (!std::isfinite(value) || std::ranges::count(missing, value) > 0)
+      value = std::numeric_limits<double>::quiet_NaN();
+  unpack(variable, values);
   return values;
 }
 

@@ -105,7 +105,10 @@ class NetcdfReader {
   std::string text(const std::string& variable, const std::string& attribute) const;
   std::string globalText(const std::string& attribute) const;
   std::optional<double> number(const std::string& variable, const std::string& attribute) const;
+  // In the unit of the variable, if the file holds them packed (`scale_factor`, `add_offset`).
   std::vector<double> doubles(const std::string& variable) const;
+  // The same, NaN for a value that the file calls missing or that was never written.
+  std::vector<double> knownDoubles(const std::string& variable) const;
   std::vector<std::int64_t> integers(const std::string& variable) const;
   std::vector<std::string> texts(const std::string& variable) const;  // rows of characters, padded with zeros
 
@@ -116,6 +119,8 @@ class NetcdfReader {
   int variableId(const std::string& name) const;
   std::string textOf(int variable, const std::string& attribute) const;
   std::size_t sizeOf(const std::string& variable) const;
+  std::vector<double> packedDoubles(const std::string& variable) const;
+  void unpack(const std::string& variable, std::vector<double>& values) const;
 
   std::string path_;
   int id_ = -1;

@@ -72,12 +72,22 @@ bool parse(std::string_view word, Number& value) {
   return error == std::errc() && end == word.data() + word.size();
 }
 
+// Fortran writes the exponents of its double precision with a D.
+bool parseFortran(std::string_view word, double& value) {
+  std::string text(word);
+  const std::size_t at = text.find_first_of("dD");
+  if (at == text.npos || at == 0) return false;
+  text[at] = 'e';
+  return parse(text, value);
+}
+
 }  // namespace
 
 double TextReader::number() {
   const std::string_view text = word();
   double value = 0.0;
-  if (!parse(text, value)) fail("a number is expected, not \"" + std::string(text) + "\"");
+  if (!parse(text, value) && !parseFortran(text, value))
+    fail("a number is expected, not \"" + std::string(text) + "\"");
   if (!std::isfinite(value)) fail("\"" + std::string(text) + "\" is not a finite number");
   return value;
 }

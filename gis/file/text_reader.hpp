@@ -23,7 +23,7 @@ class TextReader {
 
   bool hasWord();           // true if there is another word in the line
   std::string_view word();  // the next word of the line; empty at its end
-  double number();          // the next word as a finite number
+  double number();          // the next word as a finite number; Fortran's exponents (1.5D+02) too
   std::int64_t integer();   // not the smallest, which has no negative
   std::uint64_t count();    // an integer that is not negative
 

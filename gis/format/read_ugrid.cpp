@@ -4,12 +4,14 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <limits>
+#include <numbers>
 #include <span>
 #include <sstream>
 #include <string_view>
 #include <utility>
 
+#include "gis/crs/length_unit.hpp"
+#include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
 #include "gis/file/netcdf_file.hpp"
 #include "gis/format/grid_names.hpp"
@@ -19,11 +21,23 @@
 namespace coastmesh {
 namespace {
 
+using namespace std::string_view_literals;
+
 std::string findMesh(const NetcdfReader& file) {
   for (const std::string& name : file.variables()) {
     if (file.text(name, "cf_role") == "mesh_topology" && file.number(name, "topology_dimension") == 2.0) return name;
   }
   file.fail("there is no UGRID mesh of dimension 2 in it (a variable with cf_role \"mesh_topology\")");
+}
+
+// By the standard_name, or by what else CF tells coordinates apart.
+bool isNorthing(const NetcdfReader& file, const std::string& variable) {
+  const std::string name = file.text(variable, "standard_name");
+  if (!name.empty()) return name == "latitude" || name == "projection_y_coordinate";
+  const std::string axis = file.text(variable, "axis"), units = file.text(variable, "units");
+  constexpr std::array kDegreesNorth{"degrees_north"sv, "degree_north"sv, "degrees_N"sv,
+                                     "degree_N"sv,      "degreesN"sv,     "degreeN"sv};
+  return axis == "Y" || std::ranges::count(kDegreesNorth, units) > 0;
 }
 
 std::pair<std::string, std::string> coordinateNames(const NetcdfReader& file, const std::string& mesh) {
@@ -33,8 +47,7 @@ std::pair<std::string, std::string> coordinateNames(const NetcdfReader& file, co
   if (!file.hasVariable(first) || !file.hasVariable(second))
     file.fail("there is no variable \"" + (file.hasVariable(first) ? second : first) + "\", which \"" + mesh +
               "\" names");
-  if (file.text(first, "standard_name") == "latitude" || file.text(first, "standard_name") == "projection_y_coordinate")
-    std::swap(first, second);
+  if (isNorthing(file, first)) std::swap(first, second);
   return {first, second};
 }
 
@@ -105,8 +118,20 @@ std::vector<std::uint32_t> readConnectivity(const NetcdfReader& file, const std:
   return out;
 }
 
+// What turns the file's coordinates into degrees, or into the unit of a CRS in metres.
+double coordinateFactor(const NetcdfReader& file, const std::string& x, const Crs& crs) {
+  const std::string units = file.text(x, "units");
+  if (crs.geographic) return units.starts_with("radian") ? 180.0 / std::numbers::pi : 1.0;
+  if (!crs.isPlane() && toOgr(crs).GetLinearUnits() != 1.0) return 1.0;
+  return metresInUnit(units).value_or(1.0);
+}
+
+// In the CRS of the grid.
 void readNodes(const NetcdfReader& file, const std::string& x_name, const std::string& y_name, Grid& grid) {
-  const std::vector<double> x = file.doubles(x_name), y = file.doubles(y_name);
+  std::vector<double> x = file.doubles(x_name), y = file.doubles(y_name);
+  if (const double factor = coordinateFactor(file, x_name, grid.crs); factor != 1.0)
+    for (std::vector<double>* const values : {&x, &y})
+      for (double& value : *values) value *= factor;
   if (x.size() != y.size()) file.fail("\"" + x_name + "\" and \"" + y_name + "\" differ in length");
   grid.nodes.resize(x.size());
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -148,8 +173,6 @@ struct DepthVariable {
   bool down = false;  // depths, positive down; else elevations
 };
 
-using namespace std::string_view_literals;
-
 constexpr std::array kAltitudes{"altitude"sv, "surface_altitude"sv, "bedrock_altitude"sv};
 constexpr std::array kDepths{"depth"sv, "depth_below_geoid"sv};  // and any that starts with sea_floor_depth
 
@@ -166,7 +189,8 @@ std::string bareName(const std::string& name, const std::string& mesh) {
 enum class Rank { Altitude, Depth, ElevationName, DepthName, None };
 
 Rank rankOf(const NetcdfReader& file, const std::string& name, const std::string& mesh) {
-  const std::string standard = file.text(name, "standard_name");
+  std::string standard = file.text(name, "standard_name");
+  std::ranges::replace(standard, ' ', '_');  // as ADCIRC writes it
   if (std::ranges::count(kAltitudes, standard) > 0) return Rank::Altitude;
   if (standard.starts_with("sea_floor_depth") || std::ranges::count(kDepths, standard) > 0) return Rank::Depth;
   if (!standard.empty()) return Rank::None;
@@ -178,7 +202,7 @@ Rank rankOf(const NetcdfReader& file, const std::string& name, const std::string
 // The variables with depths or elevations of the bed at the nodes, the most reliable first: with the standard_name of
 // an altitude, then with that of a depth of the sea floor, then with no standard_name but a name that models use
 // (FVCOM's `h`, SCHISM's `depth`, D-Flow FM's `mesh2d_node_z`). For the direction, an attribute `positive` takes
-// precedence over names.
+// precedence over names. What is in no unit of length is no depth.
 std::vector<DepthVariable> depthVariables(const NetcdfReader& file, const std::string& mesh, const std::string& x) {
   std::vector<std::pair<Rank, DepthVariable>> found;
   const std::vector<std::string> at_nodes = file.dimensionsOf(x);
@@ -190,7 +214,7 @@ std::vector<DepthVariable> depthVariables(const NetcdfReader& file, const std::s
     if (file.dimensionsOf(name) != at_nodes || file.shape(name) != file.shape(x)) continue;  // a name may be repeated
     if (!isOrUnsaid(name, "mesh", mesh) || !isOrUnsaid(name, "location", "node")) continue;
     const Rank rank = rankOf(file, name, mesh);
-    if (rank == Rank::None) continue;
+    if (rank == Rank::None || !metresInUnit(file.text(name, "units"))) continue;
     const bool depth = rank == Rank::Depth || rank == Rank::DepthName;
     const std::string positive = file.text(name, "positive");
     found.push_back({rank, {name, positive.empty() ? depth : positive == "down"}});
@@ -205,14 +229,9 @@ void readElevation(const NetcdfReader& file, const std::string& mesh, const std:
   const std::vector<DepthVariable> known = depthVariables(file, mesh, x);
   if (known.empty()) return;
   const auto& [name, down] = known.front();
-  grid.z = file.doubles(name);
-  std::vector<double> unknown;
-  for (const char* attribute : {"_FillValue", "missing_value"})
-    if (const auto value = file.number(name, attribute)) unknown.push_back(*value);
-  for (double& z : grid.z) {
-    const bool is_known = std::isfinite(z) && std::ranges::count(unknown, z) == 0;
-    z = is_known ? (down ? 0.0 - z : z) : std::numeric_limits<double>::quiet_NaN();
-  }
+  grid.z = file.knownDoubles(name);
+  const double metres = *metresInUnit(file.text(name, "units"));
+  for (double& z : grid.z) z = (down ? 0.0 - z : z) * metres;
 }
 
 std::vector<double> readFaceData(const NetcdfReader& file, const std::string& name, std::size_t faces) {
@@ -301,6 +320,8 @@ Grid readUgrid(const std::string& path, const Crs& unsaid) {
   Grid grid;
   grid.title = file.globalText("title");
   const auto [x, y] = coordinateNames(file, mesh);
+  grid.crs = readCrs(file, x);
+  if (grid.crs.isPlane()) grid.crs = unsaid;
   readNodes(file, x, y, grid);
   readTriangles(file, mesh, grid);
   readElevation(file, mesh, x, grid);
@@ -324,8 +345,6 @@ Grid readUgrid(const std::string& path, const Crs& unsaid) {
     grid.part_of.push_back(part >= 0.0 ? static_cast<std::uint32_t>(std::min(part, 4e9)) : 0);
   readBoundaries(file, mesh, grid);
   readLines(file, mesh, grid);
-  grid.crs = readCrs(file, x);
-  if (grid.crs.isPlane()) grid.crs = unsaid;
   return grid;
 }
 

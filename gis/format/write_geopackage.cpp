@@ -305,7 +305,7 @@ void appendLayer(const Grid& grid, const std::string& path, const MapCutter& cut
 // OGR makes the file, its tables and the short layers; rows of triangles and nodes, and the indices of all layers, are
 // made by all threads and appended.
 void writeGeoPackage(const Grid& grid, const std::string& path, const ItemLoop& loop) {
-  const OgrErrors errors;
+  const OgrWriteErrors errors(path);
   const OgrOption date("OGR_CURRENT_DATE", kDate);
   // The file is renamed to its target only when complete, so a journal or waiting for the disk would gain nothing.
   const OgrOption journal("OGR_SQLITE_JOURNAL", "OFF");

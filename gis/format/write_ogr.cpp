@@ -201,7 +201,7 @@ OGRSpatialReference srsForLayer(const Crs& crs) {
 
 OGRLayer& createLayer(GDALDataset& dataset, const std::string& path, const std::string& name,
                       const OGRSpatialReference* srs, OGRwkbGeometryType type, const char* const* options) {
-  const OgrErrors errors;
+  const OgrWriteErrors errors(path);
   OGRLayer* const layer =
       dataset.CreateLayer(name.c_str(), const_cast<OGRSpatialReference*>(srs), type, const_cast<char**>(options));
   if (layer == nullptr || errors.failed()) failToWrite(path, errors);
@@ -242,7 +242,9 @@ void writeFeatures(OGRLayer& target, const std::string& path, const Grid& grid, 
 namespace {
 
 [[noreturn]] void failIncomplete(const std::string& path) {
-  throw OutputError("cannot write '" + path + "': the file came out incomplete; is the disk full?");
+  const std::string why = whyNoRoom(path);
+  throw OutputError("cannot write '" + path +
+                    "': " + (why.empty() ? "the file came out incomplete; is the disk full?" : why));
 }
 
 // True if a .dbf has `rows` rows and its full length: GDAL does not report a failure to write its header or end mark.
@@ -261,8 +263,10 @@ bool isWholeTable(const std::string& path, std::size_t rows) {
          std::filesystem::file_size(path) >= header + rows * row + 1;
 }
 
-// Throws OutputError unless the whole file can be read and has `rows` features.
-void requireComplete(const std::string& path, std::size_t rows, const OgrErrors& errors) {
+}  // namespace
+
+void requireComplete(const std::string& path, std::size_t rows) {
+  const OgrErrors errors;
   const DatasetPtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
   OGRLayer* const layer = dataset && dataset->GetLayerCount() == 1 ? dataset->GetLayer(0) : nullptr;
   std::size_t found = 0;
@@ -271,17 +275,19 @@ void requireComplete(const std::string& path, std::size_t rows, const OgrErrors&
   if (found != rows || errors.failed()) failIncomplete(path);
 }
 
+namespace {
+
 void writeLayerFiles(const OgrWriter& writer, const Grid& grid, const std::vector<GridLayer>& layers,
                      const std::string& path) {
   for (const GridLayer& layer : layers) {
     const std::string layer_path = pathOfLayer(path, layer.name);
-    const OgrErrors errors;
+    const OgrWriteErrors errors(layer_path);
     DatasetPtr dataset = createDataset(writer, layer_path, errors);
     const std::string name = std::filesystem::path(layer_path).stem().string();
     writeFeatures(createLayer(*dataset, layer_path, writer, grid, layer, name, errors), layer_path, grid, layer,
                   errors);
     closeDataset(std::move(dataset), layer_path, errors);
-    if (writer.hides_failures) requireComplete(layer_path, layer.rows, errors);
+    if (writer.hides_failures) requireComplete(layer_path, layer.rows);
     if (writer.table_types && !isWholeTable(withEnding(layer_path, ".dbf"), layer.rows)) failIncomplete(layer_path);
   }
 }

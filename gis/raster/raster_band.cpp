@@ -13,9 +13,9 @@
 #include <utility>
 
 #include "gis/crs/crs_from_ogr.hpp"
+#include "gis/crs/length_unit.hpp"
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
-#include "gis/raster/length_unit.hpp"
 #include "gis/raster/raster_axes.hpp"
 #include "gis/raster/raster_mosaic.hpp"
 

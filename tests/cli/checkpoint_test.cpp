@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -167,6 +168,35 @@ TEST_F(Checkpoint, KilledWhileWriting) {
   expectSame(takeBytes(), expected);
   EXPECT_EQ(used("groups_taken"), 2u);
   EXPECT_EQ(used("rounds_kept"), 0u);
+}
+
+// What a killed run leaves beside its outputs is removed by the next one, and nothing else is.
+TEST_F(Checkpoint, RemovesWhatAKilledRunLeft) {
+  const std::string input = lakes();
+  const auto left = [&] {
+    const std::set<std::string> all = names();
+    return std::ranges::count_if(all, [](const std::string& name) { return name.find(".part-") != name.npos; });
+  };
+  ASSERT_EQ(stopInWriting(input, SIGKILL).code, kKilled);
+  ASSERT_EQ(left(), 4);  // three meshes and a report
+  std::filesystem::create_directory(file(".x.nc.part-abcdef"));
+  // Killed again, in whatever stage.
+  const ProgramRun killed = runAndSignal(keeping(input), std::string(R"("phase")"), SIGKILL);
+  ASSERT_EQ(killed.code, kKilled) << killed.errors;
+  EXPECT_EQ(left(), 5);
+  EXPECT_EQ(runProgram(keeping(input)).code, 0);
+  EXPECT_EQ(left(), 1);
+  EXPECT_TRUE(std::filesystem::exists(file(".x.nc.part-abcdef")));
+}
+
+TEST_F(Checkpoint, RemovesNothingByADamagedList) {
+  const std::string input = lakes();
+  ASSERT_EQ(stopInWriting(input, SIGKILL).code, kKilled);
+  writeText(kept("outputs"), "damaged");
+  EXPECT_EQ(runProgram(keeping(input)).code, 0);
+  EXPECT_EQ(std::ranges::count_if(names(), [](const std::string& name) { return name.find(".part-") != name.npos; }),
+            4);
+  EXPECT_FALSE(std::filesystem::exists(file("kept")));
 }
 
 // A group that was being appended when the run was killed is meshed again.

@@ -1,5 +1,6 @@
 // Meshes with unusual coordinates: across ±180, at a pole, with triangles a quarter of the globe wide, without
 // longitudes.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,6 +16,7 @@ namespace coastmesh::test {
 
 namespace {
 
+using ::testing::HasSubstr;
 using Json = nlohmann::json;
 
 struct Point2 {
@@ -560,6 +562,20 @@ TEST_F(Coordinates, InEqualEarthGoIntoGeoPackages) {
   EXPECT_EQ(run.code, 0) << run.errors;
   EXPECT_EQ(infoOf(cleaned)["crs"], "EPSG:8857");
   EXPECT_EQ(infoOf(mesh)["crs"], "EPSG:8857");
+}
+
+// Files for models do not say whether they are in degrees; that of the middle one is in metres beyond doubt.
+TEST_F(Coordinates, OfAModelsFileMayBeDegrees) {
+  const auto grid = [&](const std::string& name, const std::string& east) {
+    return write(name, "a sea\n1 3\n1 5 53 5\n2 " + east + " 53 5\n3 6 54 5\n1 3 1 2 3\n0\n0\n0\n0\n");
+  };
+  const std::string degrees = grid("sea.14", "6"), metres = grid("far.14", "600");
+  for (const std::string command : {"info", "check"}) {
+    EXPECT_THAT(runProgram({command, degrees}).errors, HasSubstr("give --assume-crs EPSG:4326")) << command;
+    EXPECT_EQ(runProgram({command, metres}).errors, "") << command;
+    for (const std::string crs : {"EPSG:4326", "plane"})
+      EXPECT_EQ(runProgram({command, degrees, "--assume-crs", crs}).errors, "") << command << crs;
+  }
 }
 
 }  // namespace

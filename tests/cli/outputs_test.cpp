@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <map>
 
@@ -230,11 +232,47 @@ TEST_F(Outputs, AFileSizeLimitLeavesNothing) {
   }
   ASSERT_EQ(runProgram({"mesh", input, "-o", file("m.nc")}).code, 0);
   const std::set<std::string> before = names();
-  EXPECT_EQ(runShell("ulimit -f 1; \"$0\" plot '" + file("m.nc") + "' -o '" + file("m.png") + "'").code, 4);
-  EXPECT_EQ(
-      runShell("ulimit -f 1; \"$0\" check '" + file("m.nc") + "' --min-angle 55 -o '" + file("d.gpkg") + "'").code, 4);
+  for (const std::string picture : {"m.png", "m.svg", "m.html"}) {
+    const ProgramRun run = runShell("ulimit -f 1; \"$0\" plot '" + file("m.nc") + "' -o '" + file(picture) + "'");
+    EXPECT_EQ(run.code, 4) << picture;
+    EXPECT_THAT(run.errors, HasSubstr(std::strerror(EFBIG))) << picture;
+  }
+  for (const std::string defects : {"d.gpkg", "d.geojson", "d.fgb"}) {
+    const ProgramRun run =
+        runShell("ulimit -f 1; \"$0\" check '" + file("m.nc") + "' --min-angle 55 -o '" + file(defects) + "'");
+    EXPECT_EQ(run.code, 4) << defects;
+    EXPECT_THAT(run.errors, HasSubstr(std::strerror(EFBIG))) << defects;
+  }
   EXPECT_EQ(runShell("ulimit -f 1; \"$0\" clean '" + input + "' -o '" + file("c.gpkg") + "'").code, 4);
   EXPECT_EQ(names(), before);
+}
+
+// A disk of its own for each run, where the system lets users mount one.
+TEST_F(Outputs, AFullDiskIsNamedAndLeavesNothing) {
+  const std::string disk = file("disk"), input = lake();
+  std::filesystem::create_directory(disk);
+  const auto onDisk = [&](int kilobytes, const std::string& command) {
+    return runShell("unshare --map-root-user --mount sh -c 'mount -t tmpfs -o size=" + std::to_string(kilobytes) +
+                    "k none " + disk + " && { " + command + "; code=$?; ls -A " + disk + "; exit $code; }' \"$0\"");
+  };
+  if (onDisk(64, "true").code != 0) GTEST_SKIP() << "no disk can be mounted";
+  ASSERT_EQ(runProgram({"mesh", input, "-o", file("m.nc"), "--size-max", "50"}).code, 0);
+  for (const int kilobytes : {4, 32, 100}) {
+    for (const std::string ending : {"gpkg", "fgb", "shp", "geojson", "nc"}) {
+      const std::string output = disk + "/o." + ending;
+      const ProgramRun run = onDisk(kilobytes, "\"$0\" convert " + file("m.nc") + " -o " + output);
+      EXPECT_EQ(run.code, 4) << ending << kilobytes;
+      EXPECT_EQ(run.output, "") << ending << kilobytes;
+      EXPECT_THAT(run.errors, HasSubstr(std::strerror(ENOSPC))) << ending << kilobytes;
+    }
+  }
+  for (const std::string defects : {"d.fgb", "d.geojson"}) {
+    const ProgramRun run =
+        onDisk(4, "\"$0\" check " + file("m.nc") + " --min-angle 55 -o " + disk + "/" + defects + " >&2");
+    EXPECT_EQ(run.code, 4) << defects;
+    EXPECT_EQ(run.output, "") << defects;
+    EXPECT_THAT(run.errors, HasSubstr(std::strerror(ENOSPC))) << defects;
+  }
 }
 
 TEST_F(Outputs, ErrorsOnStandardOutputAreSeen) {

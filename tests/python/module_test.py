@@ -255,6 +255,14 @@ class FilesTest(unittest.TestCase):
             np.testing.assert_array_equal(coastmesh.mesh(given).points, expected.points)
         self.assertEqual(expected.features[0]["source"], "GeoJSON")
 
+    def test_a_geo_interface_that_is_no_geojson_is_refused(self):
+        class Shape:
+            __geo_interface__ = 7
+
+        for given in (Shape(), [Shape()]):
+            with self.assertRaisesRegex(TypeError, "the __geo_interface__ of a Shape is no dict"):
+                coastmesh.mesh(given)
+
     def test_lists_of_shapes_are_meshed_together(self):
         class Shape:
             crs = None
@@ -333,7 +341,8 @@ class FilesTest(unittest.TestCase):
 
     def test_meshes_are_pickled_and_copied(self):
         mesh = coastmesh.mesh(LAKE, min_angle=30, threads=1)
-        for twin in (pickle.loads(pickle.dumps(mesh)), copy.deepcopy(mesh)):
+        twins = [pickle.loads(pickle.dumps(mesh, protocol)) for protocol in range(pickle.HIGHEST_PROTOCOL + 1)]
+        for twin in (*twins, copy.deepcopy(mesh)):
             for name in ("points", "triangles", "min_angle", "area", "feature"):
                 np.testing.assert_array_equal(getattr(twin, name), getattr(mesh, name))
             self.assertEqual((twin.crs, twin.report, twin.features), (mesh.crs, mesh.report, mesh.features))

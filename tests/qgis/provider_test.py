@@ -204,6 +204,9 @@ class ProviderTest(unittest.TestCase):
         chosen = layer.selectedFeatureIds()[0]
         self.assertEqual({f["src_fid"] for f in triangles.getFeatures()}, {chosen})
         self.assertEqual({os.path.basename(f["source"]) for f in triangles.getFeatures()}, {"my lakes.gpkg"})
+        layer.removeSelection()
+        with self.assertRaisesRegex(QgsProcessingException, "no feature of 'my lakes' is selected"):
+            self.mesh(source)
 
     def test_lines_a_subset_and_a_crs_given_in_qgis(self):
         ring = "LINESTRING(0 0, 1000 0, 1000 1000, 0 1000, 0 0)"

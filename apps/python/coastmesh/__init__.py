@@ -212,7 +212,7 @@ def _split(source, segments, holes):
             return [], None, (source["vertices"], source.get("segments"), source.get("holes"))
         return [], _geojson_text(source), None
     if hasattr(source, "__geo_interface__"):
-        return [], _geojson_text(source.__geo_interface__, getattr(source, "crs", None)), None
+        return [], _geojson_text(_geojson_of(source), getattr(source, "crs", None)), None
     if isinstance(source, np.ndarray) and source.dtype == object and source.ndim == 1:
         source = source.tolist()  # as shapely's functions return shapes
     if isinstance(source, (list, tuple)):
@@ -240,6 +240,8 @@ def _geojson_of(part):
     if isinstance(part, dict):
         return part
     if not isinstance(part, str):
+        if not isinstance(part.__geo_interface__, dict):
+            raise TypeError(f"the __geo_interface__ of a {type(part).__name__} is no dict")
         return part.__geo_interface__
     try:
         return json.loads(part)

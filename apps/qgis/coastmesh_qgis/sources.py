@@ -49,7 +49,10 @@ class Sources:
             path = _own_file(layer)
             if path:
                 return path
-        return self._write(source, layer.name() if layer is not None else source.sourceName())
+        name = layer.name() if layer is not None else source.sourceName()
+        if selected and source.featureCount() == 0:
+            raise QgsProcessingException(f"no feature of '{name}' is selected")
+        return self._write(source, name)
 
     def path_of_layer(self, layer):
         """The file of a map layer: vector, raster or mesh."""

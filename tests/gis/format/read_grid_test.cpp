@@ -65,6 +65,16 @@ TEST_F(ReadGrid, Fort14WithElementsOutOfOrder) {
   EXPECT_THAT(grid.notes, Contains("elements are not numbered from 1 in their order"));
 }
 
+TEST_F(ReadGrid, NumbersOfFortran) {
+  const Grid grid = readGrid(put("fort.14",
+                                 "a 3d title\n1 3\n1 0.5D+00 1.5d-01 2.D2\n2 1 0 -1.25D+1\n3 +1D0 1 .5d0\n"
+                                 "1 3 1 2 3\n0\n0\n0\n0\n"));
+  EXPECT_EQ(grid.nodes, (std::vector<Point>{{0.5, 0.15}, {1, 0}, {1, 1}}));
+  EXPECT_EQ(grid.z, (std::vector<double>{-200, 12.5, -0.5}));
+  for (const char* const wrong : {"D", "D5", "1D", "1DD5", "1D5D5", "1eD5", "d", "1D+-5"})
+    EXPECT_THAT(errorIn("fort.14", std::string("t\n1 3\n1 0 ") + wrong + " 1\n"), HasSubstr("line 3: a number is"));
+}
+
 // The first line is the title, whatever it holds.
 TEST_F(ReadGrid, Fort14WithoutATitle) {
   for (const char* const title : {"", "  ", "\r", ","}) {
@@ -424,7 +434,8 @@ TEST_F(ReadGrid, UgridDepthsOfModels) {
       {{"zb", "surface_altitude", "up"}, up},
       {{"depth", "", ""}, down},  // SCHISM
       {{"z", "depth", ""}, down},
-      {{"Topology_node_z", "", ""}, up},  // D-Flow FM
+      {{"depth", "depth below geoid", ""}, down},  // ADCIRC
+      {{"Topology_node_z", "", ""}, up},           // D-Flow FM
       {{"NetNode_z", "", "up"}, up},
       {{"Bathymetry", "", "down"}, down},
       {{"salinity", "", ""}, none},
@@ -436,6 +447,89 @@ TEST_F(ReadGrid, UgridDepthsOfModels) {
     EXPECT_EQ(readGrid(folder_ / "depth.nc").z, z) << variable.name << ", " << variable.standard_name;
     EXPECT_EQ(remarkOnGrid(folder_ / "depth.nc"), "");
   }
+}
+
+// Sets attributes of a variable in an existing NetCDF file, as one that stores it packed has.
+void packed(const std::string& path, const char* variable, double factor, double offset, const std::string& unit = "",
+            double missing = 0.0) {
+  int file = 0, id = 0;
+  ASSERT_EQ(nc_open(path.c_str(), NC_WRITE, &file), NC_NOERR);
+  ASSERT_EQ(nc_inq_varid(file, variable, &id), NC_NOERR);
+  nc_redef(file);
+  nc_put_att_double(file, id, "scale_factor", NC_DOUBLE, 1, &factor);
+  nc_put_att_double(file, id, "add_offset", NC_DOUBLE, 1, &offset);
+  if (missing != 0.0) nc_put_att_double(file, id, "missing_value", NC_DOUBLE, 1, &missing);
+  if (!unit.empty()) nc_put_att_text(file, id, "units", unit.size(), unit.data());
+  nc_close(file);
+}
+
+TEST_F(ReadGrid, UgridWithPackedNumbersAndOtherUnits) {
+  const std::string path = folder_ / "packed.nc";
+  const Ugrid file(path, false, {{"depth", "", ""}});
+  packed(path, "lon", 0.5, 100.0);
+  packed(path, "depth", 2.0, 0.5, "km", 3.0);
+  const Grid grid = readGrid(path);
+  EXPECT_EQ(grid.nodes, (std::vector<Point>{{102.5, 50}, {103, 50}, {103, 51}, {102.5, 51}}));
+  ASSERT_EQ(grid.z.size(), 4u);
+  EXPECT_EQ(grid.z[0], -2500.0);
+  EXPECT_EQ(grid.z[1], -4500.0);
+  EXPECT_TRUE(std::isnan(grid.z[2]));
+  EXPECT_EQ(grid.z[3], -8500.0);
+}
+
+void putText(const std::string& path, const char* variable, const char* attribute, const std::string& value) {
+  int file = 0, id = 0;
+  ASSERT_EQ(nc_open(path.c_str(), NC_WRITE, &file), NC_NOERR);
+  ASSERT_EQ(nc_inq_varid(file, variable, &id), NC_NOERR);
+  nc_redef(file);
+  ASSERT_EQ(nc_put_att_text(file, id, attribute, value.size(), value.data()), NC_NOERR);
+  nc_close(file);
+}
+
+// The file names latitudes first.
+TEST_F(ReadGrid, UgridCoordinatesAreToldApartByCf) {
+  const std::vector<Point> places{{5, 50}, {6, 50}, {6, 51}, {5, 51}};
+  const std::string path = folder_ / "other.nc";
+  for (const auto& [attribute, of_lat, of_lon] :
+       {std::array{"units", "degrees_north", "degrees_east"}, std::array{"units", "degree_N", "degree_E"},
+        std::array{"axis", "Y", "X"}}) {
+    const Ugrid file(path, false);
+    for (const char* variable : {"lat", "lon"}) putText(path, variable, "standard_name", "");
+    putText(path, "lat", attribute, of_lat);
+    putText(path, "lon", attribute, of_lon);
+    EXPECT_EQ(readGrid(path).nodes, places) << of_lat;
+  }
+}
+
+TEST_F(ReadGrid, UgridCoordinatesInOtherUnits) {
+  const std::string path = folder_ / "other.nc";
+  {
+    const Ugrid file(path, false);
+    for (const char* variable : {"lat", "lon"}) packed(path, variable, 0.01, 0.0, "radians");
+    const Grid grid = readGrid(path);
+    EXPECT_TRUE(grid.crs.geographic);
+    EXPECT_NEAR(grid.nodes[0].x, 2.864788975654116, 1e-9);
+    EXPECT_NEAR(grid.nodes[0].y, 28.64788975654116, 1e-9);
+  }
+  const auto projected = [&](const std::string& units, const std::string& code) {
+    const Ugrid file(path, false);
+    putText(path, "lat", "standard_name", "projection_y_coordinate");
+    putText(path, "lon", "standard_name", "projection_x_coordinate");
+    for (const char* variable : {"lat", "lon"}) putText(path, variable, "units", units);
+    putText(path, "lon", "grid_mapping", "Topology");
+    putText(path, "Topology", "EPSG_code", code);
+    return readGrid(path).nodes[0];
+  };
+  EXPECT_EQ(projected("km", "EPSG:28992"), (Point{5000, 50000}));
+  EXPECT_EQ(projected("m", "EPSG:28992"), (Point{5, 50}));
+  EXPECT_EQ(projected("m", "EPSG:2225"), (Point{5, 50}));  // in feet, as the CRS says
+}
+
+TEST_F(ReadGrid, UgridDepthsAreLengths) {
+  const std::string path = folder_ / "pressure.nc";
+  const Ugrid file(path, false, {{"h", "", ""}});
+  packed(path, "h", 1.0, 0.0, "dbar");
+  EXPECT_EQ(readGrid(path).z, std::vector<double>());
 }
 
 // Standard names take precedence over variable names, altitudes over depths; other candidates are named.

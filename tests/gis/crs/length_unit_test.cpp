@@ -1,4 +1,4 @@
-#include "gis/raster/length_unit.hpp"
+#include "gis/crs/length_unit.hpp"
 
 #include <gdal_priv.h>
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-#include "gis/raster/length_unit.hpp"
+#include "gis/crs/length_unit.hpp"
 
 #include <algorithm>
 #include <cctype>
