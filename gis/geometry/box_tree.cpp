@@ -27,25 +27,28 @@ std::vector<std::uint32_t> orderByCentre(const std::vector<Box>& boxes) {
 
 }  // namespace
 
-BoxTree::BoxTree(const std::vector<Box>& boxes, Order order) {
+BoxTree::BoxTree(const std::vector<Box>& boxes, Order order, const ItemLoop& loop) {
   assert(boxes.size() <= std::numeric_limits<std::uint32_t>::max());
   if (boxes.empty()) return;
-  boxes_.reserve(boxes.size() + boxes.size() / (kFanout - 1) + 16);
-  if (order == Order::Hilbert) {
-    items_ = orderByCentre(boxes);
-    for (const std::uint32_t item : items_) boxes_.push_back(boxes[item]);
-  } else {
-    boxes_ = boxes;
+  if (order == Order::Hilbert) items_ = orderByCentre(boxes);
+  level_begin_ = {0, boxes.size()};
+  for (std::size_t count = boxes.size(); count > 1;) {
+    count = (count + kFanout - 1) / kFanout;
+    level_begin_.push_back(level_begin_.back() + count);
   }
-  level_begin_ = {0, boxes_.size()};
-  while (level_begin_.back() - level_begin_[level_begin_.size() - 2] > 1) {
-    const std::size_t begin = level_begin_[level_begin_.size() - 2], end = level_begin_.back();
-    for (std::size_t first = begin; first < end; first += kFanout) {
+  boxes_.resize(level_begin_.back());
+  refit(loop, [&](std::uint32_t item) { return boxes[item]; });
+}
+
+void BoxTree::enclose(const ItemLoop& loop) {
+  for (std::size_t level = 1; level + 1 < level_begin_.size(); ++level) {
+    const std::size_t below = level_begin_[level - 1], begin = level_begin_[level], end = level_begin_[level + 1];
+    forEachByStretches(loop, end - begin, [&](std::size_t node) {
       Box box;
-      for (std::size_t i = first; i < std::min(end, first + kFanout); ++i) box.add(boxes_[i]);
-      boxes_.push_back(box);
-    }
-    level_begin_.push_back(boxes_.size());
+      const std::size_t last = std::min(begin, below + (node + 1) * kFanout);
+      for (std::size_t i = below + node * kFanout; i < last; ++i) box.add(boxes_[i]);
+      boxes_[begin + node] = box;
+    });
   }
 }
 
