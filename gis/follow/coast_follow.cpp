@@ -152,7 +152,7 @@ Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOpti
     widenPassages(start.triangles, sizes, guides.passages, edit, by_the_user, noted.passages);
     closeBarriers(start.triangles, sizes, guides, edit, noted.open_barriers);
   }
-  JoinedShores joined = openJoined(std::move(start), sizes, guides, options);
+  JoinedShores joined = openJoined(std::move(start), sizes, guides, options, loop);
   OpenedShores& opened = joined.opened;
   for (const auto& [kind, place, water] : opened.edits) edit(kind, place, water);
   noted.straits = allStraits(opened, sizes);
@@ -169,7 +169,7 @@ Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOpti
   }
   noteFollowing(std::move(noted), guides, options, domain.projection, report);
 
-  graph = settledGraph(std::move(opened.after), size);
+  graph = settledGraph(std::move(opened.after), size, loop);
   // Points on the shore of land that was removed are in the water now.
   addLoose(in_water, asked.missingFrom(together(graph.source, in_water.source)));
   returnLines(graph, std::move(in_water), sizes, options.channel_min, lost);

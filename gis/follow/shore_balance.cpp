@@ -20,7 +20,7 @@ constexpr double kInside = 0.1;  // their distance from both ends, as a share of
 }  // namespace
 
 OpenedShores openShores(const ShoreStart& start, const ShoreSizes& sizes, const ShoreGuides& guides,
-                        const FollowOptions& options, double first) {
+                        const FollowOptions& options, double first, const ItemLoop& loop) {
   OpenedShores opened;
   opened.first = first;
   opened.gained = start.gained;
@@ -32,21 +32,21 @@ OpenedShores openShores(const ShoreStart& start, const ShoreSizes& sizes, const 
   opened.after = start.triangles;
   ShoreTriangles& triangles = opened.after;
   const double least = options.channel_min > 0.0 ? std::min(options.channel_min, 1.0) : 1.0;
-  const ConnectedRegions connected = connectedRegions(triangles);
-  const SmallWaters small = smallWaters(triangles, sizes, guides, least, connected);
-  openLand(triangles, sizes, guides, first * options.land_min, small, edit, opened.gained, opened.spits);
+  const ConnectedRegions connected = connectedRegions(triangles, loop);
+  const SmallWaters small = smallWaters(triangles, sizes, guides, least, connected, loop);
+  openLand(triangles, sizes, guides, first * options.land_min, small, edit, opened.gained, opened.spits, loop);
   opened.gained_before = opened.gained;
   opened.edits_before = opened.edits.size();
   opened.spits_before = opened.spits.size();
   opened.before = triangles;
   const auto close = [&](KeepWater keep) {
-    return openWater(triangles, sizes, guides, options.channel_min, keep, connected, edit, opened.gained);
+    return openWater(triangles, sizes, guides, options.channel_min, keep, connected, edit, opened.gained, loop);
   };
   OpenedWater water = close(first < 1.0 ? KeepWater::All : options.keep);
   if (first < 1.0) {
     opened.straits = closedStraits(triangles, sizes.scale);
-    settleShores(triangles, sizes.wanted);
-    openLand(triangles, sizes, guides, options.land_min, small, edit, opened.gained, opened.spits);
+    settleShores(triangles, sizes.wanted, loop);
+    openLand(triangles, sizes, guides, options.land_min, small, edit, opened.gained, opened.spits, loop);
     water = close(options.keep);
   }
   opened.waters = std::move(water.waters);
@@ -65,13 +65,13 @@ std::vector<ClosedStrait> allStraits(const OpenedShores& opened, const ShoreSize
 }
 
 OpenedShores balanceShores(OpenedShores&& opened, const ShoreStart& start, const ShoreSizes& sizes,
-                           const ShoreGuides& guides, const FollowOptions& options) {
+                           const ShoreGuides& guides, const FollowOptions& options, const ItemLoop& loop) {
   if (options.land_min == 0.0 || opened.error < kClose) return std::move(opened);
   // Too much water is left at `high`, too little at `low`.
   double high = 1.0, low = 1.0, too_much = opened.error, too_little = opened.error;
   OpenedShores best = std::move(opened);
   const auto attempt = [&](double first) {
-    OpenedShores other = openShores(start, sizes, guides, options, first);
+    OpenedShores other = openShores(start, sizes, guides, options, first, loop);
     (other.error > 0.0 ? high : low) = first;
     (other.error > 0.0 ? too_much : too_little) = other.error;
     if (std::abs(other.error) < std::abs(best.error)) best = std::move(other);

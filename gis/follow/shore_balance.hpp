@@ -38,7 +38,7 @@ struct OpenedShores {
 // closes narrow water and, if `first` < 1, removes the rest of the land and closes water again. Water all of
 // which is narrower than an element stays as it is, and so does the land in it: without, it would become larger.
 OpenedShores openShores(const ShoreStart& start, const ShoreSizes& sizes, const ShoreGuides& guides,
-                        const FollowOptions& options, double first);
+                        const FollowOptions& options, double first, const ItemLoop& loop = inOrder);
 
 // All straits that were closed. REQUIRES: `after` is not settled.
 std::vector<ClosedStrait> allStraits(const OpenedShores& opened, const ShoreSizes& sizes);
@@ -47,6 +47,6 @@ std::vector<ClosedStrait> allStraits(const OpenedShores& opened, const ShoreSize
 // room for the other: the less land is removed before water is closed, the less water remains. REQUIRES: `opened` was
 // made with `first` = 1.
 OpenedShores balanceShores(OpenedShores&& opened, const ShoreStart& start, const ShoreSizes& sizes,
-                           const ShoreGuides& guides, const FollowOptions& options);
+                           const ShoreGuides& guides, const FollowOptions& options, const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

@@ -171,7 +171,7 @@ bool LineZone::hasAnotherNear(const Point& x, double reach, std::size_t own) con
 }
 
 void widenPassages(ShoreTriangles& triangles, const ShoreSizes& sizes, const std::vector<ShoreLine>& passages,
-                   const ShoreEdit& edit, WaterAreas& gained, PassageEffects& effects) {
+                   const ShoreEdit& edit, WaterAreas& gained, PassageEffects& effects, const ItemLoop& loop) {
   Helpers helpers(triangles);
   struct Piece {
     Point a, b;
@@ -244,7 +244,7 @@ void widenPassages(ShoreTriangles& triangles, const ShoreSizes& sizes, const std
   }
   for (std::size_t i = widened_before; i < effects.widened.size(); ++i)
     edit(EditKind::WidenedPassage, effects.widened[i].place, effects.widened[i].water);
-  settleShores(triangles, sizes.wanted);
+  settleShores(triangles, sizes.wanted, loop);
 }
 
 namespace {

@@ -82,7 +82,7 @@ struct PassageEffects {
 // on the line to the last, but not beyond open boundaries. Gains of waters are added to `gained`, all else to report to
 // `effects`. Settles the triangles.
 void widenPassages(ShoreTriangles& triangles, const ShoreSizes& sizes, const std::vector<ShoreLine>& passages,
-                   const ShoreEdit& edit, WaterAreas& gained, PassageEffects& effects);
+                   const ShoreEdit& edit, WaterAreas& gained, PassageEffects& effects, const ItemLoop& loop = inOrder);
 
 // A barrier that meets no water, or that water goes around: no shore or other barrier is within an element of its end.
 struct OpenBarrier {

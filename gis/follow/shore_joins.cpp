@@ -44,15 +44,16 @@ class WaterSearch {
 
 class Joiner {
  public:
-  Joiner(ShoreStart&& start, const ShoreSizes& sizes, ShoreGuides guides, const FollowOptions& options)
-      : start_(std::move(start)), sizes_(sizes), guides_(std::move(guides)), options_(options) {}
+  Joiner(ShoreStart&& start, const ShoreSizes& sizes, ShoreGuides guides, const FollowOptions& options,
+         const ItemLoop& loop)
+      : start_(std::move(start)), sizes_(sizes), guides_(std::move(guides)), options_(options), loop_(loop) {}
 
   JoinedShores run() {
     // Which water is cut off depends on the order of opening land and water. Straits are widest if all of the land is
     // opened first: what is connected then stays so.
-    opened_ = openShores(start_, sizes_, guides_, options_, 1.0);
+    opened_ = openShores(start_, sizes_, guides_, options_, 1.0, loop_);
     std::vector<JoinedWater> joins = findJoins();
-    opened_ = balanceShores(std::move(opened_), start_, sizes_, guides_, options_);
+    opened_ = balanceShores(std::move(opened_), start_, sizes_, guides_, options_, loop_);
     if (joins.empty() && opened_.first != 1.0) joins = findJoins();
     for (int round = 0; round < kRounds && join(std::move(joins)); ++round) {
       joins = findJoins();
@@ -111,9 +112,9 @@ class Joiner {
       start_.edits.emplace_back(kind, place, water);
     };
     PassageEffects effects;
-    widenPassages(start_.triangles, sizes_, lines, edit, start_.gained, effects);
+    widenPassages(start_.triangles, sizes_, lines, edit, start_.gained, effects, loop_);
     guides_.passages.insert(guides_.passages.end(), lines.begin(), lines.end());
-    opened_ = openShores(start_, sizes_, guides_, options_, opened_.first);
+    opened_ = openShores(start_, sizes_, guides_, options_, opened_.first, loop_);
     return true;
   }
 
@@ -121,14 +122,16 @@ class Joiner {
   const ShoreSizes& sizes_;
   ShoreGuides guides_;
   const FollowOptions& options_;
+  const ItemLoop& loop_;
   OpenedShores opened_;
   std::vector<JoinedWater> joined_;
 };
 
 }  // namespace
 
-JoinedShores openJoined(ShoreStart&& start, const ShoreSizes& sizes, ShoreGuides guides, const FollowOptions& options) {
-  return Joiner(std::move(start), sizes, std::move(guides), options).run();
+JoinedShores openJoined(ShoreStart&& start, const ShoreSizes& sizes, ShoreGuides guides, const FollowOptions& options,
+                        const ItemLoop& loop) {
+  return Joiner(std::move(start), sizes, std::move(guides), options, loop).run();
 }
 
 }  // namespace coastmesh

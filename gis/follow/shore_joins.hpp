@@ -15,6 +15,7 @@ struct JoinedShores {
 
 // Opens land and water (`openShores`). If that would cut off a water, its connection is widened like a passage instead,
 // provided that it is at least `options.strait_min` wide and widening takes little compared with the water's area.
-JoinedShores openJoined(ShoreStart&& start, const ShoreSizes& sizes, ShoreGuides guides, const FollowOptions& options);
+JoinedShores openJoined(ShoreStart&& start, const ShoreSizes& sizes, ShoreGuides guides, const FollowOptions& options,
+                        const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

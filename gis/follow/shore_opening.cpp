@@ -30,18 +30,20 @@ constexpr double kLeastOpening = 1.0;            // elements of open boundary: a
 constexpr double kLeastWater = 6.0;              // triangles of the size wanted
 constexpr double kGrazed = 0.1;                  // of the water at open boundaries: the frame only grazes smaller parts
 constexpr std::size_t kPlaces = 8;               // per water
+constexpr std::size_t kWorthThreads = 16384;     // triangles
 const double kTriangle = 0.25 * std::sqrt(3.0);  // area of one of side 1
 
 class Opening {
  public:
   Opening(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, const ShoreEdit& edit,
-          WaterAreas& gained)
+          WaterAreas& gained, const ItemLoop& loop)
       : t_(triangles),
         scale_(sizes.scale),
         passages_(guides.passages),
         barriers_(guides.barriers),
         edit_(edit),
-        gained_(gained) {}
+        gained_(gained),
+        loop_(loop) {}
 
   void dropIslands(const SmallWaters& small) {
     const Patches lands = patchesOf(mesh(), [&](TriId t) { return isLand(t); });
@@ -62,25 +64,25 @@ class Opening {
     narrowest_ = narrowest;
     dropIslands(small);
     // Removes triangles from the ends, one by one, so that no land is cut in two.
-    std::vector<bool> thin(mesh().triangles.size()), off(mesh().triangles.size(), false);
-    std::vector<TriId> ends;
+    std::vector<char> thin(mesh().triangles.size(), 0), off(mesh().triangles.size(), 0);
     const auto isEnd = [&](TriId t) {
       int beside = 0;
-      for (const EdgeRef e : mesh().triangles[t].adj) beside += isLand(triOf(e)) && !off[triOf(e)] ? 1 : 0;
+      for (const EdgeRef e : mesh().triangles[t].adj) beside += isLand(triOf(e)) && off[triOf(e)] == 0 ? 1 : 0;
       return beside <= 1;
     };
-    for (TriId t = 0; t < thin.size(); ++t) {
+    std::vector<TriId> ends = numbersWhere(loop_, thin.size(), [&](TriId t) {
       thin[t] = isLand(t) && t_.width[t] < narrowest && !keeps_all_[t] && (usesOf(t) & ~kOnShore) == 0 &&
                 !isAt(barriers_, t, 0.0);
-      if (thin[t] && isEnd(t)) ends.push_back(t), off[t] = true;
-    }
+      return thin[t] != 0 && isEnd(t);
+    });
+    for (const TriId t : ends) off[t] = 1;
     for (std::size_t i = 0; i < ends.size(); ++i) {
       for (const EdgeRef e : mesh().triangles[ends[i]].adj) {
         const TriId next = triOf(e);
-        if (thin[next] && !off[next] && isEnd(next)) ends.push_back(next), off[next] = true;
+        if (thin[next] != 0 && off[next] == 0 && isEnd(next)) ends.push_back(next), off[next] = 1;
       }
     }
-    const Patches spits = patchesOf(mesh(), [&](TriId t) { return off[t]; });
+    const Patches spits = patchesOf(mesh(), [&](TriId t) { return off[t] != 0; });
     for (const std::vector<TriId>& spit : spits.triangles) {
       const RegionId water = waterAround(spit);
       const auto gates = gatesOf(spit, spits.of, [&](TriId t) { return isLand(t); });
@@ -113,14 +115,25 @@ class Opening {
   // For each triangle: true if it is water that may be closed.
   std::vector<char> narrowTriangles(double narrowest) const {
     std::vector<char> is_narrow(mesh().triangles.size(), 0);
-    for (TriId t = 0; t < is_narrow.size(); ++t) is_narrow[t] = !isLand(t) && isNarrow(t, narrowest);
+    forEachByStretches(loop_, is_narrow.size(), [&](std::size_t i) {
+      const auto t = static_cast<TriId>(i);
+      is_narrow[t] = !isLand(t) && isNarrow(t, narrowest);
+    });
     return is_narrow;
   }
 
   SmallWaters smallWaters(const std::vector<char>& is_narrow, const ConnectedRegions& connected) const {
+    const auto largeIn = [&](std::size_t first, std::size_t last) {
+      std::vector<std::size_t> large;
+      for (auto t = static_cast<TriId>(first); t < last; ++t) {
+        if (isLand(t) || is_narrow[t] != 0) continue;
+        if (const std::size_t whole = wholeOf(mesh().regions[t], connected); large.empty() || large.back() != whole)
+          large.push_back(whole);
+      }
+      return large;
+    };
     SmallWaters small(connected.size(), true);
-    for (TriId t = 0; t < mesh().triangles.size(); ++t)
-      if (!isLand(t) && is_narrow[t] == 0) small[wholeOf(mesh().regions[t], connected)] = false;
+    for (const std::size_t whole : joined(overStretches(loop_, mesh().triangles.size(), largeIn))) small[whole] = false;
     for (std::size_t r = 0; r < small.size(); ++r) small[r] = small[static_cast<std::size_t>(connected[r])];
     return small;
   }
@@ -201,18 +214,29 @@ class Opening {
     WaterPart part;
     part.whole = connected[static_cast<std::size_t>(mesh().regions[patch.front()])];
     part.small = isIn(small_, part.whole);
-    for (const TriId t : patch) {
-      const double area = groundAreaOf(t);
-      part.area += area;
-      part.areas[mesh().regions[t]] += area;
+    struct Sized {
+      double area;
+      TriId t;
+      bool operator<(const Sized& other) const { return area != other.area ? area > other.area : t < other.t; }
+    };
+    std::vector<Sized> sized(patch.size());
+    std::vector<double> areas(patch.size());
+    const auto measure = [&](std::size_t i) {
+      sized[i] = {areaOf(patch[i]), patch[i]};
+      areas[i] = groundAreaOf(patch[i]);
+    };
+    forEachByStretches(patch.size() < kWorthThreads ? ItemLoop(inOrder) : loop_, patch.size(), measure);
+    RegionId region = mesh().regions[patch.front()];
+    double* in_region = &part.areas[region];
+    for (std::size_t i = 0; i < patch.size(); ++i) {
+      if (mesh().regions[patch[i]] != region) in_region = &part.areas[region = mesh().regions[patch[i]]];
+      part.area += areas[i];
+      *in_region += areas[i];
     }
     part.at_open = openingOf(patch) >= kLeastOpening;
-    std::vector<TriId> largest(std::min(kPlaces, patch.size()));
-    std::ranges::partial_sort_copy(patch, largest, [&](TriId a, TriId b) {
-      const double area = areaOf(a), other = areaOf(b);
-      return area != other ? area > other : a < b;
-    });
-    for (const TriId t : largest) part.inside.push_back(centreOf(t));
+    std::vector<Sized> largest(std::min(kPlaces, patch.size()));
+    std::partial_sort_copy(sized.begin(), sized.end(), largest.begin(), largest.end());
+    for (const Sized& one : largest) part.inside.push_back(centreOf(one.t));
     return part;
   }
   bool isAt(const LineZone& lines, TriId t, double reach) const {
@@ -378,6 +402,7 @@ class Opening {
   const LineZone passages_, barriers_;
   const ShoreEdit& edit_;
   WaterAreas& gained_;
+  const ItemLoop& loop_;
   double narrowest_ = 0.0;
   std::vector<bool> keeps_all_;
   SmallWaters small_;
@@ -387,21 +412,29 @@ class Opening {
 }  // namespace
 
 void openLand(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
-              const SmallWaters& small, const ShoreEdit& edit, WaterAreas& gained, std::vector<DroppedSpit>& spits) {
-  Opening(triangles, sizes, guides, edit, gained).openLand(narrowest, small, spits);
-  settleShores(triangles, sizes.wanted);
+              const SmallWaters& small, const ShoreEdit& edit, WaterAreas& gained, std::vector<DroppedSpit>& spits,
+              const ItemLoop& loop) {
+  Opening(triangles, sizes, guides, edit, gained, loop).openLand(narrowest, small, spits);
+  settleShores(triangles, sizes.wanted, loop);
 }
 
-ConnectedRegions connectedRegions(const ShoreTriangles& triangles) {
+ConnectedRegions connectedRegions(const ShoreTriangles& triangles, const ItemLoop& loop) {
   const TriMesh& mesh = triangles.mesh;
   UnionFind sets(static_cast<std::size_t>(triangles.land));
-  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
-    const RegionId region = mesh.regions[t];
-    if (region == triangles.land) continue;
-    for (const EdgeRef e : mesh.triangles[t].adj)
-      if (const RegionId beside = mesh.regions[triOf(e)]; beside != triangles.land)
-        sets.unite(static_cast<std::uint32_t>(region), static_cast<std::uint32_t>(beside));
-  }
+  const auto bordersOf = [&](std::size_t first, std::size_t last) {
+    std::vector<std::pair<RegionId, RegionId>> borders;
+    for (std::size_t t = first; t < last; ++t) {
+      const RegionId region = mesh.regions[t];
+      if (region == triangles.land) continue;
+      for (const EdgeRef e : mesh.triangles[t].adj)
+        if (const RegionId beside = mesh.regions[triOf(e)]; beside != triangles.land && beside != region)
+          borders.emplace_back(region, beside);
+    }
+    return borders;
+  };
+  if (triangles.land > 1)
+    for (const auto& [region, beside] : joined(overStretches(loop, mesh.triangles.size(), bordersOf)))
+      sets.unite(static_cast<std::uint32_t>(region), static_cast<std::uint32_t>(beside));
   ConnectedRegions first;
   for (std::uint32_t r = 0; r < static_cast<std::uint32_t>(triangles.land); ++r)
     first.push_back(static_cast<RegionId>(sets.find(r)));
@@ -409,17 +442,18 @@ ConnectedRegions connectedRegions(const ShoreTriangles& triangles) {
 }
 
 SmallWaters smallWaters(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
-                        const ConnectedRegions& connected) {
+                        const ConnectedRegions& connected, const ItemLoop& loop) {
   const ShoreEdit none;
   WaterAreas gained;
-  const Opening opening(triangles, sizes, guides, none, gained);
+  const Opening opening(triangles, sizes, guides, none, gained, loop);
   return opening.smallWaters(opening.narrowTriangles(narrowest), connected);
 }
 
 OpenedWater openWater(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
-                      KeepWater keep, const ConnectedRegions& connected, const ShoreEdit& edit, WaterAreas& gained) {
+                      KeepWater keep, const ConnectedRegions& connected, const ShoreEdit& edit, WaterAreas& gained,
+                      const ItemLoop& loop) {
   OpenedWater opened;
-  Opening opening(triangles, sizes, guides, edit, gained);
+  Opening opening(triangles, sizes, guides, edit, gained, loop);
   opening.openWater(narrowest, connected);
   opening.keepWater(keep, connected, opened.waters);
   for (const WaterPart& water : opened.waters) {

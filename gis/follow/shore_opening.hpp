@@ -20,13 +20,13 @@ struct DroppedSpit {
 // For each region of water, the first of those that it is connected with: features with a common border are one water.
 using ConnectedRegions = std::vector<RegionId>;
 
-ConnectedRegions connectedRegions(const ShoreTriangles& triangles);
+ConnectedRegions connectedRegions(const ShoreTriangles& triangles, const ItemLoop& loop = inOrder);
 
 // For each region of water: true if no triangle of its water is `narrowest` times the size wide, or stays for another
 // reason. `openWater` then closes nothing of it.
 using SmallWaters = std::vector<bool>;
 SmallWaters smallWaters(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
-                        const ConnectedRegions& connected);
+                        const ConnectedRegions& connected, const ItemLoop& loop = inOrder);
 
 // A morphological opening of the land, with disks of `narrowest` times the size there as diameter: removes land that no
 // disk fits into and that ends in water (spits, capes), and islands smaller than a triangle of that size. Keeps blunt
@@ -34,7 +34,8 @@ SmallWaters smallWaters(ShoreTriangles& triangles, const ShoreSizes& sizes, cons
 // small islands. Land in waters that are `small` stays. The gain of each region of water is added to `gained`, as
 // below, and long spits to `spits`. Settles the triangles.
 void openLand(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
-              const SmallWaters& small, const ShoreEdit& edit, WaterAreas& gained, std::vector<DroppedSpit>& spits);
+              const SmallWaters& small, const ShoreEdit& edit, WaterAreas& gained, std::vector<DroppedSpit>& spits,
+              const ItemLoop& loop = inOrder);
 
 // A part of a water without a connection to the others, mostly because this was closed.
 struct WaterPart {
@@ -58,6 +59,7 @@ struct OpenedWater {
 // would be left of a water, all of it stays. Then keeps the parts of each water by `keep`, regions that were connected
 // before (`connected`) being one water; those left out are not subtracted from `gained`. Does not settle the triangles.
 OpenedWater openWater(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
-                      KeepWater keep, const ConnectedRegions& connected, const ShoreEdit& edit, WaterAreas& gained);
+                      KeepWater keep, const ConnectedRegions& connected, const ShoreEdit& edit, WaterAreas& gained,
+                      const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

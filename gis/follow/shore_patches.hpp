@@ -1,10 +1,23 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
+#include "core/item_loop.hpp"
 #include "core/tri_mesh.hpp"
 
 namespace coastmesh {
+
+// The numbers below `count` for which `is(number)`, in order.
+template <typename Is>
+std::vector<std::uint32_t> numbersWhere(const ItemLoop& loop, std::size_t count, Is&& is) {
+  return joined(overStretches(loop, count, [&](std::size_t first, std::size_t last) {
+    std::vector<std::uint32_t> numbers;
+    for (std::size_t i = first; i < last; ++i)
+      if (is(static_cast<std::uint32_t>(i))) numbers.push_back(static_cast<std::uint32_t>(i));
+    return numbers;
+  }));
+}
 
 // Sets of triangles that are connected by edges.
 struct Patches {

@@ -12,6 +12,7 @@
 #include "core/predicates.hpp"
 #include "core/triangulate/delaunay.hpp"
 #include "gis/follow/shore_flips.hpp"
+#include "gis/follow/shore_patches.hpp"
 
 namespace coastmesh {
 
@@ -23,7 +24,8 @@ constexpr int kHalvings = 40;            // of a shift that inverts a triangle
 
 class Settler {
  public:
-  Settler(ShoreTriangles& triangles, const SizeFunction& size) : t_(triangles), flips_(triangles, size) {}
+  Settler(ShoreTriangles& triangles, const SizeFunction& size, const ItemLoop& loop)
+      : t_(triangles), flips_(triangles, size), loop_(loop) {}
 
   void run() {
     settle();
@@ -54,34 +56,38 @@ class Settler {
 
   void settle() {
     is_near_.assign(mesh().points.size(), 0);
-    for (TriId t = 0; t < mesh().triangles.size(); ++t) {
-      const bool is_changed = mesh().regions[t] != t_.region_was[t];
-      if (!is_changed && !t_.is_new) continue;
+    const auto isChanged = [&](TriId t) { return mesh().regions[t] != t_.region_was[t]; };
+    const auto isOtherSegment = [&](EdgeRef e) { return segmentNow(e) != mesh().segment(e); };
+    const std::vector<TriId> changed = numbersWhere(loop_, mesh().triangles.size(), [&](TriId t) {
+      return isChanged(t) || (t_.is_new && (isOtherSegment(edgeRef(t, 0)) || isOtherSegment(edgeRef(t, 1)) ||
+                                            isOtherSegment(edgeRef(t, 2))));
+    });
+    for (const TriId t : changed) {
       for (unsigned i = 0; i < 3; ++i) markSegment(edgeRef(t, i));
-      if (!is_changed) continue;
+      if (!isChanged(t)) continue;
       for (const VertexId v : mesh().triangles[t].v) is_near_[v] = 1;
     }
     for (const VertexId v : t_.helpers) is_near_[v] = 1;
     t_.helpers.clear();
-    const auto count = static_cast<VertexId>(mesh().points.size());
-    for (VertexId v = 0; v < count; ++v) {
-      if (t_.home[v] == kNone || (t_.use[v] & kAround) != 0) continue;
-      if (is_near_[v] != 0 || t_.is_new) findPinch(v);
-    }
+    const std::size_t count = mesh().points.size();
+    const auto isInside = [&](VertexId v) { return t_.home[v] != kNone && (t_.use[v] & kAround) == 0; };
+    for (const VertexId v : numbersWhere(
+             loop_, count, [&](VertexId v) { return isInside(v) && (is_near_[v] != 0 || t_.is_new) && isPinch(v); }))
+      split(v);
     for (const Copy& copy : copies_) separate(copy);
-    for (VertexId v = 0; v < count; ++v) {
-      if (t_.home[v] == kNone || (t_.use[v] & kAround) != 0) continue;
-      if (is_near_[v] != 0 || (t_.is_new && (t_.use[v] & kLoose) != 0)) findUse(v);
-    }
+    loose_ = numbersWhere(loop_, count, [&](VertexId v) {
+      return isInside(v) && (is_near_[v] != 0 || (t_.is_new && (t_.use[v] & kLoose) != 0)) && !findUse(v);
+    });
   }
 
   TriMesh& mesh() { return t_.mesh; }
   const TriMesh& mesh() const { return t_.mesh; }
   bool isWater(TriId t) const { return mesh().regions[t] != t_.land; }
 
-  void markSegment(EdgeRef e) {
+  // The segment that the edge should be part of: the last tag's for a new one.
+  SegmentId segmentNow(EdgeRef e) const {
     const EdgeRef back = mesh().twin(e);
-    if (back == kNone) return;
+    if (back == kNone) return mesh().segment(e);
     const TriId t = triOf(e), u = triOf(back);
     const RegionId left = mesh().regions[t], right = mesh().regions[u], left_was = t_.region_was[t],
                    right_was = t_.region_was[u];
@@ -89,23 +95,33 @@ class Settler {
     const bool was_line = was != kNone && (left_was == t_.land) == (right_was == t_.land);
     const bool is_there = (left != t_.land || right != t_.land) && (left != right || was_line);
     const bool is_same = was != kNone && left == left_was && right == right_was;
-    const SegmentId now = !is_there ? kNone : is_same ? was : made;
-    if (now == was) return;
-    setSegment(mesh().triangles, e, now);
-    is_near_[mesh().origin(e)] = is_near_[mesh().target(e)] = 1;
-    if (now == kNone) flips_.touch(t);
+    return !is_there ? kNone : is_same ? was : made;
   }
 
-  void findPinch(VertexId v) {
-    round_.clear();
-    forTrianglesRound(t_, v, [&](TriId t) { round_.push_back(t); });
+  void markSegment(EdgeRef e) {
+    const SegmentId now = segmentNow(e);
+    if (now == mesh().segment(e)) return;
+    setSegment(mesh().triangles, e, now);
+    is_near_[mesh().origin(e)] = is_near_[mesh().target(e)] = 1;
+    if (now == kNone) flips_.touch(triOf(e));
+  }
+
+  // True if the water touches itself there.
+  bool isPinch(VertexId v) const {
     std::size_t changes = 0;
-    for (std::size_t i = 0; i < round_.size(); ++i)
-      changes += isWater(round_[i]) != isWater(round_[(i + 1) % round_.size()]) ? 1 : 0;
-    if (changes > 2) split(v);
+    const bool first = isWater(t_.home[v]);
+    bool before = first;
+    forTrianglesRound(t_, v, [&](TriId t) {
+      const bool is_water = isWater(t);
+      changes += is_water != before ? 1 : 0;
+      before = is_water;
+    });
+    return changes + (before != first ? 1 : 0) > 2;
   }
 
   void split(VertexId v) {
+    round_.clear();
+    forTrianglesRound(t_, v, [&](TriId t) { round_.push_back(t); });
     std::size_t first = 0;
     while (isWater(round_[first]) || !isWater(round_[(first + 1) % round_.size()])) ++first;
     std::vector<Fan> fans;
@@ -212,16 +228,18 @@ class Settler {
     t_.use.push_back(0);
   }
 
-  void findUse(VertexId v) {
+  // Returns false if the vertex is to be removed.
+  bool findUse(VertexId v) {
     const std::uint8_t use = useOf(t_, v);
     const bool stays =
         (use & kLoose) == 0 || (t_.source[v] != kNone && (t_.use[v] & kLoose) != 0 && isWater(t_.home[v]));
     t_.use[v] = use | (t_.use[v] & kAtLine);
-    if (!stays) loose_.push_back(v);
+    return stays;
   }
 
   ShoreTriangles& t_;
   ShoreFlips flips_;
+  const ItemLoop& loop_;
   std::vector<char> is_near_;    // vertices near a change
   std::vector<VertexId> loose_;  // to be removed
   std::vector<TriId> round_;
@@ -251,10 +269,12 @@ TriId locateIn(const ShoreTriangles& triangles, const Point& x, TriId from) {
   return kNone;
 }
 
-void settleShores(ShoreTriangles& triangles, const SizeFunction& size) { Settler(triangles, size).run(); }
+void settleShores(ShoreTriangles& triangles, const SizeFunction& size, const ItemLoop& loop) {
+  Settler(triangles, size, loop).run();
+}
 
-ShoreGraph settledGraph(ShoreTriangles&& triangles, const SizeFunction& size) {
-  return Settler(triangles, size).graph();
+ShoreGraph settledGraph(ShoreTriangles&& triangles, const SizeFunction& size, const ItemLoop& loop) {
+  return Settler(triangles, size, loop).graph();
 }
 
 void insertPoints(ShoreTriangles& triangles, const std::vector<Point>& points, const SizeFunction& size) {

@@ -11,10 +11,10 @@ namespace coastmesh {
 // their own, slightly inside. Removes vertices that no longer lie on a segment, and points of the domain no longer in
 // water. The triangulation is Delaunay again; only surroundings of changes are edited. Triangles are renumbered. Throws
 // BadPslg if there is no room for a vertex.
-void settleShores(ShoreTriangles& triangles, const SizeFunction& size);
+void settleShores(ShoreTriangles& triangles, const SizeFunction& size, const ItemLoop& loop = inOrder);
 
 // The graph of what `settleShores` would make.
-ShoreGraph settledGraph(ShoreTriangles&& triangles, const SizeFunction& size);
+ShoreGraph settledGraph(ShoreTriangles&& triangles, const SizeFunction& size, const ItemLoop& loop = inOrder);
 
 // A triangle that contains x; kNone if x is outside the triangulation. Walks from `from`, and searches all triangles if
 // that takes too long.

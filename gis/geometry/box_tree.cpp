@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
-#include <numeric>
+#include <limits>
 
 #include "core/hilbert.hpp"
 
@@ -30,46 +29,30 @@ std::vector<Point> centresOf(const std::vector<Box>& boxes, const ItemLoop& loop
   return centres;
 }
 
-// `hilbertOrder` by all threads.
-std::vector<std::uint32_t> orderAlongCurve(const std::vector<Point>& points, const ItemLoop& loop) {
-  constexpr std::size_t kWorthThreads = 1 << 15;
-  const Box all = boxAround(points, loop);
-  const double scale = 65535.0 / std::max(all.xmax - all.xmin, all.ymax - all.ymin);
-  if (points.size() < kWorthThreads || !std::isfinite(scale) || scale == 0.0) return hilbertOrder(points);
-  // The index on the curve, then the number.
-  std::vector<std::uint64_t> keys(points.size());
-  forEachByStretches(loop, keys.size(), [&](std::size_t i) {
-    const auto cell = [scale](double from, double at) { return static_cast<std::uint32_t>((at - from) * scale); };
-    const std::uint32_t index = hilbertIndex(cell(all.xmin, points[i].x), cell(all.ymin, points[i].y));
-    keys[i] = std::uint64_t{index} << 32 | i;
-  });
-  sortOn(loop, keys);
-  std::vector<std::uint32_t> order(keys.size());
-  forEachByStretches(loop, keys.size(), [&](std::size_t i) { order[i] = static_cast<std::uint32_t>(keys[i]); });
-  return order;
-}
-
 }  // namespace
 
 BoxTree::BoxTree(const std::vector<Box>& boxes, Order order, const ItemLoop& loop) {
   assert(boxes.size() <= std::numeric_limits<std::uint32_t>::max());
   if (boxes.empty()) return;
-  boxes_.reserve(boxes.size() + boxes.size() / (kFanout - 1) + 16);
-  boxes_ = boxes;
-  if (order == Order::Hilbert) {
-    items_ = orderAlongCurve(centresOf(boxes, loop), loop);
-    forEachByStretches(loop, boxes.size(), [&](std::size_t i) { boxes_[i] = boxes[items_[i]]; });
+  if (order == Order::Hilbert) items_ = hilbertOrder(centresOf(boxes, loop), loop);
+  level_begin_ = {0, boxes.size()};
+  for (std::size_t count = boxes.size(); count > 1;) {
+    count = (count + kFanout - 1) / kFanout;
+    level_begin_.push_back(level_begin_.back() + count);
   }
-  level_begin_ = {0, boxes_.size()};
-  while (level_begin_.back() - level_begin_[level_begin_.size() - 2] > 1) {
-    const std::size_t begin = level_begin_[level_begin_.size() - 2], end = level_begin_.back();
-    const std::size_t above = (end - begin + kFanout - 1) / kFanout;
-    boxes_.resize(end + above);
-    forEachByStretches(loop, above, [&](std::size_t node) {
-      const std::size_t first = begin + node * kFanout;
-      for (std::size_t i = first; i < std::min(end, first + kFanout); ++i) boxes_[end + node].add(boxes_[i]);
+  boxes_.resize(level_begin_.back());
+  refit(loop, [&](std::uint32_t item) { return boxes[item]; });
+}
+
+void BoxTree::enclose(const ItemLoop& loop) {
+  for (std::size_t level = 1; level + 1 < level_begin_.size(); ++level) {
+    const std::size_t below = level_begin_[level - 1], begin = level_begin_[level], end = level_begin_[level + 1];
+    forEachByStretches(loop, end - begin, [&](std::size_t node) {
+      Box box;
+      const std::size_t last = std::min(begin, below + (node + 1) * kFanout);
+      for (std::size_t i = below + node * kFanout; i < last; ++i) box.add(boxes_[i]);
+      boxes_[begin + node] = box;
     });
-    level_begin_.push_back(boxes_.size());
   }
 }
 

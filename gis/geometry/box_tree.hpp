@@ -24,6 +24,14 @@ class BoxTree {
   // `loop` may use threads: the tree is the same.
   BoxTree(const std::vector<Box>& boxes, Order order, const ItemLoop& loop = inOrder);
 
+  // Replaces all boxes, by `boxOf(item)`, and keeps the order: good while most boxes change little. Empty boxes are not
+  // found.
+  template <typename BoxOf>
+  void refit(const ItemLoop& loop, BoxOf&& boxOf) {
+    forEachByStretches(loop, size(), [&](std::size_t i) { boxes_[i] = boxOf(itemAt(i)); });
+    enclose(loop);
+  }
+
   std::size_t size() const { return level_begin_.empty() ? 0 : level_begin_[1]; }
   Box bounds() const { return boxes_.empty() ? Box{} : boxes_.back(); }
 
@@ -52,13 +60,18 @@ class BoxTree {
  private:
   static constexpr std::size_t kFanout = 8;
 
+  std::uint32_t itemAt(std::size_t i) const { return items_.empty() ? static_cast<std::uint32_t>(i) : items_[i]; }
+
+  // Sets the boxes of the levels above the lowest.
+  void enclose(const ItemLoop& loop);
+
   template <typename Enter, typename Found>
   void descendFrom(std::size_t level, std::size_t node, Enter& enter, Found& found) const {
     const std::size_t first = node << (3 * level);
     const std::size_t last = std::min(size(), (node + 1) << (3 * level));
     if (!enter(boxes_[level_begin_[level] + node], first, last)) return;
     if (level == 0) {
-      found(items_.empty() ? static_cast<std::uint32_t>(node) : items_[node]);
+      found(itemAt(node));
       return;
     }
     const std::size_t below = level_begin_[level] - level_begin_[level - 1];

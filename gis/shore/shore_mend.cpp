@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "core/metric.hpp"
 #include "gis/shore/shore_divide.hpp"
@@ -38,67 +42,139 @@ class Mender {
     std::optional<Point> x;
     double quality = 0.0;
   };
+  // A vertex whose piece of shore may be improved.
+  struct Bad {
+    double quality;
+    VertexId v;
+    std::uint32_t stretch, first, last;  // what lies near it, in `BadPieces::near`
+    bool operator<(const Bad& other) const { return quality != other.quality ? quality < other.quality : v < other.v; }
+  };
+  struct BadPieces {
+    std::vector<Bad> bad;                     // in order of their vertices
+    std::vector<std::vector<VertexId>> near;  // by stretch
+    std::span<const VertexId> nearTo(const Bad& of) const {
+      return std::span(near[of.stretch]).subspan(of.first, of.last - of.first);
+    }
+  };
 
   // Divides long segments, because moving a vertex moves all of both its segments.
   void divide() {
     divideAtLines(c_);
-    near_.buildTrees();
+    near_.buildTrees(loop_);
     is_new_.assign(c_.at.size(), 1);
-    for (const auto& [quality, v] : findBad())
-      if (!isFixed(v)) divideBeside(c_, v);
+    for (const Bad& bad : findBad().bad) divideBeside(c_, bad.v);
     from_ = c_.at;
     is_new_.assign(c_.at.size(), 1);
+    near_.buildTrees(loop_);
   }
 
   bool isFixed(VertexId v) const { return c_.stays[v] != 0 || c_.open[v] != 0; }
 
-  std::vector<std::pair<double, VertexId>> findBad() const {
+  BadPieces findBad() const {
     constexpr std::size_t kStretch = 4096;
-    return joined(overStretches(
+    struct Found {
+      std::vector<Bad> bad;
+      std::vector<VertexId> near;
+    };
+    std::vector<Found> found = overStretches(
         loop_, c_.at.size(),
         [&](std::size_t first, std::size_t last) {
-          std::vector<std::pair<double, VertexId>> bad;
-          ShorePieces near = near_;
+          Found here;
+          ShorePieces pieces = near_;
           for (auto v = static_cast<VertexId>(first); v < last; ++v) {
-            if (!is_new_[v] || c_.next[v] == kNone || c_.prev[v] == kNone) continue;
-            if (near.isFine(v)) continue;
-            near.gather(v, 0.0);
-            const double quality = near.qualityOf(v, c_.at[v]);
-            if (quality < 1.0) bad.emplace_back(quality, v);
+            if (!is_new_[v] || isFixed(v) || c_.next[v] == kNone || c_.prev[v] == kNone) continue;
+            if (pieces.isFine(v)) continue;
+            pieces.gather(v, kSteps[2]);
+            const double quality = pieces.qualityOf(v, c_.at[v]);
+            if (quality >= 1.0) continue;
+            const auto begin = static_cast<std::uint32_t>(here.near.size());
+            here.near.insert(here.near.end(), pieces.points().begin(), pieces.points().end());
+            here.bad.push_back({quality, v, 0, begin, static_cast<std::uint32_t>(here.near.size())});
           }
-          return bad;
+          return here;
         },
-        kStretch));
+        kStretch);
+    BadPieces all;
+    for (std::uint32_t stretch = 0; stretch < found.size(); ++stretch) {
+      for (Bad& bad : found[stretch].bad) bad.stretch = stretch;
+      all.bad.insert(all.bad.end(), found[stretch].bad.begin(), found[stretch].bad.end());
+      all.near.push_back(std::move(found[stretch].near));
+    }
+    return all;
   }
 
+  // Mends the worst first. What lies near a mended piece is locked until the next round, so that pieces may be judged
+  // all at once.
   bool mendOnce() {
-    near_.buildTrees();
-    locked_.assign(c_.at.size(), 0);
-    std::vector<std::pair<double, VertexId>> bad = findBad();
-    std::ranges::sort(bad);
+    BadPieces pieces = findBad();
+    std::sort(pieces.bad.begin(), pieces.bad.end());
+    std::vector<char> locked(c_.at.size(), 0);
+    const auto isLocked = [&](const Bad& bad) {
+      return std::ranges::any_of(pieces.nearTo(bad), [&](VertexId w) { return locked[w] != 0; });
+    };
+    const std::vector<std::uint32_t> likely = likelyMended(pieces);
+    const std::vector<std::optional<Change>> changes = changesOf(pieces, likely);
     is_new_.assign(c_.at.size(), 0);
     bool any = false;
-    for (const auto& [quality, v] : bad) {
-      if (isFixed(v) || c_.next[v] == kNone) continue;
-      near_.gather(v, kSteps[2]);
-      if (std::ranges::any_of(near_.points(), [&](VertexId w) { return locked_[w] != 0; })) {
-        is_new_[v] = 1;
+    std::size_t next = 0;  // in `likely`
+    for (std::uint32_t i = 0; i < pieces.bad.size(); ++i) {
+      const Bad& bad = pieces.bad[i];
+      const bool is_likely = next < likely.size() && likely[next] == i;
+      const std::size_t place = is_likely ? next++ : next;
+      if (isLocked(bad)) {
+        is_new_[bad.v] = 1;
         continue;
       }
-      if (!mend(v, quality)) continue;
-      for (const VertexId w : near_.points()) locked_[w] = is_new_[w] = 1;
+      if (!is_likely) near_.gather(bad.v, kSteps[2]);
+      const std::optional<Change> change = is_likely ? changes[place] : changeOf(bad, near_);
+      if (!change) continue;
+      make(*change, bad.v);
+      for (const VertexId w : pieces.nearTo(bad)) locked[w] = is_new_[w] = 1;
       any = true;
     }
+    if (any) near_.renewTrees(loop_);
     return any;
   }
 
-  bool mend(VertexId v, double quality) {
+  // The pieces that will be mended if this succeeds for all of them, as it mostly does.
+  std::vector<std::uint32_t> likelyMended(const BadPieces& pieces) const {
+    std::vector<std::uint32_t> likely;
+    std::vector<char> locked(c_.at.size(), 0);
+    for (std::uint32_t i = 0; i < pieces.bad.size(); ++i) {
+      const std::span<const VertexId> near = pieces.nearTo(pieces.bad[i]);
+      if (std::ranges::any_of(near, [&](VertexId w) { return locked[w] != 0; })) continue;
+      for (const VertexId w : near) locked[w] = 1;
+      likely.push_back(i);
+    }
+    return likely;
+  }
+
+  std::vector<std::optional<Change>> changesOf(const BadPieces& pieces, const std::vector<std::uint32_t>& of) const {
+    constexpr std::size_t kStretch = 64;
+    std::vector<std::optional<Change>> changes(of.size());
+    forStretches(
+        loop_, of.size(),
+        [&](std::size_t first, std::size_t last) {
+          ShorePieces near = near_;
+          for (std::size_t i = first; i < last; ++i) {
+            const Bad& bad = pieces.bad[of[i]];
+            near.gather(bad.v, kSteps[2]);
+            changes[i] = changeOf(bad, near);
+          }
+        },
+        kStretch);
+    return changes;
+  }
+
+  // The best change that is an improvement. `near`: gathered for the piece.
+  std::optional<Change> changeOf(const Bad& bad, const ShorePieces& near) const {
+    const VertexId v = bad.v;
     const double size = c_.size[v];
     // Close to the wanted quality, a smaller improvement is enough.
-    Change best{std::nullopt, std::min(quality + kBetter, 1.0)};
+    Change best{std::nullopt, std::min(bad.quality + kBetter, 1.0)};
     bool found = false;
-    if (canTakeOut(c_, v) && canGo(v)) {
-      const double after = near_.qualityOf(v, std::nullopt);
+    if (canTakeOut(c_, v) && canGo(v, near)) {
+      const double after = near.qualityOf(v, std::nullopt);
       if (after >= best.quality) best = {std::nullopt, after}, found = true;
     }
     for (const double step : kSteps) {
@@ -106,28 +182,31 @@ class Mender {
         const double angle = 2.0 * std::numbers::pi * i / kDirections;
         const Point x = c_.at[v] + step * size * Point{std::cos(angle), std::sin(angle)};
         if (squaredDistance(x, from_[v]) > kMoved * kMoved * size * size) continue;
-        const double after = near_.qualityOf(v, x);
+        const double after = near.qualityOf(v, x);
         const bool is_better = found ? after > best.quality + kBetter : after >= best.quality;
-        if (is_better && !leavesFrame(c_, v, x) && near_.canMove(v, x)) best = {x, after}, found = true;
+        if (is_better && !leavesFrame(c_, v, x) && near.canMove(v, x)) best = {x, after}, found = true;
       }
     }
-    if (!found) return false;
-    if (best.x) {
-      moved_(v, *best.x);
-      c_.at[v] = *best.x;
+    if (!found) return std::nullopt;
+    return best;
+  }
+
+  void make(const Change& change, VertexId v) {
+    if (change.x) {
+      moved_(v, *change.x);
+      c_.at[v] = *change.x;
       c_.source[v] = kNone;
     } else {
       gone_(v);
       takeOut(c_, v);
     }
-    return true;
   }
 
   // True if removing v moves the shore little enough, with nothing in between.
-  bool canGo(VertexId v) const {
+  bool canGo(VertexId v, const ShorePieces& near) const {
     const Point &a = c_.at[c_.prev[v]], &x = c_.at[v], &b = c_.at[c_.next[v]];
     const double most = (waterAngle(a, x, b) < kSmallShoreAngle ? kClosed : kMoved) * c_.size[v];
-    return squaredDistanceToSegment(from_[v], a, b) <= most * most && near_.canCut(v);
+    return squaredDistanceToSegment(from_[v], a, b) <= most * most && near.canCut(v);
   }
 
   ShoreChains& c_;
@@ -136,7 +215,6 @@ class Mender {
   const ItemLoop& loop_;
   std::vector<Point> from_;
   ShorePieces near_;
-  std::vector<char> locked_;
   std::vector<char> is_new_;  // something near has changed since the last check
 };
 

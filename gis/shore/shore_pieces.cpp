@@ -51,28 +51,41 @@ double ShorePieces::narrowestAt(VertexId v) const {
   return c_.least.empty() ? kNarrow * c_.size[v] : std::max(kNarrow * c_.size[v], kWide * c_.least[v]);
 }
 
-void ShorePieces::buildTrees() {
-  std::vector<Box> points, segments;
+void ShorePieces::buildTrees(const ItemLoop& loop) {
   std::vector<char> is_loose(c_.at.size(), 0);
   const auto trees = std::make_shared<Trees>();
+  trees->ends.reserve(c_.at.size() + c_.lines.size());
   for (VertexId v = 0; v < c_.at.size(); ++v) {
     if (!c_.alive[v]) continue;
     is_loose[v] = c_.next[v] == kNone && c_.prev[v] == kNone;
     if (c_.next[v] != kNone) trees->ends.emplace_back(v, c_.next[v]);
   }
+  trees->at_lines = trees->ends.size();
   for (const Segment& s : c_.lines) {
     trees->ends.emplace_back(s.a, s.b);
     is_loose[s.a] = is_loose[s.b] = 0;
   }
+  std::vector<Box> points, segments(trees->ends.size());
   for (VertexId v = 0; v < is_loose.size(); ++v) {
     if (is_loose[v] == 0) continue;
     trees->loose.push_back(v);
     points.push_back(Box::of(c_.at[v], c_.at[v]));
   }
-  for (const auto& [a, b] : trees->ends) segments.push_back(Box::of(c_.at[a], c_.at[b]));
-  trees->points = points.empty() ? BoxTree() : BoxTree(points, BoxTree::Order::Hilbert);
-  trees->segments = BoxTree(segments, BoxTree::Order::Hilbert);
+  forEachByStretches(loop, segments.size(), [&](std::size_t s) {
+    const auto& [a, b] = trees->ends[s];
+    segments[s] = Box::of(c_.at[a], c_.at[b]);
+  });
+  trees->points = points.empty() ? BoxTree() : BoxTree(points, BoxTree::Order::Hilbert, loop);
+  trees->segments = BoxTree(segments, BoxTree::Order::Hilbert, loop);
   trees_ = trees;
+}
+
+void ShorePieces::renewTrees(const ItemLoop& loop) {
+  trees_->segments.refit(loop, [&](std::uint32_t s) {
+    auto& [a, b] = trees_->ends[s];
+    if (s < trees_->at_lines) b = c_.next[a];
+    return b == kNone ? Box{} : Box::of(c_.at[a], c_.at[b]);
+  });
 }
 
 void ShorePieces::gather(VertexId v, double reach) {

@@ -20,7 +20,9 @@ class ShorePieces {
   explicit ShorePieces(const ShoreChains& chains) : c_(chains) {}
 
   // Builds the trees of the present shore: again after many vertices have moved.
-  void buildTrees();
+  void buildTrees(const ItemLoop& loop = inOrder);
+  // The same, at less cost. REQUIRES: since `buildTrees`, vertices of boundaries were only moved or taken out.
+  void renewTrees(const ItemLoop& loop = inOrder);
 
   // Collects what may affect v's piece if v moves by at most `reach` times the size; the methods below use it.
   // REQUIRES: v has both neighbours; `buildTrees`, and `reach` includes any movement of vertices since.
@@ -56,11 +58,12 @@ class ShorePieces {
   struct Trees {
     std::vector<std::pair<VertexId, VertexId>> ends;
     std::vector<VertexId> loose;  // vertices of no segment
+    std::size_t at_lines = 0;     // the first of the `ends` that are those of `lines`
     BoxTree points, segments;     // of `loose`, and of the segments between `ends`
   };
 
   const ShoreChains& c_;
-  std::shared_ptr<const Trees> trees_;
+  std::shared_ptr<Trees> trees_;
   std::vector<VertexId> points_;
   std::vector<std::pair<VertexId, VertexId>> segments_;
 };

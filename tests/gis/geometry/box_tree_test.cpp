@@ -74,6 +74,23 @@ TEST(BoxTreeOrder, IsTheSameHoweverWorkIsShared) {
   }
 }
 
+TEST_P(BoxTreeTest, FindsTheNewBoxesAfterARefit) {
+  std::mt19937_64 random(3);
+  const std::size_t n = 20000;  // enough for several stretches
+  BoxTree tree(randomBoxes(random, n, 10, 1), GetParam(), testing::backwards);
+  std::vector<Box> boxes = randomBoxes(random, n, 10, 1);
+  for (std::size_t i = 0; i < n; i += 3) boxes[i] = Box();
+  tree.refit(testing::backwards, [&](std::uint32_t item) { return boxes[item]; });
+  for (const Box& query : randomBoxes(random, 20, 12, 4)) {
+    std::vector<std::uint32_t> found, expected;
+    tree.visit(query, [&](std::uint32_t item) { found.push_back(item); });
+    for (std::uint32_t i = 0; i < n; ++i)
+      if (boxes[i].meets(query)) expected.push_back(i);
+    std::ranges::sort(found);
+    EXPECT_EQ(found, expected);
+  }
+}
+
 TEST_P(BoxTreeTest, HoldsPointsAndEqualBoxes) {
   const std::vector<Box> boxes(100, Box{1, 1, 1, 1});
   const BoxTree tree(boxes, GetParam());
