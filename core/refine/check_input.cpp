@@ -10,11 +10,11 @@
 #include <span>
 #include <unordered_map>
 
+#include "core/large_list.hpp"
 #include "core/links.hpp"
 #include "core/metric.hpp"
 #include "core/point_hash.hpp"
 #include "core/quality.hpp"
-#include "core/large_list.hpp"
 #include "core/sphere/close_sphere.hpp"
 #include "core/triangulate/delaunay.hpp"
 
