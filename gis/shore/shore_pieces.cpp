@@ -36,6 +36,13 @@ bool holds(const Point& a, const Point& b, const Point& c, const Point& x) {
   return orient2d(a, b, x) * turn >= 0 && orient2d(b, c, x) * turn >= 0 && orient2d(c, a, x) * turn >= 0;
 }
 
+// True if ab may meet the box, which its own box does: false only if all corners lie on one side of it.
+bool mayMeet(const Point& a, const Point& b, const Box& box) {
+  const Point middle{0.5 * (box.xmin + box.xmax), 0.5 * (box.ymin + box.ymax)}, along = b - a;
+  const double reach = 0.5 * ((box.xmax - box.xmin) * std::abs(along.y) + (box.ymax - box.ymin) * std::abs(along.x));
+  return std::abs(cross(along, middle - a)) <= kLittleMore * reach;
+}
+
 // The distance of y from ab, with the water to its left; 1e300 if y is on the land's side.
 double apartInWater(const Point& y, const Point& a, const Point& b) {
   return orient2d(a, b, y) <= 0 ? 1e300 : std::sqrt(squaredDistanceToSegment(y, a, b));
@@ -97,7 +104,10 @@ void ShorePieces::gather(VertexId v, double reach) {
   box = box.grownBy(narrowestAt(v) + reach * c_.size[v]);
   trees_->points.visit(box, [&](std::uint32_t i) { points_.push_back(trees_->loose[i]); });
   trees_->segments.visit(box, [&](std::uint32_t s) {
-    const auto& [from, to] = segments_.emplace_back(trees_->ends[s]);
+    const auto& [from, to] = trees_->ends[s];
+    // The box of a long slanting segment holds much that is nowhere near it.
+    if (!mayMeet(c_.at[from], c_.at[to], box)) return;
+    segments_.emplace_back(from, to);
     points_.push_back(from);
     points_.push_back(to);
   });

@@ -12,6 +12,7 @@
 #include "core/links.hpp"
 #include "core/metric.hpp"
 #include "core/predicates.hpp"
+#include "tests/support/item_loops.hpp"
 
 namespace coastmesh {
 namespace {
@@ -121,6 +122,24 @@ TEST(ShoreSettle, IsWhatTriangulatingAnewMakes) {
       ASSERT_NO_FATAL_FAILURE(expectSettled(t));
     }
   }
+}
+
+TEST(ShoreSettle, DoesNotDependOnThreads) {
+  const auto settled = [](const ItemLoop& loop) {
+    std::mt19937 random(11);
+    ShoreTriangles t = triangulateShores(sea(random, 9000), Ones());  // enough for several stretches
+    for (int round = 0; round < 2; ++round) {
+      changeSome(t, random);
+      settleShores(t, Ones(), loop);
+    }
+    return t;
+  };
+  const ShoreTriangles one = settled(inOrder), other = settled(testing::backwards);
+  EXPECT_GT(one.mesh.triangles.size(), 2u * 8192);
+  EXPECT_EQ(one.mesh.points, other.mesh.points);
+  EXPECT_EQ(one.mesh.regions, other.mesh.regions);
+  EXPECT_EQ(one.use, other.use);
+  EXPECT_EQ(edgesOf(one, false), edgesOf(other, false));
 }
 
 // Nearly every vertex of such shores is where water touches itself, among thin triangles: a vertex that is put beside

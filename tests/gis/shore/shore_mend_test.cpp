@@ -122,6 +122,34 @@ TEST(MendShores, DoesNotDependOnThreads) {
   EXPECT_EQ(one.next, other.next);
 }
 
+// A shore with sharp dents below a slanting one that is nowhere near it, but whose box holds all of it.
+TEST(MendShores, MendsAllBesideALongSlantingSegment) {
+  constexpr VertexId kCount = 300;
+  ShoreGraph graph;
+  const auto add = [&](double x, double y) {
+    graph.pslg.points.push_back({x, y});
+    graph.source.push_back(kNone);
+  };
+  for (VertexId i = 0; i < kCount; ++i) add(i, i % 4 == 1 ? -2.5 : 0.0);
+  add(kCount + 600.0, -10.0);
+  add(-10.0, kCount + 600.0);
+  const auto count = static_cast<VertexId>(graph.pslg.points.size());
+  for (VertexId v = 0; v < count; ++v) graph.pslg.segments.push_back({v, (v + 1) % count, 0, 0, kOutside});
+  ShoreChains chains = chainsOf(std::move(graph), ConstantSize(1.5));
+  for (VertexId v : {VertexId{0}, kCount - 1, kCount, kCount + 1}) chains.stays[v] = 1;
+  mendShores(
+      chains, [](VertexId) {}, [](VertexId, const Point&) {});
+  ShorePieces pieces(chains);
+  pieces.buildTrees();
+  std::size_t bad = 0;
+  for (VertexId v = 2; v + 2 < kCount; ++v) {
+    if (chains.next[v] == kNone) continue;
+    pieces.gather(v, 0.0);
+    bad += pieces.qualityOf(v, chains.at[v]) < 0.99 ? 1 : 0;
+  }
+  EXPECT_LT(bad, 5u);
+}
+
 TEST(MendShores, LeavesWhatIsWideEnough) {
   ShoreChains chains = headland(0.5);
   int edits = 0;
