@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -53,7 +54,7 @@ struct PageData {
     facts["arrays"].push_back({{"name", name}, {"form", packed.form}, {"count", packed.count}});
     arrays.push_back({name, std::move(packed)});
   }
-  void addIndices(const std::string& name, const std::vector<std::uint32_t>& values) {
+  void addIndices(const std::string& name, std::span<const std::uint32_t> values) {
     add(name, packIntegers(std::vector<std::int32_t>(values.begin(), values.end())));
   }
 };
@@ -246,7 +247,7 @@ Json factsOf(const Grid& grid, const PageOptions& options) {
 }
 
 void addCoordinates(PageData& data, const Grid& grid, const std::vector<Point>& geographic) {
-  const auto add = [&data](const std::string& x, const std::string& y, const std::vector<Point>& points) {
+  const auto add = [&data](const std::string& x, const std::string& y, std::span<const Point> points) {
     std::vector<double> values(points.size());
     std::ranges::transform(points, values.begin(), &Point::x);
     data.add(x, packNumbers(values));

@@ -26,13 +26,13 @@ namespace {
 
 // For arrays whose elements are structs: `columns` consecutive numbers of type T.
 template <typename T, typename Row>
-py::array rowsOf(const std::vector<Row>& rows, py::ssize_t columns, const py::object& owner) {
+py::array rowsOf(const BulkList<Row>& rows, py::ssize_t columns, const py::object& owner) {
   static_assert(sizeof(Row) % sizeof(T) == 0);
   return viewOf(reinterpret_cast<const T*>(rows.data()), {static_cast<py::ssize_t>(rows.size()), columns}, owner);
 }
 
-template <typename T>
-py::object columnOf(const std::vector<T>& values, const py::object& owner) {
+template <typename T, typename Allocator>
+py::object columnOf(const std::vector<T, Allocator>& values, const py::object& owner) {
   if (values.empty()) return py::none();
   return viewOf(values.data(), {static_cast<py::ssize_t>(values.size())}, owner);
 }
