@@ -126,7 +126,7 @@ ShoreTriangles triangulateShores(ShoreGraph&& graph, const SizeFunction& size, c
     result.rate = even->rate;
     result.size_at = sizesAt(pslg.points, on_shore, size, even, loop);
   }
-  result.mesh = constrainedDelaunay(pslg);
+  result.mesh = constrainedDelaunay(pslg, {}, loop);
   result.region_was = result.mesh.regions;
   result.home.assign(pslg.points.size(), kNone);
   result.size.resize(result.mesh.triangles.size());
