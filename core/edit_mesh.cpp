@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/bulk_list.hpp"
 #include "core/flip.hpp"
 #include "core/hilbert.hpp"
 #include "core/links.hpp"

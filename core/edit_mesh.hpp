@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/bulk_list.hpp"
 #include "core/tri_mesh.hpp"
 
 namespace coastmesh {

@@ -3,8 +3,8 @@
 #include <array>
 #include <cstdint>
 
+#include "core/bulk_list.hpp"
 #include "core/ids.hpp"
-#include "core/item_loop.hpp"
 
 namespace coastmesh {
 

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/bulk_list.hpp"
 #include "core/links.hpp"
 
 namespace coastmesh {

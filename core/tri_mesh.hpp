@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/bulk_list.hpp"
 #include "core/ids.hpp"
 #include "core/item_loop.hpp"
 #include "core/linked_triangles.hpp"

@@ -4,6 +4,8 @@
 #include <atomic>
 #include <cstdint>
 
+#include "core/bulk_list.hpp"
+
 namespace coastmesh {
 
 namespace {

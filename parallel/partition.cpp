@@ -6,6 +6,7 @@
 #include <compare>
 #include <utility>
 
+#include "core/bulk_list.hpp"
 #include "core/metric.hpp"
 
 namespace coastmesh {

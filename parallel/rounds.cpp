@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/bulk_list.hpp"
 #include "core/refine/split_segments.hpp"
 #include "core/run_control.hpp"
 #include "parallel/cut.hpp"

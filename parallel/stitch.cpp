@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "core/bulk_list.hpp"
 #include "core/flip.hpp"
 #include "core/lattice/grow_list.hpp"
 #include "core/links.hpp"

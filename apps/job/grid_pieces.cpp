@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "core/bulk_list.hpp"
 #include "core/metric.hpp"
 #include "core/pslg.hpp"
 #include "core/sphere/close_sphere.hpp"

@@ -12,6 +12,7 @@
 #include "apps/job/places.hpp"
 #include "apps/job/step_outcome.hpp"
 #include "apps/job/stopwatch.hpp"
+#include "core/bulk_list.hpp"
 #include "core/refine/check.hpp"
 #include "core/run_control.hpp"
 #include "core/size/estimate_vertices.hpp"

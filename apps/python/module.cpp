@@ -11,6 +11,7 @@
 #include "apps/python/arrays.hpp"
 #include "apps/python/pickle.hpp"
 #include "apps/python/run.hpp"
+#include "core/bulk_list.hpp"
 #include "gis/error.hpp"
 #include "gis/file/staged_files.hpp"
 #include "gis/format/grid_io.hpp"

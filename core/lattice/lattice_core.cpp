@@ -5,7 +5,7 @@
 #include <functional>
 #include <utility>
 
-#include "core/lattice/grow_list.hpp"
+#include "core/bulk_list.hpp"
 #include "core/links.hpp"
 #include "core/triangulate/delaunay.hpp"
 

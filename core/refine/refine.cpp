@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/bulk_list.hpp"
 #include "core/refine/bound_violations.hpp"
 #include "core/refine/mend_triangles.hpp"
 #include "core/refine/split_segments.hpp"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/bulk_list.hpp"
 #include "core/large_list.hpp"
 #include "core/links.hpp"
 #include "core/refine/fill_holes.hpp"

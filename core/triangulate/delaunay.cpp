@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/bulk_list.hpp"
 #include "core/distribute.hpp"
 #include "core/links.hpp"
 #include "core/metric.hpp"

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/bulk_list.hpp"
 #include "core/distribute.hpp"
 #include "core/hilbert.hpp"
 #include "core/triangulate/insert_points.hpp"

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <string>
 
+#include "core/bulk_list.hpp"
 #include "core/quality.hpp"
 #include "gis/crs/crs_map.hpp"
 #include "gis/error.hpp"

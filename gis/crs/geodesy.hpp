@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/bulk_list.hpp"
 #include "core/item_loop.hpp"
 #include "core/point.hpp"
 #include "gis/crs/crs.hpp"

@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/bulk_list.hpp"
 #include "core/item_loop.hpp"
 #include "core/size_function.hpp"
 #include "core/tri_mesh.hpp"

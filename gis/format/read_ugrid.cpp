@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/bulk_list.hpp"
 #include "gis/crs/length_unit.hpp"
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/bulk_list.hpp"
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
 #include "gis/file/prj_file.hpp"

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/bulk_list.hpp"
 #include "core/item_loop.hpp"
 
 namespace coastmesh {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/bulk_list.hpp"
 #include "gis/error.hpp"
 #include "gis/file/prj_file.hpp"
 #include "gis/file/text_reader.hpp"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "core/bulk_list.hpp"
 #include "core/quality.hpp"
 #include "gis/crs/geodesy.hpp"
 #include "gis/error.hpp"

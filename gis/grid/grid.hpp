@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/bulk_list.hpp"
 #include "core/item_loop.hpp"
 #include "core/pslg.hpp"
 #include "core/tri_mesh.hpp"

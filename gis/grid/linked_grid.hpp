@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/bulk_list.hpp"
 #include "core/tri_mesh.hpp"
 #include "gis/grid/grid.hpp"
 

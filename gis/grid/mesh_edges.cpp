@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "core/bulk_list.hpp"
+
 namespace coastmesh {
 
 namespace {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/bulk_list.hpp"
 #include "core/item_loop.hpp"
 
 namespace coastmesh {

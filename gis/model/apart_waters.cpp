@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "core/bulk_list.hpp"
 #include "core/large_list.hpp"
 #include "gis/geometry/union_find.hpp"
 #include "gis/grid/grid_edit.hpp"

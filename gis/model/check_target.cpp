@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "core/bulk_list.hpp"
 #include "core/metric.hpp"
 #include "core/predicates.hpp"
 #include "core/quality.hpp"

@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "core/bulk_list.hpp"
 #include "core/quality.hpp"
 #include "gis/coast/segment_tags.hpp"
 #include "gis/crs/geodesy.hpp"

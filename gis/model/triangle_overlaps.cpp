@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/bulk_list.hpp"
 #include "gis/geometry/box_tree.hpp"
 #include "gis/grid/on_sphere.hpp"
 

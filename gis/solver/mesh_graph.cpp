@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/bulk_list.hpp"
 #include "core/ids.hpp"
 #include "gis/error.hpp"
 #include "gis/grid/mesh_edges.hpp"

@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "core/bulk_list.hpp"
 #include "tests/support/item_loops.hpp"
 
 namespace coastmesh {

@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "core/bulk_list.hpp"
 #include "core/quality.hpp"
 #include "core/triangulate/delaunay.hpp"
 #include "tests/support/item_loops.hpp"

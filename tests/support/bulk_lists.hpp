@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/item_loop.hpp"
+#include "core/bulk_list.hpp"
 
 namespace coastmesh {
 

@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 
+#include "core/bulk_list.hpp"
 #include "core/metric.hpp"
 #include "core/predicates.hpp"
 #include "core/quality.hpp"

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <span>
 
+#include "core/bulk_list.hpp"
 #include "gis/error.hpp"
 #include "gis/projection/projection.hpp"
 #include "tests/gis/grid_samples.hpp"

@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/bulk_list.hpp"
 #include "gis/crs/crs_map.hpp"
 #include "gis/crs/geodesy.hpp"
 

@@ -7,6 +7,7 @@
 #include <span>
 #include <tuple>
 
+#include "core/bulk_list.hpp"
 #include "gis/crs/crs_map.hpp"
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"

@@ -11,6 +11,7 @@
 #include <random>
 #include <set>
 
+#include "core/bulk_list.hpp"
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/grid/boundary_kinds.hpp"
 #include "gis/repair/repair_target.hpp"

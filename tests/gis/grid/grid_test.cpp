@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 
+#include "core/bulk_list.hpp"
 #include "core/quality.hpp"
 #include "gis/clean/geodesic_area.hpp"
 #include "gis/coast/segment_tags.hpp"

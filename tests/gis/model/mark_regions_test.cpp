@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/bulk_list.hpp"
 #include "core/triangulate/delaunay.hpp"
 #include "tests/support/gis_shapes.hpp"
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/bulk_list.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/repair/repair_target.hpp"
 #include "tests/gis/model/target_samples.hpp"
