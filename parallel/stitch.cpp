@@ -9,7 +9,6 @@
 
 #include "core/bulk_list.hpp"
 #include "core/flip.hpp"
-#include "core/lattice/grow_list.hpp"
 #include "core/links.hpp"
 #include "core/predicates.hpp"
 #include "core/refine/check.hpp"
