@@ -286,8 +286,8 @@ void defineFaces(UgridFile& ugrid, const Grid& grid, int faces) {
 
 void defineLines(UgridFile& ugrid, const Grid& grid, int edge_dimension, std::span<const NodePair> edges) {
   if (grid.lines.empty()) return;
-  const int number =
-      ugrid.data("edge_line", NC_INT, edge_dimension, "edge", "line that the edge belongs to, 0 to none", {}, [&] {
+  const int number = ugrid.data(
+      "edge_line", NC_INT, edge_dimension, "edge", "line that the edge belongs to, 0 to none", {}, [&grid, edges] {
         std::vector<int> numbers(edges.size(), 0);
         for (std::size_t i = grid.lines.size(); i-- > 0;) {
           for (const auto& [a, b] : edgesOf(grid.lines[i])) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/box_halves.hpp"
+#include "core/bulk_list.hpp"
 #include "core/ids.hpp"
 #include "core/input_corners.hpp"
 #include "core/item_loop.hpp"
@@ -53,6 +54,18 @@ TEST(CoreExamples, BoxHalves) {
   //! [core/box_halves.hpp]
   std::ranges::sort(near);
   EXPECT_EQ(near, (std::vector<std::uint32_t>{0, 1}));
+}
+
+// core/bulk_list.hpp: Long arrays that are not set before they are written.
+TEST(CoreExamples, BulkList) {
+  //! [core/bulk_list.hpp]
+  const ItemLoop loop = inOrder;  // or one that uses several threads
+  BulkList<double> squares;
+  resizeUnset(squares, 1000);  // no value yet
+  forEachByStretches(loop, squares.size(), [&](std::size_t i) { squares[i] = static_cast<double>(i * i); });
+  const BulkList<double> copy = copyOn(loop, squares);
+  //! [core/bulk_list.hpp]
+  EXPECT_EQ(copy[30], 900.0);
 }
 
 // core/triangulate/delaunay.hpp: The constrained Delaunay triangulation of a plane graph, and errors for an invalid
