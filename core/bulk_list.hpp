@@ -82,6 +82,14 @@ void resizeUnset(BulkList<Item>& items, std::size_t count) {
   }
 }
 
+// A list of `count` items without values, as above.
+template <typename Item>
+BulkList<Item> unsetList(std::size_t count) {
+  BulkList<Item> items;
+  resizeUnset(items, count);
+  return items;
+}
+
 // Resizes a list to `count` items that will all be overwritten, with some spare room.
 template <typename Item>
 void resizeAnew(const ItemLoop&, BulkList<Item>& items, std::size_t count) {

@@ -37,10 +37,8 @@ Distribution distribute(const ItemLoop& loop, std::size_t count, std::size_t par
   }
   sorted.starts.push_back(start);
   sorted.items.resize(count);
-  const std::size_t ranges = places.size();
-  forItems(loop, ranges, [&](std::size_t r) {
-    for (std::size_t i = count * r / ranges; i < count * (r + 1) / ranges; ++i)
-      sorted.items[places[r][part[i]]++] = static_cast<std::uint32_t>(i);
+  forEachStretch(loop, count, places.size(), [&](std::size_t s, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) sorted.items[places[s][part[i]]++] = static_cast<std::uint32_t>(i);
   });
   return sorted;
 }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/input_angle.hpp"
+#include "core/large_list.hpp"
 #include "core/predicates.hpp"
 
 namespace coastmesh {
@@ -21,23 +22,6 @@ constexpr double kStraight = toRadians(0.1);
 
 // Largest angle of a corner (radians): a straight line, even a rounded one, is no cause.
 constexpr double kLargest = std::numbers::pi - 1e-6;
-
-// Lowers a number that other threads may lower at the same time: the smallest remains.
-void lowerTo(std::uint32_t to, std::uint32_t& number) {
-  std::uint32_t held = __atomic_load_n(&number, __ATOMIC_RELAXED);
-  while (to < held && !__atomic_compare_exchange_n(&number, &held, to, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
-  }
-}
-
-// What `add(i, list)` appends for every i below `count`, in this order.
-template <typename Item, typename Add>
-std::vector<Item> listOf(const ItemLoop& loop, std::size_t count, const Add& add) {
-  return joined(overStretches(loop, count, [&](std::size_t first, std::size_t last) {
-    std::vector<Item> some;
-    for (std::size_t i = first; i < last; ++i) add(static_cast<std::uint32_t>(i), some);
-    return some;
-  }));
-}
 
 // A constrained edge, listed once.
 struct Link {
@@ -124,7 +108,7 @@ class Constraints {
   void nameChains(const ItemLoop& loop) {
     chain_.assign(links_.size(), kNone);
     const auto name = [this](std::uint32_t l, VertexId v) {
-      follow(l, v, [&](std::uint32_t link) { lowerTo(l, chain_[link]); });
+      follow(l, v, [&](std::uint32_t link) { lowerTo(chain_[link], l); });
     };
     forEachByStretches(loop, links_.size(), [&](std::size_t i) {
       const auto l = static_cast<std::uint32_t>(i);
@@ -152,7 +136,8 @@ struct Feature {
 };
 
 std::vector<Feature> featuresOf(const TriMesh& mesh, const Constraints& constraints, const ItemLoop& loop) {
-  const auto addOf = [&](std::uint32_t l, std::vector<Feature>& features) {
+  const auto addOf = [&](std::size_t i, std::vector<Feature>& features) {
+    const auto l = static_cast<std::uint32_t>(i);
     const Link& link = constraints.links()[l];
     const std::uint32_t chain = constraints.chainOf(l);
     if (mesh.input_vertices == 0) {
@@ -166,8 +151,9 @@ std::vector<Feature> featuresOf(const TriMesh& mesh, const Constraints& constrai
       if (v < end) features.push_back({v, end, chain});
     }
   };
-  std::vector<Feature> features = listOf<Feature>(loop, constraints.links().size(), addOf);
-  const auto alone = listOf<VertexId>(loop, mesh.input_vertices, [&](VertexId v, std::vector<VertexId>& list) {
+  std::vector<Feature> features = listOver<Feature>(loop, constraints.links().size(), addOf);
+  const auto alone = listOver<VertexId>(loop, mesh.input_vertices, [&](std::size_t i, std::vector<VertexId>& list) {
+    const auto v = static_cast<VertexId>(i);
     if (constraints.at(v).empty()) list.push_back(v);
   });
   if (alone.empty()) return features;

@@ -26,6 +26,13 @@ void forItems(const ItemLoop& loop, std::size_t count, const Work& work) {
   }
 }
 
+// Calls `work(s, first, last)` for range s of `stretches` that cover 0 to `count`: the ranges of `overStretches`, if
+// there are as many.
+template <typename Work>
+void forEachStretch(const ItemLoop& loop, std::size_t count, std::size_t stretches, const Work& work) {
+  forItems(loop, stretches, [&](std::size_t s) { work(s, count * s / stretches, count * (s + 1) / stretches); });
+}
+
 // Calls `make(first, last)` for ranges that cover 0 to `count`, and returns the results in order. The ranges depend
 // only on `count` and on `least`, the smallest useful number of items, so that sums over them are the same for any
 // number of threads.
@@ -36,7 +43,8 @@ auto overStretches(const ItemLoop& loop, std::size_t count, const Make& make, st
   using Made = decltype(make(count, count));
   static_assert(!std::is_same_v<Made, bool>, "elements of a std::vector<bool> cannot be written by several threads");
   std::vector<Made> made(stretches);
-  forItems(loop, stretches, [&](std::size_t s) { made[s] = make(count * s / stretches, count * (s + 1) / stretches); });
+  forEachStretch(loop, count, stretches,
+                 [&](std::size_t s, std::size_t first, std::size_t last) { made[s] = make(first, last); });
   return made;
 }
 

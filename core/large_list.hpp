@@ -2,10 +2,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
-#include <span>
 #include <vector>
 
+#include "core/bulk_list.hpp"
 #include "core/ids.hpp"
 #include "core/item_loop.hpp"
 
@@ -25,28 +24,9 @@ void resizeOn(const ItemLoop& loop, std::vector<Item>& items, std::size_t count,
   items.resize(count, fill);
 }
 
-// Numbers without initial values: whoever writes them first touches their memory.
-template <typename Number>
-class UnsetNumbers {
- public:
-  UnsetNumbers() = default;
-  explicit UnsetNumbers(std::size_t count) : numbers_(std::make_unique_for_overwrite<Number[]>(count)), count_(count) {}
-
-  std::size_t size() const { return count_; }
-  bool empty() const { return count_ == 0; }
-  Number& operator[](std::size_t i) { return numbers_[i]; }
-  const Number& operator[](std::size_t i) const { return numbers_[i]; }
-  operator std::span<Number>() { return {numbers_.get(), count_}; }
-  operator std::span<const Number>() const { return {numbers_.get(), count_}; }
-
- private:
-  std::unique_ptr<Number[]> numbers_;
-  std::size_t count_ = 0;
-};
-
 // Numbers that are all kNone.
-inline UnsetNumbers<std::uint32_t> noNumbers(const ItemLoop& loop, std::size_t count) {
-  UnsetNumbers<std::uint32_t> none(count);
+inline BulkList<std::uint32_t> noNumbers(const ItemLoop& loop, std::size_t count) {
+  BulkList<std::uint32_t> none = unsetList<std::uint32_t>(count);
   forEachByStretches(loop, count, [&](std::size_t i) { none[i] = kNone; });
   return none;
 }

@@ -9,20 +9,10 @@
 #include <vector>
 
 #include "core/bulk_list.hpp"
+#include "core/large_list.hpp"
 #include "core/links.hpp"
 
 namespace coastmesh {
-
-namespace {
-
-BulkList<std::uint32_t> noNumbersOn(const ItemLoop& loop, std::size_t count) {
-  BulkList<std::uint32_t> none;
-  resizeUnset(none, count);
-  forEachByStretches(loop, count, [&](std::size_t i) { none[i] = kNone; });
-  return none;
-}
-
-}  // namespace
 
 TriMesh linkTriangles(BulkList<Point> points, std::span<const std::array<VertexId, 3>> corners,
                       std::vector<EdgeConflict>& conflicts, const ItemLoop& loop) {
@@ -33,7 +23,7 @@ TriMesh linkTriangles(BulkList<Point> points, std::span<const std::array<VertexI
 
   // Each vertex's edges in a list, so that a twin is found among the few edges that leave the target. Threads prepend
   // edges in any order, on which nothing below depends.
-  BulkList<EdgeRef> first = noNumbersOn(loop, mesh.points.size()), next;
+  BulkList<EdgeRef> first = noNumbers(loop, mesh.points.size()), next;
   resizeUnset(next, 3 * corners.size());
   const auto nextOf = [&](EdgeRef e) -> EdgeRef& { return next[3 * std::size_t{triOf(e)} + indexOf(e)]; };
   forEachByStretches(loop, corners.size(), [&](std::size_t t) {
@@ -113,7 +103,7 @@ EdgeRef nextOnBoundary(const TriMesh& mesh, EdgeRef e) {
 // For each edge of `boundary`, which is ascending, the index there of the edge that follows it.
 std::vector<std::uint32_t> followersOf(const TriMesh& mesh, std::span<const EdgeRef> boundary, const ItemLoop& loop) {
   constexpr std::uint32_t kSeveral = kNone - 1;
-  BulkList<std::uint32_t> leaving = noNumbersOn(loop, mesh.points.size());
+  BulkList<std::uint32_t> leaving = noNumbers(loop, mesh.points.size());
   forEachByStretches(loop, boundary.size(), [&](std::size_t i) {
     std::uint32_t none = kNone;
     std::uint32_t& slot = leaving[mesh.origin(boundary[i])];

@@ -8,10 +8,10 @@
 #include "core/metric.hpp"
 #include "core/pslg.hpp"
 #include "core/sphere/close_sphere.hpp"
+#include "core/union_find.hpp"
 #include "gis/coast/coastline.hpp"
 #include "gis/coast/feature_names.hpp"
 #include "gis/error.hpp"
-#include "gis/geometry/union_find.hpp"
 #include "gis/grid/grid_lines.hpp"
 
 namespace coastmesh {

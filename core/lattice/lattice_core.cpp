@@ -77,16 +77,14 @@ class CoreCarver {
     rest.points = mesh_.points;
     rest.input_vertices = mesh_.input_vertices;
     resizeUnset(rest.triangles, starts.back());
-    const auto forRange = [&](std::size_t r, const auto& work) {
-      for (std::size_t t = all * r / counts.size(); t < all * (r + 1) / counts.size(); ++t)
-        if (number[t] != kNone) work(static_cast<TriId>(t));
-    };
-    forItems(loop, counts.size(), [&](std::size_t r) { forRange(r, [&](TriId t) { number[t] += starts[r]; }); });
-    const auto numberOf = [&](TriId t) { return number[t]; };
-    forItems(loop, counts.size(), [&](std::size_t r) {
-      forRange(r, [&](TriId t) {
-        rest.triangles[number[t]] = renumbered(mesh_.triangle(t), numberOf, std::identity(), kFrozen);
-      });
+    forEachStretch(loop, all, counts.size(), [&](std::size_t s, std::size_t first, std::size_t last) {
+      for (std::size_t t = first; t < last; ++t)
+        if (number[t] != kNone) number[t] += starts[s];
+    });
+    forEachByStretches(loop, all, [&](std::size_t t) {
+      if (number[t] == kNone) return;
+      rest.triangles[number[t]] = renumbered(
+          mesh_.triangles[t], [&](TriId n) { return number[n]; }, std::identity(), kFrozen);
     });
     assert(findBrokenLink(rest.triangles) == kNone);
     return rest;

@@ -220,8 +220,8 @@ Submesh extractOn(const ItemLoop& loop, const TriMesh& parent, const VertexNotes
 Submesh extractNear(const TriMesh& parent, const VertexNotes& notes, std::span<const TriId> centre, unsigned edges,
                     const ItemLoop& loop) {
   std::vector<TriId> triangles;
-  UnsetNumbers<std::uint32_t> slot = noNumbers(loop, parent.triangles.size());
-  UnsetNumbers<std::uint32_t> number = noNumbers(loop, parent.points.size());
+  BulkList<std::uint32_t> slot = noNumbers(loop, parent.triangles.size());
+  BulkList<std::uint32_t> number = noNumbers(loop, parent.points.size());
   numberAsSeen(
       centre.size(), [&](std::size_t i, const auto& see) { see(centre[i]); }, slot, triangles, loop);
   std::size_t done = 0;

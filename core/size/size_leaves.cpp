@@ -29,7 +29,7 @@ void findMiddles(LeafVertices& leaf, std::uint32_t c, const SizeCells& cells, co
 std::vector<std::uint32_t> orderOfUse(const std::vector<LeafVertices>& leaves, std::size_t count,
                                       const ItemLoop& loop) {
   // The first use of each vertex, as 9 times the leaf plus the index in it.
-  UnsetNumbers<std::uint32_t> first_use = noNumbers(loop, count);
+  BulkList<std::uint32_t> first_use = noNumbers(loop, count);
   const auto useOf = [](std::size_t l, std::size_t i) { return static_cast<std::uint32_t>(9 * l + i); };
   forEachByStretches(loop, leaves.size(), [&](std::size_t l) {
     for (std::size_t i = 0; i < 9; ++i)
@@ -50,7 +50,7 @@ std::vector<std::uint32_t> orderOfUse(const std::vector<LeafVertices>& leaves, s
 void putInOrder(SizeVertices& vertices, std::vector<LeafVertices>& leaves, const ItemLoop& loop) {
   const std::size_t count = vertices.places.size();
   const std::vector<std::uint32_t> order = orderOfUse(leaves, count, loop);
-  UnsetNumbers<std::uint32_t> numbers(count);
+  BulkList<std::uint32_t> numbers = unsetList<std::uint32_t>(count);
   forEachByStretches(loop, count, [&](std::size_t v) { numbers[order[v]] = static_cast<std::uint32_t>(v); });
   forEachByStretches(loop, leaves.size(), [&](std::size_t l) {
     for (std::uint32_t& v : leaves[l])
@@ -81,7 +81,7 @@ SizeLeaves numberLeaves(SizeCells& cells, SizeVertices& vertices, std::vector<Ow
   const ItemLoop& loop = task.loop;
   cells.leaf_cells = leavesDepthFirst(cells.cells, loop);
   const std::size_t count = cells.leaf_cells.size();
-  UnsetNumbers<std::uint32_t> own(kEach * count);
+  BulkList<std::uint32_t> own = unsetList<std::uint32_t>(kEach * count);
   forEachByStretches(loop, count, [&](std::size_t l) {
     const std::uint32_t c = cells.leaf_cells[l];
     cells.cells[c].below = static_cast<std::uint32_t>(l);

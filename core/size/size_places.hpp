@@ -112,7 +112,7 @@ class SizePlaces {
   template <typename PlaceOf>
   void addSome(const ItemLoop& loop, const PlaceOf& placeOf, std::span<std::uint32_t> numbers) {
     const std::uint32_t known = size();
-    UnsetNumbers<std::uint32_t> slots(numbers.size());
+    BulkList<std::uint32_t> slots = unsetList<std::uint32_t>(numbers.size());
     forStretches(loop, numbers.size(), [&](std::size_t first, std::size_t last) {
       // Some at once, so that their slots are fetched from memory at the same time.
       constexpr std::size_t kAtOnce = 32;
@@ -177,7 +177,7 @@ class SizePlaces {
   }
 
   std::vector<Place> places_;
-  UnsetNumbers<std::uint32_t> table_;  // a power of two, at most three eighths full between calls
+  BulkList<std::uint32_t> table_;  // a power of two, at most three eighths full between calls
 };
 
 }  // namespace coastmesh

@@ -71,7 +71,7 @@ CellOrder orderDepthFirst(Cells cells, std::size_t leaves, const ItemLoop& loop)
   };
   forEachRoot([&](std::size_t r) { count(count, roots[r], counts[r]); });
 
-  CellOrder order{{}, UnsetNumbers<std::uint32_t>(leaves)};
+  CellOrder order{{}, unsetList<std::uint32_t>(leaves)};
   reserveOn(loop, order.cells, cells.size());
   order.cells.resize(cells.size());
   const auto layCell = [&](std::uint32_t c, std::size_t to, Count& before, const auto& layBelow) {

@@ -18,7 +18,7 @@ std::vector<std::uint32_t> leavesDepthFirst(std::span<const SizeTree::Cell> cell
 
 struct CellOrder {
   std::vector<SizeTree::Cell> cells;
-  UnsetNumbers<std::uint32_t> leaf;  // for each leaf its new number
+  BulkList<std::uint32_t> leaf;  // for each leaf its new number
 };
 // The same cells, with the children of a cell after those of all cells split before it, and leaves numbered in this
 // order, so that neighbours are close in memory. REQUIRES: leaves have numbers below `leaves`, each once.

@@ -17,7 +17,7 @@ void sampleNew(SizeVertices& vertices, const SizeCells& cells, const SizeTreeTas
   std::vector<Point> places;
   resizeAnew(loop, places, asked.size());
   forEachByStretches(loop, asked.size(), [&](std::size_t k) { places[k] = cells.placeOf(vertices.places[asked[k]]); });
-  UnsetNumbers<double> sizes(places.size());
+  BulkList<double> sizes = unsetList<double>(places.size());
   task.source.sample(places, sizes);
   forEachByStretches(loop, asked.size(), [&](std::size_t k) { own[asked[k]] = sizes[k]; });
 }

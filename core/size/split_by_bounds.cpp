@@ -69,7 +69,7 @@ struct Candidates {
   static constexpr std::size_t kEach = kOwnThenMiddles.size();
 
   std::vector<std::uint32_t> indices;
-  UnsetNumbers<std::uint32_t> numbers;  // kEach for each
+  BulkList<std::uint32_t> numbers;  // kEach for each
   std::uint32_t* of(std::size_t k) { return &numbers[kEach * k]; }
   const std::uint32_t* of(std::size_t k) const { return &numbers[kEach * k]; }
 };
@@ -79,7 +79,7 @@ Candidates sampleCandidates(Splitting& run, const Level& level, std::vector<std:
   constexpr std::size_t kEach = Candidates::kEach;
   const ItemLoop& loop = run.task.loop;
   const std::size_t count = indices.size();
-  Candidates all{std::move(indices), UnsetNumbers<std::uint32_t>(kEach * count)};
+  Candidates all{std::move(indices), unsetList<std::uint32_t>(kEach * count)};
   const auto cellOf = [&](std::size_t k) { return level.cells[all.indices[k]]; };
   forEachByStretches(loop, count, [&](std::size_t k) {
     std::ranges::copy(run.own_vertices[cellOf(k)], all.of(k));

@@ -6,35 +6,13 @@
 #include <utility>
 
 #include "core/hilbert.hpp"
+#include "core/union_find.hpp"
 
 namespace coastmesh {
 
 namespace {
 
-using FaceId = std::uint32_t;
-
-// Faces of the plane between segments that are made of parts, found range by range of triangles.
-class Faces {
- public:
-  explicit Faces(std::size_t parts) : parent_(parts) {
-    for (FaceId f = 0; f < parts; ++f) parent_[f] = f;
-  }
-
-  FaceId find(FaceId f) {
-    while (parent_[f] != f) f = parent_[f] = parent_[parent_[f]];
-    return f;
-  }
-
-  // The smaller number stands for both.
-  void join(FaceId a, FaceId b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<FaceId> parent_;
-};
+using FaceId = std::uint32_t;  // of a face, or of a part of one in a range of triangles
 
 class Carver {
  public:
@@ -43,8 +21,8 @@ class Carver {
 
   std::vector<RegionId> run() {
     const std::size_t parts = findParts();
-    Faces faces(parts);
-    for (const auto& [a, b] : joins_) faces.join(a, b);
+    UnionFind faces(parts);
+    for (const auto& [a, b] : joins_) faces.unite(a, b);
     const auto isLabelled = [](const Segment& s) { return s.left != kUnlabelled || s.right != kUnlabelled; };
     std::vector<RegionId> label =
         std::ranges::any_of(pslg_.segments, isLabelled) ? labelsFromSegments(faces) : labelsFromHoles(faces, parts);
@@ -77,9 +55,8 @@ class Carver {
     std::vector<FaceId> starts{0};
     for (const Range& range : ranges) starts.push_back(starts.back() + static_cast<FaceId>(range.labels.size()));
     if (ranges.size() > 1) {
-      loop_(ranges.size(), [&](std::size_t r) {
-        for (std::size_t t = count * r / ranges.size(); t < count * (r + 1) / ranges.size(); ++t)
-          part_of_[t] += starts[r];
+      forEachStretch(loop_, count, ranges.size(), [&](std::size_t r, std::size_t first, std::size_t last) {
+        for (std::size_t t = first; t < last; ++t) part_of_[t] += starts[r];
       });
       const auto joins = overStretches(loop_, count, [&](std::size_t first, std::size_t last) {
         return joinsFrom(static_cast<TriId>(first), static_cast<TriId>(last));
@@ -144,7 +121,7 @@ class Carver {
   }
 
   // By part, set for the parts that stand for faces.
-  std::vector<RegionId> labelsFromSegments(Faces& faces) {
+  std::vector<RegionId> labelsFromSegments(UnionFind& faces) {
     for (FaceId p = 0; p < labels_.size(); ++p) {
       RegionId& face = labels_[faces.find(p)];
       if (face == kUnlabelled) face = labels_[p];
@@ -154,7 +131,7 @@ class Carver {
     return std::move(labels_);
   }
 
-  std::vector<RegionId> labelsFromHoles(Faces& faces, std::size_t parts) const {
+  std::vector<RegionId> labelsFromHoles(UnionFind& faces, std::size_t parts) const {
     std::vector<RegionId> labels(parts, 0);
     const auto carve = [&](TriId t) { labels[faces.find(part_of_[t])] = kOutside; };
     TriId ghost = 0;
@@ -169,7 +146,7 @@ class Carver {
   }
 
   // Reports the first two segments that label the same face differently.
-  [[noreturn]] void refuseLabels(Faces& faces) const {
+  [[noreturn]] void refuseLabels(UnionFind& faces) const {
     std::vector<SegmentId> by(labels_.size(), kNone);
     std::vector<RegionId> given(labels_.size(), kUnlabelled);
     for (TriId t = 0; t < triangles_.size(); ++t) {

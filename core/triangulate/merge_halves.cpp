@@ -81,8 +81,8 @@ class Merger {
       const bool sees_left = !left_used_up && orient2d(at(l), at(r), at(endOf(left))) > 0;
       const bool sees_right = !right_used_up && orient2d(at(l), at(r), at(startOf(right))) > 0;
       if (!sees_left && !sees_right) break;
-      while (sees_left && reachesBehind(left, l, r, endOf(left))) left = openAtStart(left);
-      while (sees_right && reachesBehind(right, l, r, startOf(right))) right = openAtEnd(right);
+      while (sees_left && reachesBehind(left, l, r, endOf(left))) left = open(left, true);
+      while (sees_right && reachesBehind(right, l, r, startOf(right))) right = open(right, false);
       const bool takes_left =
           sees_left && (!sees_right || inCircle(at(l), at(r), at(endOf(left)), at(startOf(right))) <= 0);
       const EdgeRef covered = takes_left ? left : right, inside = mesh_.twin(covered);
@@ -116,42 +116,25 @@ class Merger {
     return behind != all_.ghost && inCircle(at(l), at(r), at(other), at(behind)) > 0;
   }
 
-  // Removes the triangle behind a hull edge, of which two edges take the hull edge's place. The ghost stays with the
-  // edge at the end; returns the edge at the start, whose ghost takes the triangle's slot. That ghost is not linked to
-  // the previous one, which has been covered.
-  EdgeRef openAtStart(EdgeRef hull) {
+  // Removes the triangle behind a hull edge; two of its edges take that edge's place. Returns the one at the start of
+  // the hull edge, or at its end; its ghost takes the triangle's slot, and is not linked to the ghost beyond, which has
+  // been covered. The other edge keeps the ghost.
+  EdgeRef open(EdgeRef hull, bool at_start) {
     const EdgeRef inside = mesh_.twin(hull);
     const TriId ghost = triOf(hull), opened = triOf(inside);
-    const VertexId start = startOf(hull), end = endOf(hull), middle = mesh_.apex(inside);
+    const VertexId near = at_start ? startOf(hull) : endOf(hull), far = at_start ? endOf(hull) : startOf(hull);
+    const VertexId middle = mesh_.apex(inside);
     const EdgeRef behind_end = mesh_.twin(edgeRef(opened, next3(indexOf(inside))));
     const EdgeRef behind_start = mesh_.twin(edgeRef(opened, prev3(indexOf(inside))));
-    triangles_[ghost].v[prev3(indexOf(hull))] = middle;
-    setTwins(triangles_, hull, behind_end);
-    triangles_[opened] = unlinked({all_.ghost, middle, start});
-    const EdgeRef first = edgeRef(opened, 0);
-    setTwins(triangles_, first, behind_start);
-    setTwins(triangles_, endSide(first), startSide(hull));
-    all_.triangle_of[start] = all_.triangle_of[middle] = opened;
-    all_.triangle_of[end] = ghost;
-    return first;
-  }
-
-  // The same; the ghost stays with the edge at the start, and the edge at the end is returned.
-  EdgeRef openAtEnd(EdgeRef hull) {
-    const EdgeRef inside = mesh_.twin(hull);
-    const TriId ghost = triOf(hull), opened = triOf(inside);
-    const VertexId start = startOf(hull), end = endOf(hull), middle = mesh_.apex(inside);
-    const EdgeRef behind_end = mesh_.twin(edgeRef(opened, next3(indexOf(inside))));
-    const EdgeRef behind_start = mesh_.twin(edgeRef(opened, prev3(indexOf(inside))));
-    triangles_[ghost].v[next3(indexOf(hull))] = middle;
-    setTwins(triangles_, hull, behind_start);
-    triangles_[opened] = unlinked({all_.ghost, end, middle});
-    const EdgeRef last = edgeRef(opened, 0);
-    setTwins(triangles_, last, behind_end);
-    setTwins(triangles_, startSide(last), endSide(hull));
-    all_.triangle_of[end] = all_.triangle_of[middle] = opened;
-    all_.triangle_of[start] = ghost;
-    return last;
+    triangles_[ghost].v[at_start ? prev3(indexOf(hull)) : next3(indexOf(hull))] = middle;
+    setTwins(triangles_, hull, at_start ? behind_end : behind_start);
+    triangles_[opened] = at_start ? unlinked({all_.ghost, middle, near}) : unlinked({all_.ghost, near, middle});
+    const EdgeRef made = edgeRef(opened, 0);
+    setTwins(triangles_, made, at_start ? behind_start : behind_end);
+    setTwins(triangles_, at_start ? endSide(made) : startSide(made), at_start ? startSide(hull) : endSide(hull));
+    all_.triangle_of[near] = all_.triangle_of[middle] = opened;
+    all_.triangle_of[far] = ghost;
+    return made;
   }
 
   Triangulation& all_;

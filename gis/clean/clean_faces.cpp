@@ -7,12 +7,12 @@
 #include <tuple>
 #include <utility>
 
+#include "core/union_find.hpp"
 #include "gis/clean/coast_sides.hpp"
 #include "gis/coast/feature_names.hpp"
 #include "gis/coast/segment_tags.hpp"
 #include "gis/geometry/face_locator.hpp"
 #include "gis/geometry/planar_map.hpp"
-#include "gis/geometry/union_find.hpp"
 
 namespace coastmesh {
 

@@ -7,12 +7,12 @@
 #include <map>
 #include <optional>
 
+#include "core/union_find.hpp"
 #include "gis/coast/input_polygons.hpp"
 #include "gis/coast/turned_rings.hpp"
 #include "gis/geometry/box.hpp"
 #include "gis/geometry/chain_index.hpp"
 #include "gis/geometry/ring_area.hpp"
-#include "gis/geometry/union_find.hpp"
 
 namespace coastmesh {
 

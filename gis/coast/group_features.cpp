@@ -6,13 +6,13 @@
 #include <tuple>
 
 #include "core/hilbert.hpp"
+#include "core/union_find.hpp"
 #include "gis/coast/cut_meridians.hpp"
 #include "gis/coast/feature_bounds.hpp"
 #include "gis/coast/guests.hpp"
 #include "gis/coast/snap_reach.hpp"
 #include "gis/coast/turned_rings.hpp"
 #include "gis/geometry/chain_index.hpp"
-#include "gis/geometry/union_find.hpp"
 
 namespace coastmesh {
 

@@ -5,7 +5,7 @@
 
 #include "core/ids.hpp"
 #include "core/predicates.hpp"
-#include "gis/geometry/union_find.hpp"
+#include "core/union_find.hpp"
 
 namespace coastmesh {
 

@@ -9,12 +9,13 @@
 #include <tuple>
 #include <utility>
 
+#include "core/large_list.hpp"
 #include "core/metric.hpp"
+#include "core/union_find.hpp"
 #include "gis/follow/shore_guides.hpp"
 #include "gis/follow/shore_patches.hpp"
 #include "gis/follow/shore_settle.hpp"
 #include "gis/geometry/box.hpp"
-#include "gis/geometry/union_find.hpp"
 
 namespace coastmesh {
 
@@ -30,7 +31,6 @@ constexpr double kLeastOpening = 1.0;            // elements of open boundary: a
 constexpr double kLeastWater = 6.0;              // triangles of the size wanted
 constexpr double kGrazed = 0.1;                  // of the water at open boundaries: the frame only grazes smaller parts
 constexpr std::size_t kPlaces = 8;               // per water
-constexpr std::size_t kWorthThreads = 16384;     // triangles
 const double kTriangle = 0.25 * std::sqrt(3.0);  // area of one of side 1
 
 class Opening {
@@ -70,7 +70,7 @@ class Opening {
       for (const EdgeRef e : mesh().triangles[t].adj) beside += isLand(triOf(e)) && off[triOf(e)] == 0 ? 1 : 0;
       return beside <= 1;
     };
-    std::vector<TriId> ends = numbersWhere(loop_, thin.size(), [&](TriId t) {
+    std::vector<TriId> ends = numbersWith(loop_, 0, thin.size(), [&](TriId t) {
       thin[t] = isLand(t) && t_.width[t] < narrowest && !keeps_all_[t] && (usesOf(t) & ~kOnShore) == 0 &&
                 !isAt(barriers_, t, 0.0);
       return thin[t] != 0 && isEnd(t);
@@ -225,7 +225,7 @@ class Opening {
       sized[i] = {areaOf(patch[i]), patch[i]};
       areas[i] = groundAreaOf(patch[i]);
     };
-    forEachByStretches(patch.size() < kWorthThreads ? ItemLoop(inOrder) : loop_, patch.size(), measure);
+    forEachByStretches(loop_, patch.size(), measure);
     RegionId region = mesh().regions[patch.front()];
     double* in_region = &part.areas[region];
     for (std::size_t i = 0; i < patch.size(); ++i) {

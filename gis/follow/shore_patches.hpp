@@ -8,17 +8,6 @@
 
 namespace coastmesh {
 
-// The numbers below `count` for which `is(number)`, in order.
-template <typename Is>
-std::vector<std::uint32_t> numbersWhere(const ItemLoop& loop, std::size_t count, Is&& is) {
-  return joined(overStretches(loop, count, [&](std::size_t first, std::size_t last) {
-    std::vector<std::uint32_t> numbers;
-    for (std::size_t i = first; i < last; ++i)
-      if (is(static_cast<std::uint32_t>(i))) numbers.push_back(static_cast<std::uint32_t>(i));
-    return numbers;
-  }));
-}
-
 // Sets of triangles that are connected by edges.
 struct Patches {
   std::vector<std::uint32_t> of;  // patch of each triangle, or kNone

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/hilbert.hpp"
+#include "core/large_list.hpp"
 #include "core/links.hpp"
 #include "core/metric.hpp"
 #include "core/predicates.hpp"
@@ -58,7 +59,7 @@ class Settler {
     is_near_.assign(mesh().points.size(), 0);
     const auto isChanged = [&](TriId t) { return mesh().regions[t] != t_.region_was[t]; };
     const auto isOtherSegment = [&](EdgeRef e) { return segmentNow(e) != mesh().segment(e); };
-    const std::vector<TriId> changed = numbersWhere(loop_, mesh().triangles.size(), [&](TriId t) {
+    const std::vector<TriId> changed = numbersWith(loop_, 0, mesh().triangles.size(), [&](TriId t) {
       return isChanged(t) || (t_.is_new && (isOtherSegment(edgeRef(t, 0)) || isOtherSegment(edgeRef(t, 1)) ||
                                             isOtherSegment(edgeRef(t, 2))));
     });
@@ -71,11 +72,11 @@ class Settler {
     t_.helpers.clear();
     const std::size_t count = mesh().points.size();
     const auto isInside = [&](VertexId v) { return t_.home[v] != kNone && (t_.use[v] & kAround) == 0; };
-    for (const VertexId v : numbersWhere(
-             loop_, count, [&](VertexId v) { return isInside(v) && (is_near_[v] != 0 || t_.is_new) && isPinch(v); }))
+    for (const VertexId v : numbersWith(
+             loop_, 0, count, [&](VertexId v) { return isInside(v) && (is_near_[v] != 0 || t_.is_new) && isPinch(v); }))
       split(v);
     for (const Copy& copy : copies_) separate(copy);
-    loose_ = numbersWhere(loop_, count, [&](VertexId v) {
+    loose_ = numbersWith(loop_, 0, count, [&](VertexId v) {
       return isInside(v) && (is_near_[v] != 0 || (t_.is_new && (t_.use[v] & kLoose) != 0)) && !findUse(v);
     });
   }

@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "core/predicates.hpp"
+#include "core/union_find.hpp"
 #include "gis/geometry/edge_runs.hpp"
-#include "gis/geometry/union_find.hpp"
 
 namespace coastmesh {
 

@@ -10,7 +10,7 @@
 
 #include "core/bulk_list.hpp"
 #include "core/large_list.hpp"
-#include "gis/geometry/union_find.hpp"
+#include "core/union_find.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/ground_orientation.hpp"
 
@@ -51,7 +51,9 @@ class EdgesByNode {
   };
 
   EdgesByNode(const Grid& grid, const ItemLoop& loop)
-      : grid_(grid), last_(noNumbers(loop, grid.nodes.size())), before_(3 * grid.triangles.size()) {
+      : grid_(grid),
+        last_(noNumbers(loop, grid.nodes.size())),
+        before_(unsetList<std::uint32_t>(3 * grid.triangles.size())) {
     forEachByStretches(loop, grid.triangles.size(), [this](std::size_t t) {
       for (unsigned i = 0; i < 3; ++i) {
         const auto edge = static_cast<std::uint32_t>(3 * t + i);
@@ -77,7 +79,7 @@ class EdgesByNode {
 
   const Grid& grid_;
   // Edge i of triangle t is 3 t + i: the last of each node, and the one before each.
-  UnsetNumbers<std::uint32_t> last_, before_;
+  BulkList<std::uint32_t> last_, before_;
 };
 
 Apart apartOf(const Grid& grid, const ItemLoop& loop) {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "gis/geometry/union_find.hpp"
+#include "core/union_find.hpp"
 
 // scotch.h uses FILE and is C.
 extern "C" {

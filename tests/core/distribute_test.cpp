@@ -18,7 +18,8 @@ TEST(Distribute, SortsByPartAndKeepsTheOrderWithinOne) {
   for (const std::size_t count : {0u, 1u, 5000u, 60001u}) {
     for (const std::uint32_t parts : {1u, 7u, 1000u}) {
       std::vector<std::uint32_t> part(count);
-      for (std::uint32_t& p : part) p = random() % parts / 2 * 2;  // every other part is empty
+      for (std::uint32_t& p : part)
+        p = static_cast<std::uint32_t>(random()) % parts / 2 * 2;  // every other part is empty
       std::vector<std::uint32_t> expected(count);
       std::iota(expected.begin(), expected.end(), 0u);
       std::ranges::stable_sort(expected, {}, [&](std::uint32_t i) { return part[i]; });

@@ -1,4 +1,4 @@
-#include "gis/geometry/union_find.hpp"
+#include "core/union_find.hpp"
 
 #include <gtest/gtest.h>
 
