@@ -47,7 +47,7 @@ Round runRound(const Pslg& pslg, const RefineOptions& options, double mesh2_angl
   counts.refined_vertices = mesh.points.size();
   counts.refined_triangles = mesh.triangles.size();
   counts.refined_violations = stats.unresolved.size();
-  const std::vector<Point> refined_points = mesh.points;
+  const BulkList<Point> refined_points = mesh.points;
   round.coarsen = cpuSecondsOf([&] { stats = coarsen(mesh, pslg, options); });
   counts.final_vertices = mesh.points.size();
   counts.final_triangles = mesh.triangles.size();
