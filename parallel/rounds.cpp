@@ -275,15 +275,24 @@ class Rounds {
 };
 
 // The longest edges that a first step may leave: those of the mesh, and those with which it makes little work.
-double longestFirst(const TriMesh& mesh, const Surface& surface) {
-  double area = 0.0, longest = 0.0;
-  for (const Triangle& t : mesh.triangles) {
-    const Point &a = mesh.point(t.v[0]), &b = mesh.point(t.v[1]), &c = mesh.point(t.v[2]);
-    const TriangleShape shape(a, b, c, surface);
-    area += areaOn(surface, a, b, c);
-    longest = std::max(longest, shape.squared[shape.longest]);
-  }
-  return std::min(std::sqrt(longest), std::sqrt(kExcess * area / (kEquilateral * kLittleWork)));
+double longestFirst(const TriMesh& mesh, const Surface& surface, const ItemLoop& loop) {
+  struct Sum {
+    double area = 0.0, longest = 0.0;
+  };
+  const std::vector<Sum> sums = overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
+    Sum sum;
+    for (std::size_t t = first; t < last; ++t) {
+      const auto& v = mesh.triangles[t].v;
+      const Point &a = mesh.point(v[0]), &b = mesh.point(v[1]), &c = mesh.point(v[2]);
+      const TriangleShape shape(a, b, c, surface);
+      sum.area += areaOn(surface, a, b, c);
+      sum.longest = std::max(sum.longest, shape.squared[shape.longest]);
+    }
+    return sum;
+  });
+  Sum all;
+  for (const Sum& sum : sums) all = {all.area + sum.area, std::max(all.longest, sum.longest)};
+  return std::min(std::sqrt(all.longest), std::sqrt(kExcess * all.area / (kEquilateral * kLittleWork)));
 }
 
 // The options of each step; those of the last are `options`. The first step works on the uncut mesh: it removes very
@@ -300,7 +309,7 @@ std::vector<RefineOptions> stepsTo(const RefineOptions& options, const TriMesh& 
       steps.back().size_scale = scale;
     }
   } else {
-    const double large_enough = longestFirst(mesh, options.surface);
+    const double large_enough = longestFirst(mesh, options.surface, loop);
     for (double size = options.size_max; size * kSizeStep < large_enough;) {
       size *= kSizeStep;
       steps.push_back(options);

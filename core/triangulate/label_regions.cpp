@@ -26,8 +26,9 @@ RegionId onlyRegion(const Pslg& pslg) {
 }  // namespace
 
 void labelRegions(TriMesh& mesh, const Pslg& pslg, const ItemLoop& loop) {
-  reserveOn(loop, mesh.regions, mesh.triangles.size());
-  mesh.regions.assign(mesh.triangles.size(), onlyRegion(pslg));
+  const RegionId only = onlyRegion(pslg);
+  resizeUnset(mesh.regions, mesh.triangles.size());
+  forEachByStretches(loop, mesh.regions.size(), [&](std::size_t t) { mesh.regions[t] = only; });
   if (mesh.regions.empty() || mesh.regions.front() != kUnlabelled) return;
   std::vector<TriId> stack;
   for (TriId t = 0; t < mesh.triangles.size(); ++t) {
