@@ -495,41 +495,96 @@ void settleSizes(JobInput& input, const SizeInputs& sizes, const JobControl& con
                               "yourself");
 }
 
+// The job's options for finished grids, with the boundaries of the input and of files.
+FinishOptions finishOptionsOf(const MeshJob& job, const JobInput& input) {
+  FinishOptions finish = job.finish;
+  if (finish.boundaries.of_input.empty()) finish.boundaries.of_input = input.boundaries();
+  if (!finish.boundaries.of_files) finish.boundaries.of_files = readBoundaryFiles(finish.boundaries);
+  return finish;
+}
+
+// What sizes are made from. The result refers to the arguments.
+SizeInputs sizeInputsOf(const MeshJob& job, const JobInput& input, const FinishOptions& finish,
+                        const JobControl& control) {
+  SizeInputs sizes = readSizeInputs(job.sizes, input.coastline().crs, job.size_layers);
+  const auto lengthsOf = [](const SizeOptions& options) {
+    return ElementLengths{std::min(options.shore_m, options.size_m), std::min(options.most_m, options.size_m)};
+  };
+  sizes.shoreOf = [&, lengthsOf](const Domain& domain, const SizeOptions& options, const ItemLoop& loop) {
+    return shoreForSizes(domain, input.coastline().crs, finish.boundaries, finish.depth, lengthsOf(options),
+                         RunControl{control.cancelled, {}}, loop);
+  };
+  sizes.opened = [&, lengthsOf](Domain&& domain, const SizeOptions& options, const ItemLoop& loop) {
+    return withOpenings(std::move(domain), input.coastline().crs, finish.boundaries, finish.depth, lengthsOf(options),
+                        RunControl{control.cancelled, {}}, loop);
+  };
+  return sizes;
+}
+
+// The grid as it was meshed: moves nodes onto the frame, and measures the whole.
+void measureMeshed(const MeshJob& job, const JobInput& input, const std::vector<MergedGroup>& merged,
+                   const ItemLoop& loop, MeshJobResult& result) {
+  result.grid.crs = result.crs;
+  if (!input.isPoly()) keepInBox(job, input, merged, loop, result);
+  result.mesh_area_m2 = meshArea(result.grid, loop);
+  if (job.sizes.coast == CoastDetail::Follow) noteFollowed(job, result);
+}
+
+// Adds to `finish` what follows from the meshed grid.
+void completeFinish(const MeshJob& job, const MeshJobResult& result, FinishOptions& finish) {
+  finish.repair = {job.sizes.time_step_s / job.sizes.courant, job.sizes.coast == CoastDetail::Follow,
+                   job.mesh.refine.min_angle_deg, job.mesh.refine.max_angle_deg, result.asked};
+  finish.repair.on_sphere = result.surfaces.contains(SurfaceKind::Sphere);
+  finish.drop_apart = dropsWatersApart(job);
+  finish.grazed = job.sizes.keep_water_given ? GrazedWaters::Keep : GrazedWaters::Drop;
+}
+
+// Boundaries, depths and repairs; measures again what repairs have changed.
+void finishStage(const MeshJob& job, const JobInput& input, const std::vector<MergedGroup>& merged,
+                 const FinishOptions& finish, const JobControl& control, MeshJobResult& result) {
+  if (!finish.any()) return;
+  const Stopwatch finishing;
+  Recorder recorder;
+  RunControl inner{control.cancelled, {}};
+  if (control.progress) inner.progress = [&control](double share) { control.progress("finish", share); };
+  InputVertices vertices = finish.mayEdit() ? InputVertices(result.grid, merged) : InputVertices();
+  const ItemLoop loop = recorder.loop("finish", RunControl{control.cancelled, {}});
+  result.finish = finishGrid(result.grid, finish, inner, loop);
+  std::ranges::move(result.finish.notes(), std::back_inserter(result.read.notes));
+  if (!result.finish.repairs.repairs.empty() || result.finish.dropped.waters > 0) {
+    result.short_before_repairs = result.short_of.count;
+    measureAgain(job, input, merged, true, loop, result);
+    result.mesh_area_m2 = meshArea(result.grid, loop);
+    result.refine.steiner_points = std::move(vertices).othersIn(result.grid);
+    if (result.input_area_m2)
+      result.input_area_m2 = inputAreaLeft(*result.input_area_m2, result.grid, merged, result.finish.dropped);
+  }
+  result.seconds.finish = finishing.seconds();
+  result.log.append(recorder.finish("finish"));
+}
+
 MeshJobResult runOnThreads(const MeshJob& given, const JobControl& control) {
   const Stopwatch whole;
   MeshJob job = given;
   MeshJobResult result;
   if (control.progress) control.progress("read", 0.0);
-  Recorder reading;
+  Recorder recorder;
   job.input.shores_move_m = shoresMove(job.sizes);
-  JobInput input(job.input, reading.loop("read", RunControl{control.cancelled, {}}));
+  JobInput input(job.input, recorder.loop("read", RunControl{control.cancelled, {}}));
   if (!job.input.ready) requireUnmirrored(input.coastline(), job.input);
   result.read = input.report();
   result.read.notes.insert(result.read.notes.begin(), job.notes.begin(), job.notes.end());
   result.crs = input.coastline().crs;
-  FinishOptions finish = job.finish;
-  if (finish.boundaries.of_input.empty()) finish.boundaries.of_input = input.boundaries();
-  if (!finish.boundaries.of_files) finish.boundaries.of_files = readBoundaryFiles(finish.boundaries);
-  SizeInputs sizes = readSizeInputs(job.sizes, result.crs, job.size_layers);
+  FinishOptions finish = finishOptionsOf(job, input);
+  SizeInputs sizes = sizeInputsOf(job, input, finish, control);
   for (const RasterGeometry& raster : sizes.rasters)
     result.read.notes.insert(result.read.notes.end(), raster.notes.begin(), raster.notes.end());
   RasterHelpers rasters(job.mesh.helpers, RunControl{control.cancelled, {}});
   sizes.readers = rasters.readers();
   finish.depth.readers = rasters.pixelReaders();
-  const auto lengthsOf = [](const SizeOptions& options) {
-    return ElementLengths{std::min(options.shore_m, options.size_m), std::min(options.most_m, options.size_m)};
-  };
-  sizes.shoreOf = [&](const Domain& domain, const SizeOptions& options, const ItemLoop& loop) {
-    return shoreForSizes(domain, input.coastline().crs, finish.boundaries, finish.depth, lengthsOf(options),
-                         RunControl{control.cancelled, {}}, loop);
-  };
-  sizes.opened = [&](Domain&& domain, const SizeOptions& options, const ItemLoop& loop) {
-    return withOpenings(std::move(domain), input.coastline().crs, finish.boundaries, finish.depth, lengthsOf(options),
-                        RunControl{control.cancelled, {}}, loop);
-  };
   giveBackFreeMemory();
   result.seconds.read = whole.seconds();
-  result.log.append(reading.finish("read"));
+  result.log.append(recorder.finish("read"));
   if (control.cancelled && control.cancelled()) throw Cancelled();
   if (control.progress) control.progress("read", 1.0);
 
@@ -537,38 +592,14 @@ MeshJobResult runOnThreads(const MeshJob& given, const JobControl& control) {
   result.sizes = job.sizes;
   const std::vector<MergedGroup> merged = meshGroups(job, input, sizes, control, result);
   giveBackFreeMemory();
-  result.grid.crs = result.crs;
-  Recorder recorder;
+  recorder = {};
   const ItemLoop loop = recorder.loop("grid", RunControl{control.cancelled, {}});
-  if (!input.isPoly()) keepInBox(job, input, merged, loop, result);
-  result.mesh_area_m2 = meshArea(result.grid, loop);
-  if (job.sizes.coast == CoastDetail::Follow) noteFollowed(job, result);
+  measureMeshed(job, input, merged, loop, result);
   if (!given.sizes.choose) noteRaisedShore(result);
   result.log.append(recorder.finish("grid"));
-  finish.repair = {job.sizes.time_step_s / job.sizes.courant, job.sizes.coast == CoastDetail::Follow,
-                   job.mesh.refine.min_angle_deg, job.mesh.refine.max_angle_deg, result.asked};
-  finish.repair.on_sphere = result.surfaces.contains(SurfaceKind::Sphere);
-  finish.drop_apart = dropsWatersApart(job);
-  finish.grazed = job.sizes.keep_water_given ? GrazedWaters::Keep : GrazedWaters::Drop;
-  if (finish.any()) {
-    const Stopwatch finishing;
-    RunControl inner{control.cancelled, {}};
-    if (control.progress) inner.progress = [&control](double share) { control.progress("finish", share); };
-    InputVertices vertices = finish.mayEdit() ? InputVertices(result.grid, merged) : InputVertices();
-    const ItemLoop finish_loop = recorder.loop("finish", RunControl{control.cancelled, {}});
-    result.finish = finishGrid(result.grid, finish, inner, finish_loop);
-    std::ranges::move(result.finish.notes(), std::back_inserter(result.read.notes));
-    if (!result.finish.repairs.repairs.empty() || result.finish.dropped.waters > 0) {
-      result.short_before_repairs = result.short_of.count;
-      measureAgain(job, input, merged, true, finish_loop, result);
-      result.mesh_area_m2 = meshArea(result.grid, loop);
-      result.refine.steiner_points = std::move(vertices).othersIn(result.grid);
-      if (result.input_area_m2)
-        result.input_area_m2 = inputAreaLeft(*result.input_area_m2, result.grid, merged, result.finish.dropped);
-    }
-    result.seconds.finish = finishing.seconds();
-    result.log.append(recorder.finish("finish"));
-  }
+  completeFinish(job, result, finish);
+  finishStage(job, input, merged, finish, control, result);
+  recorder = {};
   if (job.exchange.shards <= 1) warnOfIdleInputs(job, sizes, input.coastline(), result);
   findTurned(result, loop);
   result.step = measureOutcome(result.grid, job.sizes, loop, job.mesh.refine.goal, result.waters.too_small.count);

@@ -87,6 +87,100 @@ class SameOnGround final : public SizeFunction {
   const ScaleTable& scales_;
 };
 
+// What the steps of following have in common.
+struct FollowTask {
+  const FollowOptions& options;
+  const ShoreGuides& guides;
+  const EditLog& log;
+  const ScaleTable& scales;
+  const AskedPoints& asked;
+  const EvenSizes* even;  // sizes that the distance from the shore determines; null if it does not
+  const ItemLoop& loop;
+};
+
+// Thins, samples and triangulates the domain's shores. Lines in the water are set aside, as its width does not depend
+// on them; `lost` gets parts that cannot be followed, which must not keep land.
+ShoreStart triangulated(Domain& domain, const SizeFunction& size, FollowStart&& known, const FollowTask& task,
+                        WaterLines& in_water, LostLines& lost) {
+  const ShoreSizes sizes{size, task.scales};
+  const SameOnGround thinned(known.thinned_m, task.scales);
+  ShoreStart start;
+  start.gained = std::move(known.gained);
+  ShoreChains chains = chainsOf(takeGraph(domain), size, task.loop, task.even);
+  keepAsked(chains, task.asked.sources());
+  thin(chains, sizes, task.guides.tree(), task.options, known.thinned_m > 0.0 ? &thinned : nullptr, task.log,
+       start.gained, task.loop);
+  ShoreGraph graph = graphOf(std::move(chains));
+  returnLines(graph, takeLines(graph, task.asked.sources()), sizes, task.options.channel_min, lost);
+  in_water = takeLines(graph, task.asked.sources());
+  const std::vector<VertexId> ends_of_lines = bridgeLand(graph, in_water, size);
+  sampleShores(graph, size, task.guides.tree(), task.loop, task.even);
+  start.triangles = triangulateShores(std::move(graph), size, task.loop, task.even);
+  for (const VertexId v : ends_of_lines) start.triangles.use[v] |= kAtLine;
+  return start;
+}
+
+// Opens passages and closes barriers that the user gave.
+void applyGuides(ShoreTriangles& triangles, const PassageSizes& size, const FollowTask& task, const ShoreEdit& edit,
+                 FollowNotes& noted) {
+  if (task.guides.passages.empty() && task.guides.barriers.empty()) return;
+  const ShoreSizes sizes{size, task.scales};
+  WaterAreas by_the_user;
+  size.measure(triangles);
+  widenPassages(triangles, sizes, task.guides.passages, edit, by_the_user, noted.passages);
+  closeBarriers(triangles, sizes, task.guides, edit, noted.open_barriers);
+}
+
+// Takes from the opened shores what is to be noted of their waters.
+void noteOpened(JoinedShores& joined, const ShoreSizes& sizes, KeepWater keep, FollowNotes& noted) {
+  OpenedShores& opened = joined.opened;
+  noted.straits = allStraits(opened, sizes);
+  noted.spits = std::move(opened.spits);
+  noted.joined = std::move(joined.joined);
+  const std::vector<bool> is_main = areMain(opened.waters);
+  for (std::size_t i = 0; i < opened.waters.size(); ++i) {
+    WaterPart& water = opened.waters[i];
+    noted.area += water.area;
+    if (water.small && (water.kept || keep == KeepWater::All))
+      noted.too_small.push_back({water.area, water.inside.front()});
+    if (is_main[i]) continue;
+    (water.kept ? noted.apart : noted.cut_off).push_back({std::move(water), std::move(joined.ways[i])});
+  }
+}
+
+// Gives opened shores segments about as long as the sizes, repairs them, and lets waters that lost or gained much area
+// take or give it back.
+ShoreGraph coarsened(ShoreGraph&& graph, const Domain& domain, const SizeFunction& size, OpenedShores& opened,
+                     const FollowTask& task, CleanReport& report) {
+  ShoreChains chains = chainsOf(std::move(graph), size, task.loop, task.even);
+  chains.frame = ShoreFrame(domain.frame);
+  keepAsked(chains, task.asked.sources());
+  dropSamples(chains);
+  limitToNarrowWaters(chains);
+  const ShoreLoss gone = [&](VertexId v) {
+    task.log.add(EditKind::SimplifiedPoint, chains, v);
+    addGain(chains, v, nullptr, task.scales, opened.gained);
+  };
+  const ShoreMove moved = [&](VertexId v, const Point& x) {
+    task.log.add(EditKind::MovedPoint, chains, v);
+    addGain(chains, v, &x, task.scales, opened.gained);
+  };
+  mendEndsButAsked(chains, task.asked.sources(), gone);
+  coarsenShores(chains, gone);
+  meetPoints(chains, [&](VertexId v, VertexId w) {
+    const Point& x = chains.at[w];
+    addGain(chains, v, &x, task.scales, opened.gained);
+    task.log.add(EditKind::MovedPoint, x, chains.leaving[v].left);
+    report.waters.met.add(metPoint(x, distance(chains.at[v], x) / task.scales.at(x), domain.projection));
+  });
+  mendShores(chains, gone, moved, task.loop);
+  WaterAreas missing;
+  for (const auto& [water, gained] : opened.gained)
+    if (std::abs(gained) > kNoted * opened.areas[water]) missing[water] = -gained;
+  if (!missing.empty()) shiftShores(chains, missing, task.scales, moved);
+  return graphOf(std::move(chains));
+}
+
 }  // namespace
 
 Domain thinToLeast(Domain&& domain, double least_m, const FollowOptions& options, const Coastline& coastline,
@@ -117,89 +211,29 @@ Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOpti
   for (const Point& p : domain.pslg.points) box.add(p);
   const ScaleTable scales(domain.projection, box);
   const SizesInPlane in_plane(wanted, domain);
-  const SizeFunction& given = in_plane.get();
   const EditLog log{domain, coastline, report};
   const ShoreEdit edit = [&](EditKind kind, const Point& place, RegionId water) { log.add(kind, place, water); };
-  const BoxTree lines = guides.tree();
-  const SameOnGround thinned(known.thinned_m, scales), on_shore(known.shore_m, scales);
+  const SameOnGround on_shore(known.shore_m, scales);
   const EvenSizes growing{known.rate, on_shore};
-  const EvenSizes* const even = std::isnan(known.rate) ? nullptr : &growing;
-  ShoreStart start;
-  start.gained = std::move(known.gained);
   const AskedPoints asked(domain.asked, domain.pslg.points);
-  ShoreGraph graph;
-  {
-    ShoreChains chains = chainsOf(takeGraph(domain), given, loop, even);
-    keepAsked(chains, asked.sources());
-    thin(chains, {given, scales}, lines, options, known.thinned_m > 0.0 ? &thinned : nullptr, log, start.gained, loop);
-    graph = graphOf(std::move(chains));
-  }
-  // Parts of lines that cannot be followed must not keep land. The rest is set aside, as the width of water does not
-  // depend on it.
+  const FollowTask task{options, guides, log, scales, asked, std::isnan(known.rate) ? nullptr : &growing, loop};
+  WaterLines in_water;
   LostLines lost;
-  returnLines(graph, takeLines(graph, asked.sources()), {given, scales}, options.channel_min, lost);
-  WaterLines in_water = takeLines(graph, asked.sources());
-  const std::vector<VertexId> ends_of_lines = bridgeLand(graph, in_water, given);
-  sampleShores(graph, given, lines, loop, even);
-  start.triangles = triangulateShores(std::move(graph), given, loop, even);
-  for (const VertexId v : ends_of_lines) start.triangles.use[v] |= kAtLine;
-  const PassageSizes size(given, guides.passages, start.triangles);
+  ShoreStart start = triangulated(domain, in_plane.get(), std::move(known), task, in_water, lost);
+  const PassageSizes size(in_plane.get(), guides.passages, start.triangles);
   const ShoreSizes sizes{size, scales};
   FollowNotes noted;
-  if (!guides.passages.empty() || !guides.barriers.empty()) {
-    WaterAreas by_the_user;
-    size.measure(start.triangles);
-    widenPassages(start.triangles, sizes, guides.passages, edit, by_the_user, noted.passages);
-    closeBarriers(start.triangles, sizes, guides, edit, noted.open_barriers);
-  }
+  applyGuides(start.triangles, size, task, edit, noted);
   JoinedShores joined = openJoined(std::move(start), sizes, guides, options, loop);
-  OpenedShores& opened = joined.opened;
-  for (const auto& [kind, place, water] : opened.edits) edit(kind, place, water);
-  noted.straits = allStraits(opened, sizes);
-  noted.spits = std::move(opened.spits);
-  noted.joined = std::move(joined.joined);
-  const std::vector<bool> is_main = areMain(opened.waters);
-  for (std::size_t i = 0; i < opened.waters.size(); ++i) {
-    noted.area += opened.waters[i].area;
-    if (opened.waters[i].small && (opened.waters[i].kept || options.keep == KeepWater::All))
-      noted.too_small.push_back({opened.waters[i].area, opened.waters[i].inside.front()});
-    if (is_main[i]) continue;
-    (opened.waters[i].kept ? noted.apart : noted.cut_off)
-        .push_back({std::move(opened.waters[i]), std::move(joined.ways[i])});
-  }
+  for (const auto& [kind, place, water] : joined.opened.edits) edit(kind, place, water);
+  noteOpened(joined, sizes, options.keep, noted);
   noteFollowing(std::move(noted), guides, options, domain.projection, report);
 
-  graph = settledGraph(std::move(opened.after), size, loop);
+  ShoreGraph graph = settledGraph(std::move(joined.opened.after), size, loop);
   // Points on the shore of land that was removed are in the water now.
   addLoose(in_water, asked.missingFrom(together(graph.source, in_water.source)));
   returnLines(graph, std::move(in_water), sizes, options.channel_min, lost);
-  ShoreChains chains = chainsOf(std::move(graph), size, loop, even);
-  chains.frame = ShoreFrame(domain.frame);
-  keepAsked(chains, asked.sources());
-  dropSamples(chains);
-  limitToNarrowWaters(chains);
-  const ShoreLoss gone = [&](VertexId v) {
-    log.add(EditKind::SimplifiedPoint, chains, v);
-    addGain(chains, v, nullptr, scales, opened.gained);
-  };
-  const ShoreMove moved = [&](VertexId v, const Point& x) {
-    log.add(EditKind::MovedPoint, chains, v);
-    addGain(chains, v, &x, scales, opened.gained);
-  };
-  mendEndsButAsked(chains, asked.sources(), gone);
-  coarsenShores(chains, gone);
-  meetPoints(chains, [&](VertexId v, VertexId w) {
-    const Point& x = chains.at[w];
-    addGain(chains, v, &x, scales, opened.gained);
-    log.add(EditKind::MovedPoint, x, chains.leaving[v].left);
-    report.waters.met.add(metPoint(x, distance(chains.at[v], x) / scales.at(x), domain.projection));
-  });
-  mendShores(chains, gone, moved, loop);
-  WaterAreas missing;
-  for (const auto& [water, gained] : opened.gained)
-    if (std::abs(gained) > kNoted * opened.areas[water]) missing[water] = -gained;
-  if (!missing.empty()) shiftShores(chains, missing, scales, moved);
-  ShoreGraph followed = graphOf(std::move(chains));
+  ShoreGraph followed = coarsened(std::move(graph), domain, size, joined.opened, task, report);
   addLost(lost, asked.missingFrom(followed.source));
   noteLostLines(lost, domain, report);
   return domainOf(std::move(followed), std::move(domain));

@@ -203,6 +203,109 @@ bool isReadWhole(const OpenSource& source) {
                    source.name + "|" + (regions ? kRegionLayer : kPslgLayer));
 }
 
+// Makes layers as if the inputs of `clean` had been read.
+class CleanedLayers {
+ public:
+  CleanedLayers(Cleaned&& cleaned, std::string source, std::optional<Crs> crs)
+      : cleaned_(std::move(cleaned)), source_(std::move(source)), crs_(std::move(crs)) {}
+
+  std::vector<RawLayer> run(ReadReport& report) {
+    addAreaLayer(report);
+    for (const FeatureUse use : {FeatureUse::Constraint, FeatureUse::Weir, FeatureUse::Open}) addLineLayer(use);
+    addRegionLayer();
+    for (const auto& [type, lines] : cleaned_.boundaries) addBoundaryLayer(type, lines);
+    addPointLayer();
+    return std::move(layers_);
+  }
+
+ private:
+  RawLayer& add(FeatureUse use) {
+    RawLayer& layer = layers_.emplace_back();
+    layer.source = source_;
+    layer.use = use;
+    layer.bounds = cleaned_.bounds;
+    layer.crs = crs_;
+    return layer;
+  }
+
+  // A feature of the layer `features`, or one without attributes.
+  Feature featureOf(FeatureId id, FeatureUse use) const {
+    const auto known = cleaned_.features.find(id);
+    Feature feature = known == cleaned_.features.end() ? Feature{} : known->second;
+    if (feature.source.empty()) feature.source = source_;
+    feature.use = use;
+    return feature;
+  }
+
+  Feature& addLineFeature(RawLayer& layer) const {
+    Feature& feature = layer.line_features.emplace_back();
+    feature.source = source_;
+    feature.use = layer.use;
+    return feature;
+  }
+
+  void addAreaLayer(ReadReport& report) {
+    RawLayer& layer = add(FeatureUse::Area);
+    std::set<std::int64_t> parts;
+    for (const auto& [id, lines] : cleaned_.area_lines) {
+      Feature& feature = layer.features.emplace_back(featureOf(id, FeatureUse::Area));
+      addAreas(lines, crs_ && crs_->geographic, feature);
+      for (const Polygon& polygon : feature.polygons) report.rings += 1 + polygon.holes.size();
+      const std::int64_t part = cleaned_.part_of.at(id);
+      if (!parts.insert(part).second) continue;
+      for (const auto& [number, place] : cleaned_.vertices[part]) feature.vertex_order.push_back(place);
+    }
+  }
+
+  void addLineLayer(FeatureUse use) {
+    const auto has_use = [use](const auto& entry) { return entry.first.first == use; };
+    if (std::ranges::none_of(cleaned_.lines, has_use)) return;
+    RawLayer& layer = add(use);
+    for (auto& [key, lines] : cleaned_.lines) {
+      if (key.first != use) continue;
+      for (auto& line : lines) layer.lines.push_back({std::move(line), layer.line_features.size()});
+      layer.line_features.push_back(featureOf(key.second, use));
+    }
+  }
+
+  void addRegionLayer() {
+    if (cleaned_.regions.empty()) return;
+    RawLayer& layer = add(FeatureUse::Region);
+    for (auto& [id, polygons] : cleaned_.regions) {
+      Feature& feature = layer.features.emplace_back(featureOf(id, FeatureUse::Region));
+      feature.polygons = std::move(polygons);
+      const auto border = cleaned_.lines.find({FeatureUse::Region, id});
+      if (border != cleaned_.lines.end()) feature.lines = std::move(border->second);
+    }
+  }
+
+  void addBoundaryLayer(const std::string& type, const Lines& lines) {
+    RawLayer& layer = add(FeatureUse::Boundary);
+    addLineFeature(layer).attributes = {{kBoundaryField, type}};
+    JoinedLines joined = joinLines(lines);
+    for (JoinedLines::Part& ring : joined.rings) {
+      ring.points.push_back(ring.points.front());
+      layer.lines.push_back({std::move(ring.points), 0});
+    }
+    for (JoinedLines::Part& part : joined.open) layer.lines.push_back({std::move(part.points), 0});
+  }
+
+  void addPointLayer() {
+    if (cleaned_.alone.empty()) return;
+    addLineFeature(add(FeatureUse::Constraint)).points = std::move(cleaned_.alone);
+  }
+
+  Cleaned cleaned_;
+  std::string source_;
+  std::optional<Crs> crs_;
+  std::vector<RawLayer> layers_;
+};
+
+std::optional<Crs> crsOf(OGRLayer& layer) {
+  const OGRSpatialReference* srs = layer.GetSpatialRef();
+  return srs && !srs->IsEmpty() ? std::optional(fromOgr(srs)) : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<std::vector<RawLayer>> readCleaned(const OpenSource& source, FeatureUse given_as, const OgrErrors& errors,
@@ -227,73 +330,7 @@ std::optional<std::vector<RawLayer>> readCleaned(const OpenSource& source, Featu
   takeEdits(layerNamed(source, kEditLayer), shapes);
   requireReadToEnd(source, errors);
 
-  std::vector<RawLayer> layers;
-  const auto add = [&](FeatureUse use) -> RawLayer& {
-    RawLayer& layer = layers.emplace_back();
-    layer.source = source.name;
-    layer.use = use;
-    layer.bounds = cleaned.bounds;
-    const OGRSpatialReference* srs = pslg->GetSpatialRef();
-    if (srs && !srs->IsEmpty()) layer.crs = fromOgr(srs);
-    return layer;
-  };
-  const auto featureOf = [&](FeatureId id, FeatureUse use) {
-    const auto known = cleaned.features.find(id);
-    Feature feature = known == cleaned.features.end() ? Feature{} : known->second;
-    if (feature.source.empty()) feature.source = source.name;
-    feature.use = use;
-    return feature;
-  };
-  RawLayer& areas = add(FeatureUse::Area);
-  std::set<std::int64_t> parts;
-  for (const auto& [id, lines] : cleaned.area_lines) {
-    Feature& feature = areas.features.emplace_back(featureOf(id, FeatureUse::Area));
-    addAreas(lines, areas.crs && areas.crs->geographic, feature);
-    for (const Polygon& polygon : feature.polygons) report.rings += 1 + polygon.holes.size();
-    const std::int64_t part = cleaned.part_of.at(id);
-    if (!parts.insert(part).second) continue;
-    for (const auto& [number, place] : cleaned.vertices[part]) feature.vertex_order.push_back(place);
-  }
-  for (const FeatureUse use : {FeatureUse::Constraint, FeatureUse::Weir, FeatureUse::Open}) {
-    RawLayer layer = add(use);
-    layers.pop_back();
-    for (auto& [key, lines] : cleaned.lines) {
-      if (key.first != use) continue;
-      for (auto& line : lines) layer.lines.push_back({std::move(line), layer.line_features.size()});
-      layer.line_features.push_back(featureOf(key.second, use));
-    }
-    if (!layer.lines.empty()) layers.push_back(std::move(layer));
-  }
-  if (!cleaned.regions.empty()) {
-    RawLayer& layer = add(FeatureUse::Region);
-    for (auto& [id, polygons] : cleaned.regions) {
-      Feature& feature = layer.features.emplace_back(featureOf(id, FeatureUse::Region));
-      feature.polygons = std::move(polygons);
-      const auto border = cleaned.lines.find({FeatureUse::Region, id});
-      if (border != cleaned.lines.end()) feature.lines = std::move(border->second);
-    }
-  }
-  for (const auto& [text, lines] : cleaned.boundaries) {
-    RawLayer& layer = add(FeatureUse::Boundary);
-    Feature& feature = layer.line_features.emplace_back();
-    feature.source = source.name;
-    feature.use = FeatureUse::Boundary;
-    feature.attributes = {{kBoundaryField, text}};
-    JoinedLines joined = joinLines(lines);
-    for (JoinedLines::Part& ring : joined.rings) {
-      ring.points.push_back(ring.points.front());
-      layer.lines.push_back({std::move(ring.points), 0});
-    }
-    for (JoinedLines::Part& part : joined.open) layer.lines.push_back({std::move(part.points), 0});
-  }
-  if (!cleaned.alone.empty()) {
-    RawLayer& layer = add(FeatureUse::Constraint);
-    Feature& feature = layer.line_features.emplace_back();
-    feature.source = source.name;
-    feature.use = FeatureUse::Constraint;
-    feature.points = std::move(cleaned.alone);
-  }
-  return layers;
+  return CleanedLayers(std::move(cleaned), source.name, crsOf(*pslg)).run(report);
 }
 
 }  // namespace coastmesh
