@@ -282,7 +282,7 @@ Domain followShore(Domain&& domain, DomainSizes& sized, MakeSizes&& makeSizes, c
     followed = followSizes(std::move(domain), *again.function, options, coastline, report, guides, loop, start);
     followed = lengthen(std::move(followed), *again.function);
   } else if (growth.elsewhere > kSame) {
-    followed = coarsenFurther(std::move(followed), *again.function, coastline, report);
+    followed = coarsenFurther(std::move(followed), *again.function, coastline, report, loop);
     followed = lengthen(std::move(followed), *again.function);
   }
   sized = std::move(again);
@@ -398,7 +398,7 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
   result.raised_shore = sized.raised;
   VertexDemand& demand = sized.demand;
   demand.vertices += verticesOfSegments(domain.pslg, *sized.function, std::max(0.0, 2.0 * most - demand.vertices),
-                                        domain.projection.surface());
+                                        domain.projection.surface(), loop);
   result.estimated_vertices = demand.vertices;
   if (demand.vertices > most) throw TooManyVertices(demand);
   result.size_s = sizing.seconds();

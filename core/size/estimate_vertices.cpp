@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 #include "core/metric.hpp"
 
@@ -30,17 +32,26 @@ double lengthsAlong(const Point& a, const Point& b, const SizeFunction& size, co
 
 }  // namespace
 
-double verticesOfSegments(const Pslg& pslg, const SizeFunction& size, double enough, const Surface& surface) {
-  double sum = 0.0;
-  for (const Segment& s : pslg.segments) {
-    if (sum > enough) break;
-    const bool labelled = s.left != kUnlabelled || s.right != kUnlabelled;
-    const int sides = labelled ? (s.left >= 0) + (s.right >= 0) : 1;
-    const double lengths = lengthsAlong(pslg.points[s.a], pslg.points[s.b], size, surface, 2.0 * (enough - sum) + 1.0);
-    if (sides == 1) sum += 0.5 * std::max(1.0, lengths);
-    sum += sides * kLeadingOut * std::max(0.0, 1.0 - lengths);
-  }
-  return sum;
+double verticesOfSegments(const Pslg& pslg, const SizeFunction& size, double enough, const Surface& surface,
+                          const ItemLoop& loop) {
+  constexpr std::size_t kLeastSegments = 512;  // few of a frame may be most of the work
+  const std::vector<double> sums = overStretches(
+      loop, pslg.segments.size(),
+      [&](std::size_t first, std::size_t last) {
+        double sum = 0.0;
+        for (std::size_t i = first; i < last && sum <= enough; ++i) {
+          const Segment& s = pslg.segments[i];
+          const bool labelled = s.left != kUnlabelled || s.right != kUnlabelled;
+          const int sides = labelled ? (s.left >= 0) + (s.right >= 0) : 1;
+          const double lengths =
+              lengthsAlong(pslg.points[s.a], pslg.points[s.b], size, surface, 2.0 * (enough - sum) + 1.0);
+          if (sides == 1) sum += 0.5 * std::max(1.0, lengths);
+          sum += sides * kLeadingOut * std::max(0.0, 1.0 - lengths);
+        }
+        return sum;
+      },
+      kLeastSegments);
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
 }  // namespace coastmesh

@@ -132,9 +132,9 @@ void applyGuides(ShoreTriangles& triangles, const PassageSizes& size, const Foll
 }
 
 // Takes from the opened shores what is to be noted of their waters.
-void noteOpened(JoinedShores& joined, const ShoreSizes& sizes, KeepWater keep, FollowNotes& noted) {
+void noteOpened(JoinedShores& joined, KeepWater keep, FollowNotes& noted) {
   OpenedShores& opened = joined.opened;
-  noted.straits = allStraits(opened, sizes);
+  noted.straits = std::move(joined.straits);
   noted.spits = std::move(opened.spits);
   noted.joined = std::move(joined.joined);
   const std::vector<bool> is_main = areMain(opened.waters);
@@ -226,7 +226,7 @@ Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOpti
   applyGuides(start.triangles, size, task, edit, noted);
   JoinedShores joined = openJoined(std::move(start), sizes, guides, options, loop);
   for (const auto& [kind, place, water] : joined.opened.edits) edit(kind, place, water);
-  noteOpened(joined, sizes, options.keep, noted);
+  noteOpened(joined, options.keep, noted);
   noteFollowing(std::move(noted), guides, options, domain.projection, report);
 
   ShoreGraph graph = settledGraph(std::move(joined.opened.after), size, loop);
@@ -253,9 +253,10 @@ SizeGrowth growthOf(const Pslg& pslg, const SizeFunction& before, const SizeFunc
   return growth;
 }
 
-Domain coarsenFurther(Domain&& domain, const SizeFunction& size, const Coastline& coastline, CleanReport& report) {
+Domain coarsenFurther(Domain&& domain, const SizeFunction& size, const Coastline& coastline, CleanReport& report,
+                      const ItemLoop& loop) {
   const SizesInPlane in_plane(size, domain);
-  ShoreChains chains = chainsOf(takeGraph(domain), in_plane.get());
+  ShoreChains chains = chainsOf(takeGraph(domain), in_plane.get(), loop);
   chains.frame = ShoreFrame(domain.frame);
   keepAsked(chains, domain.asked);
   limitToNarrowWaters(chains);
@@ -264,7 +265,7 @@ Domain coarsenFurther(Domain&& domain, const SizeFunction& size, const Coastline
   const ShoreMove moved = [&](VertexId v, const Point&) { log.add(EditKind::MovedPoint, chains, v); };
   mendEndsButAsked(chains, domain.asked, gone);
   coarsenShores(chains, gone);
-  mendShores(chains, gone, moved);
+  mendShores(chains, gone, moved, loop);
   return domainOf(graphOf(std::move(chains)), std::move(domain));
 }
 

@@ -50,6 +50,7 @@ SizeGrowth growthOf(const Pslg& pslg, const SizeFunction& before, const SizeFunc
 
 // Coarsens the boundaries of a domain that follows sizes where the new ones are larger. Opens and closes nothing, so
 // nothing in the domain should be much narrower than these.
-Domain coarsenFurther(Domain&& domain, const SizeFunction& size, const Coastline& coastline, CleanReport& report);
+Domain coarsenFurther(Domain&& domain, const SizeFunction& size, const Coastline& coastline, CleanReport& report,
+                      const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

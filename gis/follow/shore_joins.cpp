@@ -60,8 +60,17 @@ class Joiner {
       forget(joins);
     }
     forgetApart();
-    std::vector<WaterWay> ways = waysToWaters(opened_, sizes_, options_);
-    return {std::move(opened_), std::move(ways), std::move(joined_)};
+    JoinedShores shores;
+    forItems(loop_, 2, [&](std::size_t i) {
+      if (i == 0) {
+        shores.ways = waysToWaters(opened_, sizes_, options_);
+      } else {
+        shores.straits = allStraits(opened_, sizes_);
+      }
+    });
+    shores.opened = std::move(opened_);
+    shores.joined = std::move(joined_);
+    return shores;
   }
 
  private:

@@ -11,6 +11,7 @@ struct JoinedShores {
   OpenedShores opened;
   std::vector<WaterWay> ways;  // for each of `opened.waters`, of any width
   std::vector<JoinedWater> joined;
+  std::vector<ClosedStrait> straits;  // all that were closed
 };
 
 // Opens land and water (`openShores`). If that would cut off a water, its connection is widened like a passage instead,
