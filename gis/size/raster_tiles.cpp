@@ -77,54 +77,68 @@ void readTile(const RasterBand& band, const TileTask& task, const PixelRect& pix
     });
 }
 
-SizeTile reduced(const RasterTile& tile, std::span<const float> sizes, bool keeps_least) {
-  // Pyramids of the minimum, the maximum and the mean of the requested sizes.
-  struct Level {
-    std::vector<float> low, high, sum, count;
-  };
-  std::vector<Level> levels(1);
-  const auto cellsOf = [](int side) { return static_cast<std::size_t>(side) * static_cast<std::size_t>(side); };
-  for (auto* of : {&levels[0].high, &levels[0].sum, &levels[0].count}) of->assign(cellsOf(kTile), 0.0F);
-  levels[0].low.assign(cellsOf(kTile), kNothing);
-  // Beyond the tile nothing is requested, with `high` 0, so that cells at its end can still be uniform.
+// One level of the pyramids of the minimum, the maximum and the mean of the requested sizes of a tile.
+struct PyramidLevel {
+  std::vector<float> low, high, sum, count;
+
+  explicit PyramidLevel(int side)
+      : low(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), kNothing),
+        high(low.size(), 0.0F),
+        sum(low.size(), 0.0F),
+        count(low.size(), 0.0F) {}
+};
+
+// Beyond the tile nothing is requested, with `high` 0, so that cells at its end can still be uniform.
+PyramidLevel levelOfPixels(const RasterTile& tile, std::span<const float> sizes) {
+  PyramidLevel level(kTile);
   for (int y = 0; y < tile.height; ++y) {
     for (int x = 0; x < tile.width; ++x) {
       const float size =
           sizes[static_cast<std::size_t>(y) * static_cast<std::size_t>(tile.width) + static_cast<std::size_t>(x)];
       const std::size_t k = static_cast<std::size_t>(y) * kTile + static_cast<std::size_t>(x);
-      levels[0].low[k] = levels[0].high[k] = size;
+      level.low[k] = level.high[k] = size;
       if (!std::isfinite(size)) continue;
-      levels[0].sum[k] = size;
-      levels[0].count[k] = 1.0F;
+      level.sum[k] = size;
+      level.count[k] = 1.0F;
     }
   }
-  int width = tile.width, height = tile.height;
-  for (int side = kTile / 2; side >= 1; side /= 2) {
-    const Level& fine = levels.back();
-    const std::vector<float> none(cellsOf(side), 0.0F);
-    Level coarse{std::vector<float>(cellsOf(side), kNothing), none, none, none};
-    width = (width + 1) / 2;
-    height = (height + 1) / 2;
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) {
-        float low = kNothing, high = 0.0F, sum = 0.0F, count = 0.0F;
-        for (int k = 0; k < 4; ++k) {
-          const std::size_t f = static_cast<std::size_t>(2 * y + k / 2) * static_cast<std::size_t>(2 * side) +
-                                static_cast<std::size_t>(2 * x + k % 2);
-          low = std::min(low, fine.low[f]);
-          high = std::max(high, fine.high[f]);
-          sum += fine.sum[f];
-          count += fine.count[f];
-        }
-        const auto c = static_cast<std::size_t>(y * side + x);
-        coarse.low[c] = low;
-        coarse.high[c] = high;
-        coarse.sum[c] = sum;
-        coarse.count[c] = count;
+  return level;
+}
+
+// The next level, of cells twice as wide, `side` by `side` of them; only the first `width` by `height` hold pixels.
+PyramidLevel levelAbove(const PyramidLevel& fine, int side, int width, int height) {
+  PyramidLevel coarse(side);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const auto c = static_cast<std::size_t>(y * side + x);
+      for (int k = 0; k < 4; ++k) {
+        const std::size_t f = static_cast<std::size_t>(2 * y + k / 2) * static_cast<std::size_t>(2 * side) +
+                              static_cast<std::size_t>(2 * x + k % 2);
+        coarse.low[c] = std::min(coarse.low[c], fine.low[f]);
+        coarse.high[c] = std::max(coarse.high[c], fine.high[f]);
+        coarse.sum[c] += fine.sum[f];
+        coarse.count[c] += fine.count[f];
       }
     }
-    levels.push_back(std::move(coarse));
   }
+  return coarse;
+}
+
+// From single pixels to the whole tile.
+std::vector<PyramidLevel> pyramidOf(const RasterTile& tile, std::span<const float> sizes) {
+  std::vector<PyramidLevel> levels{levelOfPixels(tile, sizes)};
+  int width = tile.width, height = tile.height;
+  for (int side = kTile / 2; side >= 1; side /= 2) {
+    width = (width + 1) / 2;
+    height = (height + 1) / 2;
+    levels.push_back(levelAbove(levels.back(), side, width, height));
+  }
+  return levels;
+}
+
+// Turns the sizes of a tile's pixels into a quadtree whose leaves are of about one size.
+SizeTile reduced(const RasterTile& tile, std::span<const float> sizes, bool keeps_least) {
+  const std::vector<PyramidLevel> levels = pyramidOf(tile, sizes);
   SizeTile nodes;
   struct Work {
     std::uint32_t node;
@@ -137,7 +151,7 @@ SizeTile reduced(const RasterTile& tile, std::span<const float> sizes, bool keep
   while (!stack.empty()) {
     const Work work = stack.back();
     stack.pop_back();
-    const Level& level = levels[work.level];
+    const PyramidLevel& level = levels[work.level];
     const int cells = kTile >> work.level;
     const std::size_t k =
         static_cast<std::size_t>(work.y) * static_cast<std::size_t>(cells) + static_cast<std::size_t>(work.x);
