@@ -343,7 +343,7 @@ TEST_F(Coordinates, SmallPlanesWithoutACrs) {
   EXPECT_EQ(run.errors, "");
   EXPECT_THAT(run.output, HasSubstr("'" + flume + "': does not say its CRS; taken as metres in a plane"));
   EXPECT_EQ(infoOf(file("m.gpkg"))["crs"], "plane");
-  EXPECT_THAT(runProgram({"info", flume}).errors, HasSubstr("taken for longitudes and latitudes on WGS 84"));
+  EXPECT_THAT(runProgram({"info", flume}).output, HasSubstr("taken for longitudes and latitudes on WGS 84"));
 }
 
 TEST_F(Coordinates, MetresThatAreSaidToBeDegreesAreRefused) {

@@ -194,7 +194,7 @@ TEST(Frame, TheWaterOfAPlaceWithoutAFrame) {
 // Mercator's plane ends at 20,037,508 m, and has the land beyond at its other end.
 TEST(Frame, BoxesPastTheEdgeOfThePlaneAreWarnedOf) {
   const auto warnings = [](double at, const std::string& crs, const FrameOptions& options) {
-    return frame(coastlineOf({polygonFeature(1, square(at, 0, 1e4))}, parseCrs(crs)), options).report.warnings;
+    return frame(coastlineOf({polygonFeature(1, square(at, 0, 1e4))}, parseCrs(crs)), options).frame.warnings;
   };
   const std::vector<std::string> past =
       warnings(19.9e6, "EPSG:3857", boxOf(19.8e6, -1e5, 20.3e6, 1e5, DomainSide::Outside));
