@@ -253,23 +253,29 @@ std::vector<DepthVariable> depthVariables(const NetcdfReader& file, const std::s
   return variables;
 }
 
-// The variable with depths or elevations of the bed on the faces, in quotes; empty if there is none.
+// The most reliable variable with depths or elevations of the bed on the faces, in quotes; empty if there is none.
 std::string depthsOnFaces(const NetcdfReader& file, const std::string& mesh) {
   const std::string faces = file.text(mesh, "face_node_connectivity");
   if (!file.hasVariable(faces)) return {};
   const bool transposed = isTransposed(file, faces, file.text(mesh, "face_dimension"));
   const std::vector<std::string> of_faces = file.dimensionsOf(faces);
   if (of_faces.size() != 2) return {};
+  std::string found;
+  std::pair best{true, Rank::None};  // of several times, rank
   for (const std::string& name : file.variables()) {
     const std::vector<std::string> dimensions = file.dimensionsOf(name);
     if (dimensions.empty() || dimensions.back() != of_faces[transposed ? 1 : 0]) continue;
-    if (dimensions.size() > 2 || (dimensions.size() == 2 && !isTime(file, dimensions.front()))) continue;
+    const bool of_times = dimensions.size() == 2 && isTime(file, dimensions.front());
+    if (dimensions.size() != 1 && !of_times) continue;
     const Rank rank = rankOf(file, name, mesh);
-    const bool by_standard = rank == Rank::Altitude || rank == Rank::Depth;
-    const bool by_name = rank != Rank::None && !by_standard && dimensions.size() == 1;
-    if ((by_standard || by_name) && metresInUnit(file.text(name, "units"))) return '"' + name + '"';
+    const bool by_name = rank == Rank::ElevationName || rank == Rank::DepthName;
+    if (rank == Rank::None || (of_times && by_name) || !metresInUnit(file.text(name, "units"))) continue;
+    if (const std::pair here{of_times, rank}; here < best) {
+      best = here;
+      found = '"' + name + '"';
+    }
   }
-  return {};
+  return found;
 }
 
 void readElevation(const NetcdfReader& file, const std::string& mesh, const std::string& x, Grid& grid) {

@@ -515,7 +515,10 @@ TEST_F(ReadGrid, UgridDepthsOfNoTimeComeFirst) {
 }
 
 TEST_F(ReadGrid, UgridDepthsOnFacesAreNamed) {
-  const Ugrid file(folder_ / "faces.nc", false, {{"Topology_flowelem_bl", "altitude", "", "face", 0, "", true}});
+  // D-Flow FM has the depth of the water at each time too.
+  const Ugrid file(folder_ / "faces.nc", false,
+                   {{"Topology_waterdepth", "sea_floor_depth_below_sea_surface", "", "face", 2, "time", true},
+                    {"Topology_flowelem_bl", "altitude", "", "face", 0, "", true}});
   EXPECT_EQ(readGrid(folder_ / "faces.nc").z, std::vector<double>());
   EXPECT_THAT(remarkOnGrid(folder_ / "faces.nc"), HasSubstr("depths on faces, \"Topology_flowelem_bl\""));
 }
