@@ -194,7 +194,8 @@ Coastline readCoastline(const std::vector<Source>& sources, const ReadFilter& fi
       if (layer.use != FeatureUse::Boundary) layers.push_back(std::move(layer));
   }
   Coastline coastline;
-  coastline.crs = crsOfFirst(layers.front(), filter.unsaid_in_plane, report);
+  const bool none_says = std::ranges::none_of(layers, [](const RawLayer& layer) { return layer.crs.has_value(); });
+  coastline.crs = crsOfFirst(layers.front(), filter.unsaid_in_plane && none_says, report);
   for (std::size_t i = 1; i < layers.size(); ++i) bringTo(coastline.crs, layers.front(), layers[i], report);
   for (RawLayer& layer : layers) {
     if (coastline.features.empty()) {

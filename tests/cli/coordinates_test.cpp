@@ -343,6 +343,11 @@ TEST_F(Coordinates, SmallPlanesWithoutACrs) {
   EXPECT_EQ(run.errors, "");
   EXPECT_THAT(run.output, HasSubstr("'" + flume + "': does not say its CRS; taken as metres in a plane"));
   EXPECT_EQ(infoOf(file("m.gpkg"))["crs"], "plane");
+  // GeoJSON always says that it is in degrees; then both are taken as they are in the CRS that it says.
+  const std::string point = write("point.geojson", R"({"type":"Point","coordinates":[1.5,0.5]})");
+  EXPECT_EQ(
+      runProgram({"mesh", flume, "--constraints", point, "--crs", "plane", "--size", "0.2", "-o", file("p.gpkg")}).code,
+      0);
   EXPECT_THAT(runProgram({"info", flume}).output, HasSubstr("taken for longitudes and latitudes on WGS 84"));
 }
 
