@@ -30,10 +30,11 @@ struct InfoUsage {
 // False for endings of mesh formats, except GIS layers, which may hold either: their content decides.
 bool mayHoldCoastline(const std::string& path) {
   constexpr std::array<std::string_view, 5> kLayers{".gpkg", ".geojson", ".json", ".shp", ".fgb"};
-  const std::string ending = lowerCase(std::filesystem::path(path).extension().string());
-  if (std::ranges::count(kLayers, ending) > 0) return true;
-  return std::ranges::none_of(
-      gridFormats(), [&ending](const GridFormat& format) { return std::ranges::count(format.endings, ending) > 0; });
+  const std::string name = lowerCase(path);
+  const auto isEnding = [&name](std::string_view ending) { return name.ends_with(ending); };
+  if (std::ranges::any_of(kLayers, isEnding)) return true;
+  return std::ranges::none_of(gridFormats(),
+                              [&](const GridFormat& format) { return std::ranges::any_of(format.endings, isEnding); });
 }
 
 std::optional<Grid> tryMesh(const MeshFile& file, Run& run) {

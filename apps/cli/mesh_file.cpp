@@ -1,8 +1,8 @@
 #include "apps/cli/mesh_file.hpp"
 
 #include <algorithm>
-#include <cmath>
 
+#include "core/box_halves.hpp"
 #include "gis/crs/geodesy.hpp"
 #include "gis/error.hpp"
 #include "gis/format/grid_io.hpp"
@@ -35,10 +35,16 @@ void warnOfNotes(const MeshFile& file, const Grid& grid, Run& run) {
              " more inconsistencies; check with --target finds them");
 }
 
-// Longitudes are those of any turn that files have: 0 to 360, or on past 180.
+// Longitudes are those of any turn that files have: 0 to 360, or on past 180. Flumes and other small planes begin at
+// the origin or lie around it, where there is nothing but ocean: no land is nearer to 0°, 0° than 4.5°.
 bool mayBeDegrees(const Grid& grid) {
-  return std::ranges::all_of(grid.nodes,
-                             [](const Point& p) { return std::abs(p.x) <= 360.0 && std::abs(p.y) <= 90.0; });
+  constexpr double kNoLand = 3.0;  // to each side
+  Bounds box;
+  for (const Point& p : grid.nodes) box.add(p);
+  const double west = box.low.x, south = box.low.y, east = box.high.x, north = box.high.y;
+  if (west < -360.0 || east > 360.0 || south < -90.0 || north > 90.0) return false;
+  const bool begins_at_origin = west == 0.0 && south == 0.0;
+  return !begins_at_origin && std::max({-west, -south, east, north}) > kNoLand;
 }
 
 // Files for models have no CRS, and models read degrees from many of them.

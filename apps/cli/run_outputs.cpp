@@ -199,6 +199,7 @@ void RunOutputs::addGrids(const std::vector<std::string>& paths, const std::stri
     grids_.back().protect(inputs_);
     formats_.push_back(&known);
     if (known.says_depth) depth_paths_.push_back(path);
+    if (known.needs_depths) full_depth_paths_.push_back(path);
     if (known.lengths_in_metres) metre_paths_.push_back(path);
     guard(grids_.back().files());
   }
@@ -229,10 +230,10 @@ void RunOutputs::writeReport(const std::string& text) {
 }
 
 std::string RunOutputs::unknownDepthWarning(const DepthOptions& depth) const {
-  if (depth.files.empty() || depth.fill != DepthFill::None || depth_paths_.empty()) return {};
-  return "--depth-fill none: '" + depth_paths_.front() +
+  if (depth.files.empty() || depth.fill != DepthFill::None || full_depth_paths_.empty()) return {};
+  return "--depth-fill none: '" + full_depth_paths_.front() +
          "' cannot say that a node has no depth: nothing is written if there is one; choose another --depth-fill, or "
-         "only .nc and .gpkg";
+         "only formats that can, such as .nc and .gpkg";
 }
 
 std::vector<std::string> RunOutputs::numberWarnings(const Grid& grid) const {

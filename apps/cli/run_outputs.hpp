@@ -80,6 +80,7 @@ class RunOutputs {
   bool report_to_stdout_ = false;
   std::string report_text_;
   std::vector<std::string> depth_paths_;        // of formats with a depth at each node
+  std::vector<std::string> full_depth_paths_;   // of formats that cannot say that a node has no depth
   std::vector<std::string> metre_paths_;        // of formats whose coordinates are read as metres
   std::vector<std::filesystem::path> guarded_;  // copied, so that releasing them allocates nothing
 };

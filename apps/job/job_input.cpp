@@ -113,6 +113,7 @@ Coastline readInput(const InputOptions& options, ReadReport& report, BoundaryRul
   // A box is in the CRS of the first file. With `plane`, whether that is right shows in all coordinates.
   if (by_frame && options.files.size() == 1 && options.boundary_column.empty() && options.crs != "plane")
     filter.near = options.frame.box;
+  filter.unsaid_in_plane = options.crs == "plane";
   try {
     coastline = readCoastline(
         sourcesOf(options), filter, report,
@@ -214,6 +215,7 @@ JobInput::JobInput(const InputOptions& options, const ItemLoop& loop) : options_
   for (std::size_t f = 0; f < coastline_.features.size(); ++f)
     if (coastline_.features[f].use == FeatureUse::Frame) frames_.push_back(f);
   std::ranges::move(framed.notes, std::back_inserter(report_.notes));
+  std::ranges::move(framed.warnings, std::back_inserter(report_.warnings));
   if (options_.crs == "plane" && coastline_.crs.geographic)
     report_.warnings.push_back("--crs plane takes coordinates as they are, in the degrees of " +
                                nameOf(coastline_.crs) +

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <limits>
 
+#include "gis/coast/box_of_frame.hpp"
 #include "gis/coast/clip_chains.hpp"
 #include "gis/coast/feature_bounds.hpp"
 #include "gis/coast/feature_names.hpp"
@@ -22,12 +23,6 @@ namespace coastmesh {
 namespace {
 
 constexpr double kTurn = 360;  // degrees
-
-std::string inWords(const Box& box) {
-  char text[160];
-  std::snprintf(text, sizeof text, "%.10g,%.10g,%.10g,%.10g", box.xmin, box.ymin, box.xmax, box.ymax);
-  return text;
-}
 
 // Bounds without guests, which may lie in another turn.
 Box boundsOfHosts(const Coastline& coastline) {
@@ -45,45 +40,6 @@ double turnOf(const Box& data) {
   if (data.xmin >= 0 && data.xmax <= kTurn) return 0;
   const double beyond = kTurn - (data.xmax - data.xmin);
   return beyond < 0 ? -180 : std::clamp(data.xmin - beyond / 2, -kMost, kMost - kTurn);
-}
-
-// Degrees of longitude from the west to the east of a box; an east less than the west lies beyond the antimeridian.
-double widthOf(const Box& box) { return box.xmax - box.xmin + (box.xmax < box.xmin ? kTurn : 0); }
-
-void refuseOddBox(const Box& box, const Crs& crs) {
-  const std::string given = "--bbox " + inWords(box);
-  if (!(box.ymin < box.ymax)) {
-    throw OptionError(given + ": the south has to lie below the north (the order is west, south, east, north)");
-  }
-  if (box.xmin == box.xmax) throw OptionError(given + ": it has no width: the west has to differ from the east");
-  if (!crs.geographic) {
-    if (!(box.xmin < box.xmax))
-      throw InputError(given + ": the west has to lie below the east; boxes across the antimeridian need an input in " +
-                       "longitudes and latitudes");
-    return;
-  }
-  if (box.ymin < -90 || box.ymax > 90 || std::abs(box.xmin) > 540 || std::abs(box.xmax) > 540) {
-    throw InputError(given + ": the input is in degrees (" + nameOf(crs) +
-                     "), and these are none: give west, south, east, north in degrees");
-  }
-  if (box.xmax - box.xmin > kTurn) {
-    throw InputError(given + ": from the west to the east it has to be at most 360 degrees");
-  }
-  if (!(widthOf(box) > 0)) {
-    throw OptionError(given + ": it has no width: the east lies a full turn or more west of the west; for all " +
-                      "longitudes give -180 as the west and 180 as the east");
-  }
-}
-
-// An east less than the west means a box across the antimeridian. If that spans most of the Earth, it may be a mistake.
-void noteWideBox(const Box& box, const Crs& crs, FrameReport& report) {
-  if (!crs.geographic || box.xmin < box.xmax) return;
-  const double width = widthOf(box);
-  if (width <= kTurn / 2) return;
-  char text[60];
-  std::snprintf(text, sizeof text, "reaches over %.6g degrees", width);
-  report.notes.push_back("--bbox " + inWords(box) + ": its east is less than its west, so that it " + text +
-                         " across the antimeridian; the order is west, south, east, north");
 }
 
 // Polygons of a frame are read like any others, so their coordinates may be invalid in the CRS.
@@ -486,7 +442,10 @@ FrameReport frameCoastline(Coastline& coastline, const FrameOptions& options) {
   }
   if (options.box) {
     refuseOddBox(*options.box, coastline.crs);
-    noteWideBox(*options.box, coastline.crs, report);
+    if (std::string note = wideBoxNote(*options.box, coastline.crs); !note.empty())
+      report.notes.push_back(std::move(note));
+    if (std::string warning = beyondEdgeWarning(*options.box, given, coastline.crs); !warning.empty())
+      report.warnings.push_back(std::move(warning));
     coastline.features.push_back(frameOf(*options.box, coastline.crs, turn));
     coastline.framed_by_box = true;
   }

@@ -30,8 +30,9 @@ struct FrameOptions {
 
 // Results of framing.
 struct FrameReport {
-  std::uint64_t beyond_frame = 0;  // features completely outside the frame: left out
-  std::vector<std::string> notes;  // decisions where the options were ambiguous
+  std::uint64_t beyond_frame = 0;     // features completely outside the frame: left out
+  std::vector<std::string> notes;     // decisions where the options were ambiguous
+  std::vector<std::string> warnings;  // frames that are probably a mistake
 };
 
 // Sets the uses of the features of `coastline`: polygons become land, or polygons and lines coasts, as the options say.

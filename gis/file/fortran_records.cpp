@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "gis/error.hpp"
+#include "gis/file/single_precision.hpp"
 #include "gis/file/whole_file.hpp"
 #include "gis/for_count.hpp"
 
@@ -65,21 +66,32 @@ void FortranWriter::doubles(const ItemLoop& loop, std::size_t count, const std::
   length(count * sizeof(std::uint64_t));
 }
 
-FortranReader::FortranReader(const std::string& path) : path_(path), bytes_(wholeFile(path)) {}
+FortranReader::FortranReader(const std::string& path) : path_(path), bytes_(wholeFile(path)) {
+  if (bytes_.size() < 8) return;
+  const auto fits = [this](std::uint32_t length) { return length <= bytes_.size() - 8; };
+  const auto length = bitsAt<std::uint32_t>(bytes_, 0);
+  little_endian_ = !fits(length) && fits(swapped(length));
+}
+
+template <typename Bits>
+Bits FortranReader::bitsOf(std::string_view bytes, std::size_t index) const {
+  const Bits bits = bitsAt<Bits>(bytes, index);
+  return little_endian_ ? swapped(bits) : bits;
+}
 
 void FortranReader::fail(const std::string& what) const { throw InputError("'" + path_ + "': " + what); }
 
 std::size_t FortranReader::nextSize() const {
   if (bytes_.size() - at_ < 8) fail("it ends too early, at byte " + std::to_string(bytes_.size()));
-  const std::size_t size = bitsAt<std::uint32_t>(std::string_view(bytes_).substr(at_, 4), 0);
-  if (size > bytes_.size() - at_ - 8) fail("it is not a big-endian Fortran file, or ends too early");
+  const std::size_t size = bitsOf<std::uint32_t>(std::string_view(bytes_).substr(at_, 4), 0);
+  if (size > bytes_.size() - at_ - 8) fail("it is not a Fortran file, or ends too early");
   return size;
 }
 
 std::string_view FortranReader::record() {
   const std::size_t size = nextSize();
   const std::string_view rest = std::string_view(bytes_).substr(at_ + 4);
-  if (bitsAt<std::uint32_t>(rest.substr(size, 4), 0) != size)
+  if (bitsOf<std::uint32_t>(rest.substr(size, 4), 0) != size)
     fail("the record at byte " + std::to_string(at_) + " has two different lengths");
   at_ += size + 8;
   return rest.substr(0, size);
@@ -98,7 +110,7 @@ std::string FortranReader::text() { return std::string(record()); }
 std::vector<std::int32_t> FortranReader::integers(std::size_t count) {
   const std::string_view bytes = record(4 * count);
   std::vector<std::int32_t> values(count);
-  for (std::size_t i = 0; i < count; ++i) values[i] = static_cast<std::int32_t>(bitsAt<std::uint32_t>(bytes, i));
+  for (std::size_t i = 0; i < count; ++i) values[i] = static_cast<std::int32_t>(bitsOf<std::uint32_t>(bytes, i));
   return values;
 }
 
@@ -106,8 +118,8 @@ std::vector<double> FortranReader::reals(std::size_t count, std::size_t bytes_ea
   const std::string_view bytes = record(bytes_each * count);
   std::vector<double> values(count);
   for (std::size_t i = 0; i < count; ++i)
-    values[i] = bytes_each == 4 ? static_cast<double>(std::bit_cast<float>(bitsAt<std::uint32_t>(bytes, i)))
-                                : std::bit_cast<double>(bitsAt<std::uint64_t>(bytes, i));
+    values[i] = bytes_each == 4 ? shortestDecimal(std::bit_cast<float>(bitsOf<std::uint32_t>(bytes, i)))
+                                : std::bit_cast<double>(bitsOf<std::uint64_t>(bytes, i));
   return values;
 }
 

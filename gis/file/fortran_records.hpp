@@ -32,7 +32,8 @@ class FortranWriter {
   TextWriter file_;
 };
 
-// Throws InputError if a record does not have the requested size.
+// Reads the same in either byte order, which the length of the first record tells. Throws InputError if a record does
+// not have the requested size.
 class FortranReader {
  public:
   explicit FortranReader(const std::string& path);
@@ -41,15 +42,19 @@ class FortranReader {
   std::size_t nextSize() const;  // bytes of the next record
   std::string text();
   std::vector<std::int32_t> integers(std::size_t count);
-  std::vector<double> reals(std::size_t count, std::size_t bytes_each);  // of 4 or 8 bytes
+  // Of 4 or 8 bytes; those of single precision are the shortest decimals that mean them.
+  std::vector<double> reals(std::size_t count, std::size_t bytes_each);
   [[noreturn]] void fail(const std::string& what) const;
 
  private:
+  template <typename Bits>
+  Bits bitsOf(std::string_view bytes, std::size_t index) const;  // of the value at `index`
   std::string_view record();
   std::string_view record(std::size_t bytes);
 
   std::string path_;
   std::string bytes_;
+  bool little_endian_ = false;
   std::size_t at_ = 0;
 };
 

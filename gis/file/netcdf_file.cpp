@@ -9,6 +9,7 @@
 
 #include "gis/error.hpp"
 #include "gis/file/netcdf_header.hpp"
+#include "gis/file/single_precision.hpp"
 
 namespace coastmesh {
 
@@ -193,13 +194,26 @@ std::size_t NetcdfReader::sizeOf(const std::string& variable) const {
   return size;
 }
 
-std::vector<double> NetcdfReader::packedDoubles(const std::string& variable) const {
-  std::vector<double> values(sizeOf(variable));
-  check(nc_get_var_double(id_, variableId(variable), values.data()));
+std::vector<double> NetcdfReader::packedDoubles(const std::string& variable, std::optional<std::size_t> row) const {
+  std::vector<std::size_t> start(row ? shape(variable).size() : 0, 0), lengths = shape(variable);
+  std::size_t size = sizeOf(variable);
+  if (row && size > 0) {
+    size /= lengths[0];
+    start[0] = *row;
+    lengths[0] = 1;
+  }
+  std::vector<double> values(size);
+  if (size == 0) return values;
+  check(row ? nc_get_vara_double(id_, variableId(variable), start.data(), lengths.data(), values.data())
+            : nc_get_var_double(id_, variableId(variable), values.data()));
   return values;
 }
 
 void NetcdfReader::unpack(const std::string& variable, std::vector<double>& values) const {
+  nc_type type = 0;
+  check(nc_inq_vartype(id_, variableId(variable), &type));
+  if (type == NC_FLOAT)
+    for (double& value : values) value = shortestDecimal(static_cast<float>(value));
   const double factor = number(variable, "scale_factor").value_or(1.0);
   const double offset = number(variable, "add_offset").value_or(0.0);
   if (factor == 1.0 && offset == 0.0) return;
@@ -212,8 +226,8 @@ std::vector<double> NetcdfReader::doubles(const std::string& variable) const {
   return values;
 }
 
-std::vector<double> NetcdfReader::knownDoubles(const std::string& variable) const {
-  std::vector<double> values = packedDoubles(variable), missing;
+std::vector<double> NetcdfReader::knownDoubles(const std::string& variable, std::optional<std::size_t> row) const {
+  std::vector<double> values = packedDoubles(variable, row), missing;
   for (const char* attribute : {"_FillValue", "missing_value"})
     if (const auto value = number(variable, attribute)) missing.push_back(*value);
   nc_type type = 0;
@@ -232,6 +246,32 @@ std::vector<std::int64_t> NetcdfReader::integers(const std::string& variable) co
   std::vector<long long> values(sizeOf(variable));
   check(nc_get_var_longlong(id_, variableId(variable), values.data()));
   return {values.begin(), values.end()};
+}
+
+std::vector<std::int64_t> NetcdfReader::indices(const std::string& variable) const {
+  nc_type type = 0;
+  check(nc_inq_vartype(id_, variableId(variable), &type));
+  if (type == NC_FLOAT || type == NC_DOUBLE) {
+    constexpr double kExact = 9e15;  // integers up to here are exact
+    std::vector<std::int64_t> indices;
+    for (const double value : knownDoubles(variable)) {
+      const bool whole = std::abs(value) < kExact && value == std::floor(value);
+      if (!whole && !std::isnan(value)) fail("\"" + variable + "\" holds a number that is not whole");
+      indices.push_back(whole ? static_cast<std::int64_t>(value) : kMissing);
+    }
+    return indices;
+  }
+  const std::optional<double> said = number(variable, "_FillValue");
+  const double fill = said               ? *said
+                      : type == NC_INT   ? NC_FILL_INT
+                      : type == NC_UINT  ? NC_FILL_UINT
+                      : type == NC_INT64 ? static_cast<double>(NC_FILL_INT64)
+                      : type == NC_SHORT ? NC_FILL_SHORT
+                                         : static_cast<double>(kMissing);
+  std::vector<std::int64_t> values = integers(variable);
+  for (std::int64_t& value : values)
+    if (static_cast<double>(value) == fill) value = kMissing;
+  return values;
 }
 
 std::vector<std::string> NetcdfReader::texts(const std::string& variable) const {

@@ -5,6 +5,7 @@
 #include <concepts>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -105,11 +106,17 @@ class NetcdfReader {
   std::string text(const std::string& variable, const std::string& attribute) const;
   std::string globalText(const std::string& attribute) const;
   std::optional<double> number(const std::string& variable, const std::string& attribute) const;
-  // In the unit of the variable, if the file holds them packed (`scale_factor`, `add_offset`).
+  // In the unit of the variable, if the file holds them packed (`scale_factor`, `add_offset`). Numbers of single
+  // precision are the shortest decimals that mean them: 12.1, not 12.100000381469727.
   std::vector<double> doubles(const std::string& variable) const;
-  // The same, NaN for a value that the file calls missing or that was never written.
-  std::vector<double> knownDoubles(const std::string& variable) const;
+  // The same, NaN for a value that the file calls missing or that was never written. `row`: only that one of the first
+  // dimension.
+  std::vector<double> knownDoubles(const std::string& variable, std::optional<std::size_t> row = std::nullopt) const;
   std::vector<std::int64_t> integers(const std::string& variable) const;
+  // Numbers of nodes or other things, kMissing for the fill value, which is the library's if the file names none.
+  // Programs with missing numbers often store them as reals and NaN.
+  static constexpr std::int64_t kMissing = std::numeric_limits<std::int64_t>::min();
+  std::vector<std::int64_t> indices(const std::string& variable) const;
   std::vector<std::string> texts(const std::string& variable) const;  // rows of characters, padded with zeros
 
   [[noreturn]] void fail(const std::string& what) const;
@@ -119,7 +126,8 @@ class NetcdfReader {
   int variableId(const std::string& name) const;
   std::string textOf(int variable, const std::string& attribute) const;
   std::size_t sizeOf(const std::string& variable) const;
-  std::vector<double> packedDoubles(const std::string& variable) const;
+  std::vector<double> packedDoubles(const std::string& variable, std::optional<std::size_t> row = std::nullopt) const;
+  // Turns stored numbers into those that they mean.
   void unpack(const std::string& variable, std::vector<double>& values) const;
 
   std::string path_;

@@ -63,6 +63,8 @@ void requireReplaceable(const fs::path& path, bool overwrite) {
     case fs::file_type::symlink:
       failToWrite(path, "it is a link to " + quoted(fs::read_symlink(path, error)) +
                             "; name the file itself, or remove the link");
+    case fs::file_type::none:
+      failToWrite(path, error.message());
     default:
       failToWrite(path, "it is a device or a pipe, no regular file; name a file");
   }

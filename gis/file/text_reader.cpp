@@ -46,7 +46,8 @@ bool TextReader::nextLine() {
 }
 
 void TextReader::needLine() {
-  if (!nextLine()) throw InputError("'" + path_ + "' ends too early, after line " + std::to_string(line_number_));
+  if (!nextLine())
+    throw InputError("'" + path_ + "' ends too early, after line " + std::to_string(line_number_) + remark_);
 }
 
 bool TextReader::hasWord() {
@@ -72,19 +73,25 @@ bool parse(std::string_view word, Number& value) {
   return error == std::errc() && end == word.data() + word.size();
 }
 
-// Fortran writes the exponents of its double precision with a D.
+// Fortran writes the exponents of its double precision with a D, of a higher one with a Q, and without a letter if they
+// have three digits.
 bool parseFortran(std::string_view word, double& value) {
   std::string text(word);
-  const std::size_t at = text.find_first_of("dD");
-  if (at == text.npos || at == 0) return false;
-  text[at] = 'e';
+  const std::size_t at = text.find_first_of("dDqQ+-", 1);
+  if (at == text.npos) return false;
+  if (text[at] == '+' || text[at] == '-') {
+    text.insert(at, 1, 'e');
+  } else {
+    text[at] = 'e';
+  }
   return parse(text, value);
 }
 
 }  // namespace
 
-double TextReader::number() {
-  const std::string_view text = word();
+double TextReader::number() { return numberIn(word()); }
+
+double TextReader::numberIn(std::string_view text) const {
   double value = 0.0;
   if (!parse(text, value) && !parseFortran(text, value))
     fail("a number is expected, not \"" + std::string(text) + "\"");
@@ -92,22 +99,25 @@ double TextReader::number() {
   return value;
 }
 
-std::int64_t TextReader::integer() {
-  const std::string_view text = word();
+std::int64_t TextReader::integer() { return integerIn(word()); }
+
+std::int64_t TextReader::integerIn(std::string_view text) const {
   std::int64_t value = 0;
   if (!parse(text, value)) fail("a whole number is expected, not \"" + std::string(text) + "\"");
   if (value == std::numeric_limits<std::int64_t>::min()) fail(std::string(text) + " is too large a number");
   return value;
 }
 
-std::uint64_t TextReader::count() {
-  const std::int64_t value = integer();
+std::uint64_t TextReader::count() { return countIn(word()); }
+
+std::uint64_t TextReader::countIn(std::string_view text) const {
+  const std::int64_t value = integerIn(text);
   if (value < 0) fail("a count cannot be negative");
   return static_cast<std::uint64_t>(value);
 }
 
 void TextReader::fail(const std::string& what) const {
-  throw InputError("'" + path_ + "', line " + std::to_string(line_number_) + ": " + what);
+  throw InputError("'" + path_ + "', line " + std::to_string(line_number_) + ": " + what + remark_);
 }
 
 IdMap::IdMap(std::vector<std::int64_t> ids, const TextReader& file, std::string_view what) : count_(ids.size()) {

@@ -27,9 +27,16 @@ class TextReader {
   std::int64_t integer();   // not the smallest, which has no negative
   std::uint64_t count();    // an integer that is not negative
 
+  // The number that a word of the line is, with the same errors.
+  double numberIn(std::string_view word) const;
+  std::int64_t integerIn(std::string_view word) const;
+  std::uint64_t countIn(std::string_view word) const;
+
   [[noreturn]] void fail(const std::string& what) const;
+  void addToErrors(std::string remark) { remark_ = std::move(remark); }  // a possible cause, at the end of each
   const std::string& path() const { return path_; }
-  std::size_t size() const { return text_.size(); }  // bytes in the file: a limit for any count in the file
+  std::size_t lineNumber() const { return line_number_; }  // from 1
+  std::size_t size() const { return text_.size(); }        // bytes in the file: a limit for any count in the file
 
  private:
   bool isBetween(char c) const { return between_[static_cast<unsigned char>(c)]; }
@@ -40,6 +47,7 @@ class TextReader {
   std::string text_;
   std::size_t next_ = 0;  // where the next line starts
   std::size_t line_number_ = 0;
+  std::string remark_;
   std::string_view line_;
   std::size_t at_ = 0;  // in the line
 };

@@ -36,6 +36,7 @@ FormatRecord adcircFormat() {
            .writable = true,
            .holds = {GridPart::Title, GridPart::Rivers, GridPart::Ibtypes, GridPart::Weirs},
            .says_depth = true,
+           .needs_depths = true,
            .places = NodePlaces::OneTurn,
            .lengths_in_metres = true},
           {writeAdcirc, readAdcirc, withPrjBeside}};

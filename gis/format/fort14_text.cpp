@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "gis/error.hpp"
+#include "gis/file/list_reader.hpp"
 #include "gis/file/text_reader.hpp"
 #include "gis/for_count.hpp"
 #include "gis/grid/boundary_chains.hpp"
@@ -110,21 +111,21 @@ void writeFort14(TextWriter& file, const Grid& grid, std::span<const Point> plac
 namespace {
 
 // The first number of a line, which may be followed by a comment. Nullopt at the end of the file.
-std::optional<std::uint64_t> countLine(TextReader& file) {
-  if (!file.nextLine()) return std::nullopt;
+std::optional<std::uint64_t> countLine(ListReader& file) {
+  if (!file.nextStatement()) return std::nullopt;
   return file.count();
 }
 
-std::uint64_t needCountLine(TextReader& file) {
-  file.needLine();
+std::uint64_t needCountLine(ListReader& file) {
+  file.needStatement();
   return file.count();
 }
 
 class NodeNumbers {
  public:
-  NodeNumbers(std::vector<std::int64_t> ids, const TextReader& file) : index_(std::move(ids), file, "node") {}
+  NodeNumbers(std::vector<std::int64_t> ids, const ListReader& file) : index_(std::move(ids), file.text(), "node") {}
 
-  std::uint32_t read(TextReader& file) const {
+  std::uint32_t read(ListReader& file) const {
     const std::int64_t id = file.integer();
     const std::uint32_t node = index_.indexOf(id);
     if (node == kNone) file.fail("there is no node " + std::to_string(id));
@@ -135,11 +136,11 @@ class NodeNumbers {
   IdMap index_;
 };
 
-NodeNumbers readNodes(TextReader& file, std::uint64_t count, Grid& grid) {
+NodeNumbers readNodes(ListReader& file, std::uint64_t count, Grid& grid) {
   std::vector<std::int64_t> ids;
   bool in_order = true;
   for (std::uint64_t i = 0; i < count; ++i) {
-    file.needLine();
+    file.needStatement();
     ids.push_back(file.integer());
     in_order = in_order && ids.back() == static_cast<std::int64_t>(i) + 1;
     const double x = file.number(), y = file.number();
@@ -151,10 +152,10 @@ NodeNumbers readNodes(TextReader& file, std::uint64_t count, Grid& grid) {
   return {std::move(ids), file};
 }
 
-void readElements(TextReader& file, std::uint64_t count, const NodeNumbers& numbers, Grid& grid) {
+void readElements(ListReader& file, std::uint64_t count, const NodeNumbers& numbers, Grid& grid) {
   bool in_order = true;
   for (std::uint64_t t = 0; t < count; ++t) {
-    file.needLine();
+    file.needStatement();
     const std::int64_t id = file.integer();
     in_order = in_order && id == static_cast<std::int64_t>(t) + 1;
     if (const std::int64_t corners = file.integer(); corners != 3)
@@ -166,10 +167,10 @@ void readElements(TextReader& file, std::uint64_t count, const NodeNumbers& numb
   if (!in_order) grid.notes.emplace_back("elements are not numbered from 1 in their order");
 }
 
-void readNodesOf(TextReader& file, std::uint64_t count, const NodeNumbers& numbers, const Ibtype& type,
+void readNodesOf(ListReader& file, std::uint64_t count, const NodeNumbers& numbers, const Ibtype& type,
                  Boundary& boundary) {
   for (std::uint64_t i = 0; i < count; ++i) {
-    file.needLine();
+    file.needStatement();
     boundary.nodes.push_back(numbers.read(file));
     if (type.has_back_nodes) boundary.back_nodes.push_back(numbers.read(file));
     for (std::size_t k = 0; k < type.values; ++k) boundary.weir.push_back(file.number());
@@ -183,7 +184,7 @@ void closeLoop(Boundary& boundary) {
   if (boundary.closed && repeats) boundary.nodes.pop_back();
 }
 
-void readOpenSegments(TextReader& file, std::uint64_t count, const NodeNumbers& numbers, Grid& grid) {
+void readOpenSegments(ListReader& file, std::uint64_t count, const NodeNumbers& numbers, Grid& grid) {
   const std::uint64_t said = needCountLine(file);
   std::uint64_t nodes = 0;
   for (std::uint64_t s = 0; s < count; ++s) {
@@ -199,7 +200,7 @@ void readOpenSegments(TextReader& file, std::uint64_t count, const NodeNumbers& 
                          " nodes");
 }
 
-void readLandSegments(TextReader& file, std::uint64_t count, const NodeNumbers& numbers, Grid& grid) {
+void readLandSegments(ListReader& file, std::uint64_t count, const NodeNumbers& numbers, Grid& grid) {
   const std::uint64_t said = needCountLine(file);
   std::uint64_t nodes = 0;
   for (std::uint64_t s = 0; s < count; ++s) {
@@ -221,11 +222,12 @@ void readLandSegments(TextReader& file, std::uint64_t count, const NodeNumbers& 
 }  // namespace
 
 Grid readFort14(const std::string& path) {
-  TextReader file(path);
+  ListReader file(path);
   Grid grid;
   // The first line is the title even if it is blank.
-  if (file.nextPhysicalLine() && file.hasWord() && file.line() != kNoTitle) grid.title = std::string(file.line());
-  file.needLine();
+  TextReader& text = file.text();
+  if (text.nextPhysicalLine() && text.hasWord() && text.line() != kNoTitle) grid.title = std::string(text.line());
+  file.needStatement();
   const std::uint64_t elements = file.count(), nodes = file.count();
   const NodeNumbers numbers = readNodes(file, nodes, grid);
   readElements(file, elements, numbers, grid);

@@ -87,17 +87,16 @@ void writeFvcom(const Grid& grid, const std::string& path, const ItemLoop& loop)
   writePrjBeside(fileOfSet(path, "grd"), grid.crs);
 }
 
-// "Node Number = 12".
+// "Node Number = 12", with or without blanks at the equals sign.
 std::uint64_t readCount(TextReader& file, std::string_view what) {
   file.needLine();
   const std::string_view line = file.line();
-  if (line.substr(0, line.find('=')).find(what) == std::string_view::npos || line.find('=') == std::string_view::npos)
+  const std::size_t equals = line.find('=');
+  if (line.substr(0, equals).find(what) == std::string_view::npos || equals == std::string_view::npos)
     file.fail("\"" + std::string(what) + " = ...\" is expected");
-  while (file.hasWord()) {
-    const std::string_view word = file.word();
-    if (word == "=") return file.count();
-  }
-  file.fail("\"" + std::string(what) + " = \" and a number apart from it are expected");
+  const std::string_view rest = line.substr(equals + 1);
+  const std::size_t begin = std::min(rest.find_first_not_of(" \t"), rest.size());
+  return file.countIn(rest.substr(begin, rest.find_first_of(" \t", begin) - begin));
 }
 
 std::uint32_t readNode(TextReader& file, const Grid& grid) {
@@ -183,6 +182,7 @@ FormatRecord fvcomFormat() {
            .readable = true,
            .writable = true,
            .says_depth = true,
+           .needs_depths = true,
            .places = NodePlaces::OneTurn,
            .lengths_in_metres = true,
            .marks_nodes = true},

@@ -22,8 +22,9 @@ struct GridFormat {
   std::string_view description;
   bool readable = false;
   bool writable = false;
-  GridParts holds{};        // the parts of a grid that its files hold and its reader restores
-  bool says_depth = false;  // its files have a depth at each node: 0 if the grid has none
+  GridParts holds{};          // the parts of a grid that its files hold and its reader restores
+  bool says_depth = false;    // its files have a depth at each node: 0 if the grid has none
+  bool needs_depths = false;  // of a grid with depths, all nodes need one: writing fails if one has none
   NodePlaces places = NodePlaces::AsTheyAre;
   // Read by models that take lengths to be in metres; the files do not hold the unit.
   bool lengths_in_metres = false;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <sstream>
 #include <string_view>
@@ -14,10 +15,13 @@
 #include "gis/crs/length_unit.hpp"
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
+#include "gis/file/depth_names.hpp"
 #include "gis/file/netcdf_file.hpp"
 #include "gis/format/grid_names.hpp"
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/grid/grid_lines.hpp"
+#include "gis/lower_case.hpp"
+#include "gis/rounded_depth.hpp"
 
 namespace coastmesh {
 namespace {
@@ -94,17 +98,16 @@ std::vector<std::uint32_t> readConnectivity(const NetcdfReader& file, const std:
                                             std::size_t nodes, std::size_t& columns) {
   const std::vector<std::size_t> shape = file.shape(variable);
   if (shape.size() != 2) file.fail("\"" + variable + "\" does not have two dimensions");
-  const std::vector<std::int64_t> values = file.integers(variable);
+  const std::vector<std::int64_t> values = file.indices(variable);
   const std::size_t rows = shape[transposed ? 1 : 0];
   columns = shape[transposed ? 0 : 1];
   const std::int64_t start = startIndex(file, variable, values, nodes);
-  const auto fill = file.number(variable, "_FillValue");
   std::vector<std::uint32_t> out;
   out.reserve(values.size());
   for (std::size_t r = 0; r < rows; ++r) {
     for (std::size_t c = 0; c < columns; ++c) {
       const std::int64_t value = values[transposed ? c * rows + r : r * columns + c];
-      if (fill && static_cast<double>(value) == *fill) {
+      if (value == NetcdfReader::kMissing) {
         out.push_back(kNone);
         continue;
       }
@@ -171,21 +174,20 @@ void readTriangles(const NetcdfReader& file, const std::string& mesh, Grid& grid
 
 struct DepthVariable {
   std::string name;
-  bool down = false;  // depths, positive down; else elevations
+  bool down = false;      // depths, positive down; else elevations
+  std::size_t times = 0;  // for which it has values; 0 if they are of no time
 };
 
 constexpr std::array kAltitudes{"altitude"sv, "surface_altitude"sv, "bedrock_altitude"sv};
 constexpr std::array kDepths{"depth"sv, "depth_below_geoid"sv};  // and any that starts with sea_floor_depth
 
 // In lower case, without the name of the mesh in front.
-constexpr std::array kElevationNames{"node_z"sv, "netnode_z"sv, "z"sv, "bed_level"sv, "bedlevel"sv, "elevation"sv};
-constexpr std::array kDepthNames{"depth"sv, "h"sv, "bathymetry"sv, "node_depth"sv};
-
 std::string bareName(const std::string& name, const std::string& mesh) {
-  std::string bare = name.starts_with(mesh + "_") ? name.substr(mesh.size() + 1) : name;
-  std::ranges::transform(bare, bare.begin(), [](char c) { return 'A' <= c && c <= 'Z' ? char(c - 'A' + 'a') : c; });
-  return bare;
+  return lowerCase(name.starts_with(mesh + "_") ? name.substr(mesh.size() + 1) : name);
 }
+
+// In output of models these names mean the surface of the water if their values change.
+constexpr std::array kOfSurface{"elevation"sv, "z"sv, "h"sv};
 
 enum class Rank { Altitude, Depth, ElevationName, DepthName, None };
 
@@ -195,44 +197,98 @@ Rank rankOf(const NetcdfReader& file, const std::string& name, const std::string
   if (std::ranges::count(kAltitudes, standard) > 0) return Rank::Altitude;
   if (standard.starts_with("sea_floor_depth") || std::ranges::count(kDepths, standard) > 0) return Rank::Depth;
   if (!standard.empty()) return Rank::None;
-  const std::string bare = bareName(name, mesh);
-  if (std::ranges::count(kElevationNames, bare) > 0) return Rank::ElevationName;
-  return std::ranges::count(kDepthNames, bare) > 0 ? Rank::DepthName : Rank::None;
+  const DepthName known = depthNameOf(bareName(name, mesh));
+  if (known == DepthName::None) return Rank::None;
+  return known == DepthName::Elevation ? Rank::ElevationName : Rank::DepthName;
 }
 
-// The variables with depths or elevations of the bed at the nodes, the most reliable first: with the standard_name of
-// an altitude, then with that of a depth of the sea floor, then with no standard_name but a name that models use
-// (FVCOM's `h`, SCHISM's `depth`, D-Flow FM's `mesh2d_node_z`). For the direction, an attribute `positive` takes
-// precedence over names. What is in no unit of length is no depth.
+// True for the dimension of times: by its name, or by its variable's unit, such as "hours since 2000-01-01".
+bool isTime(const NetcdfReader& file, const std::string& dimension) {
+  const std::string name = lowerCase(dimension);
+  return name == "time" || name.ends_with("_time") ||
+         (file.hasVariable(dimension) && file.text(dimension, "units").find(" since ") != std::string::npos);
+}
+
+// For how many times a variable has a value at each of the places of `at`: 0 if they are of no time, nullopt if the
+// variable has other dimensions, of layers for example, or no time at all.
+std::optional<std::size_t> timesOf(const NetcdfReader& file, const std::string& name, const std::string& at) {
+  std::vector<std::string> dimensions = file.dimensionsOf(name);
+  std::vector<std::size_t> shape = file.shape(name);
+  std::size_t times = 0;
+  if (dimensions.size() == 2 && (shape.front() == 1 || isTime(file, dimensions.front()))) {
+    times = shape.front();
+    if (times == 0) return std::nullopt;
+    dimensions.erase(dimensions.begin());
+    shape.erase(shape.begin());
+  }
+  if (dimensions != file.dimensionsOf(at) || shape != file.shape(at)) return std::nullopt;  // a name may be repeated
+  return times;
+}
+
+// The variables with depths or elevations of the bed at the nodes, the most reliable first: those of no time before
+// those of several; of these with the standard_name of an altitude, then with that of a depth of the sea floor, then
+// with no standard_name but a name that models use (FVCOM's `h`, SCHISM's `depth`, D-Flow FM's `mesh2d_node_z`). For
+// the direction, an attribute `positive` takes precedence over names. What is in no unit of length is no depth.
 std::vector<DepthVariable> depthVariables(const NetcdfReader& file, const std::string& mesh, const std::string& x) {
   std::vector<std::pair<Rank, DepthVariable>> found;
-  const std::vector<std::string> at_nodes = file.dimensionsOf(x);
   const auto isOrUnsaid = [&](const std::string& name, const char* attribute, const std::string& value) {
     const std::string said = file.text(name, attribute);
     return said.empty() || said == value;
   };
   for (const std::string& name : file.variables()) {
-    if (file.dimensionsOf(name) != at_nodes || file.shape(name) != file.shape(x)) continue;  // a name may be repeated
+    const std::optional<std::size_t> times = timesOf(file, name, x);
+    if (!times) continue;
     if (!isOrUnsaid(name, "mesh", mesh) || !isOrUnsaid(name, "location", "node")) continue;
     const Rank rank = rankOf(file, name, mesh);
     if (rank == Rank::None || !metresInUnit(file.text(name, "units"))) continue;
+    const bool by_name = rank == Rank::ElevationName || rank == Rank::DepthName;
+    if (*times > 0 && by_name && std::ranges::count(kOfSurface, bareName(name, mesh)) > 0) continue;
     const bool depth = rank == Rank::Depth || rank == Rank::DepthName;
     const std::string positive = file.text(name, "positive");
-    found.push_back({rank, {name, positive.empty() ? depth : positive == "down"}});
+    found.push_back({rank, {name, positive.empty() ? depth : positive == "down", *times}});
   }
-  std::ranges::stable_sort(found, {}, [](const auto& of) { return of.first; });
+  std::ranges::stable_sort(found, {}, [](const auto& of) { return std::pair(of.second.times > 0, of.first); });
   std::vector<DepthVariable> variables;
   for (auto& [rank, variable] : found) variables.push_back(std::move(variable));
   return variables;
 }
 
+// The most reliable variable with depths or elevations of the bed on the faces, in quotes; empty if there is none.
+std::string depthsOnFaces(const NetcdfReader& file, const std::string& mesh) {
+  const std::string faces = file.text(mesh, "face_node_connectivity");
+  if (!file.hasVariable(faces)) return {};
+  const bool transposed = isTransposed(file, faces, file.text(mesh, "face_dimension"));
+  const std::vector<std::string> of_faces = file.dimensionsOf(faces);
+  if (of_faces.size() != 2) return {};
+  std::string found;
+  std::pair best{true, Rank::None};  // of several times, rank
+  for (const std::string& name : file.variables()) {
+    const std::vector<std::string> dimensions = file.dimensionsOf(name);
+    if (dimensions.empty() || dimensions.back() != of_faces[transposed ? 1 : 0]) continue;
+    const bool of_times = dimensions.size() == 2 && isTime(file, dimensions.front());
+    if (dimensions.size() != 1 && !of_times) continue;
+    const Rank rank = rankOf(file, name, mesh);
+    const bool by_name = rank == Rank::ElevationName || rank == Rank::DepthName;
+    if (rank == Rank::None || (of_times && by_name) || !metresInUnit(file.text(name, "units"))) continue;
+    if (const std::pair here{of_times, rank}; here < best) {
+      best = here;
+      found = '"' + name + '"';
+    }
+  }
+  return found;
+}
+
 void readElevation(const NetcdfReader& file, const std::string& mesh, const std::string& x, Grid& grid) {
   const std::vector<DepthVariable> known = depthVariables(file, mesh, x);
   if (known.empty()) return;
-  const auto& [name, down] = known.front();
-  grid.z = file.knownDoubles(name);
+  const auto& [name, down, times] = known.front();
+  grid.z = file.knownDoubles(name, times > 0 ? std::optional<std::size_t>(0) : std::nullopt);
   const double metres = *metresInUnit(file.text(name, "units"));
-  for (double& z : grid.z) z = (down ? 0.0 - z : z) * metres;
+  const bool computed = metres != 1.0 || file.number(name, "scale_factor") || file.number(name, "add_offset");
+  for (double& z : grid.z) {
+    if (down) z = 0.0 - z;
+    if (computed) z = roundedDepth(z * metres);
+  }
 }
 
 std::vector<double> readFaceData(const NetcdfReader& file, const std::string& name, std::size_t faces) {
@@ -309,10 +365,18 @@ std::string depthRemark(const std::string& path) {
   const NetcdfReader file(path);
   const std::string mesh = findMesh(file);
   const std::vector<DepthVariable> known = depthVariables(file, mesh, coordinateNames(file, mesh).first);
-  if (known.size() < 2) return {};
-  std::string others;
-  for (std::size_t i = 1; i < known.size(); ++i) others += (i > 1 ? ", \"" : "\"") + known[i].name + "\"";
-  return "'" + path + "': depths are taken from \"" + known.front().name + "\", not from " + others;
+  if (known.empty()) {
+    const std::string faces = depthsOnFaces(file, mesh);
+    return faces.empty() ? faces
+                         : "'" + path + "': it has depths on faces, " + faces +
+                               ", and none at nodes: the mesh has no depths; interpolate them to the nodes, or give a "
+                               "raster with --bathymetry";
+  }
+  if (known.size() == 1 && known.front().times < 2) return {};
+  std::string text = "'" + path + "': depths are taken from \"" + known.front().name + '"';
+  if (known.front().times > 1) text += " at the first of its " + std::to_string(known.front().times) + " times";
+  for (std::size_t i = 1; i < known.size(); ++i) text += (i > 1 ? ", \"" : ", not from \"") + known[i].name + '"';
+  return text;
 }
 
 Grid readUgrid(const std::string& path, const Crs& unsaid) {

@@ -1,5 +1,6 @@
 #include "gis/format/read_vtu.hpp"
 
+#include <cpl_conv.h>
 #include <cpl_minixml.h>
 
 #include <algorithm>
@@ -9,17 +10,20 @@
 #include <cstring>
 #include <memory>
 #include <optional>
-#include <ranges>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "core/bulk_list.hpp"
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
+#include "gis/file/depth_names.hpp"
 #include "gis/file/prj_file.hpp"
+#include "gis/file/single_precision.hpp"
 #include "gis/file/whole_file.hpp"
 #include "gis/format/grid_names.hpp"
 #include "gis/grid/grid_lines.hpp"
+#include "gis/lower_case.hpp"
 
 namespace coastmesh {
 namespace {
@@ -37,7 +41,7 @@ std::string decodeBase64(std::string_view text) {
     if (c >= '0' && c <= '9') value = c - '0' + 52;
     if (c == '+') value = 62;
     if (c == '/') value = 63;
-    if (c == '=') break;
+    if (c == '=') held = 0;   // the end of a part; another may follow
     if (value < 0) continue;  // blanks between lines
     bits = bits << 6 | static_cast<std::uint32_t>(value);
     held += 6;
@@ -54,7 +58,7 @@ std::vector<double> valuesOf(std::string_view bytes) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     T value;
     std::memcpy(&value, bytes.data() + i * sizeof(T), sizeof(T));
-    values[i] = static_cast<double>(value);
+    values[i] = std::is_same_v<T, float> ? shortestDecimal(static_cast<float>(value)) : static_cast<double>(value);
   }
   return values;
 }
@@ -76,8 +80,10 @@ class VtuFile {
     if (!root_) fail("it is not XML (" + errors.text() + ")");
     const CPLXMLNode* const file_node = CPLGetXMLNode(root_.get(), "=VTKFile");
     if (file_node == nullptr) fail("it has no VTKFile");
-    if (std::string_view(CPLGetXMLValue(file_node, "compressor", "")) != "")
-      fail("its arrays are compressed; save it without compression");
+    const std::string_view compressor = CPLGetXMLValue(file_node, "compressor", "");
+    deflated_ = compressor == "vtkZLibDataCompressor";
+    if (!compressor.empty() && !deflated_)
+      fail("its arrays are compressed with " + std::string(compressor) + "; save it with ZLib or without compression");
     if (std::string_view(CPLGetXMLValue(file_node, "byte_order", "LittleEndian")) != "LittleEndian")
       fail("it is big-endian; save it as little-endian");
     header_ = std::string_view(CPLGetXMLValue(file_node, "header_type", "UInt32")) == "UInt64" ? 8 : 4;
@@ -101,6 +107,16 @@ class VtuFile {
       if (name.empty() || name == CPLGetXMLValue(node, "Name", "")) return decode(node);
     }
     return std::nullopt;
+  }
+
+  // The names of a section's arrays, in the file's order.
+  std::vector<std::string> names(const char* section) const {
+    std::vector<std::string> all;
+    const CPLXMLNode* const parent = CPLGetXMLNode(piece_, section);
+    for (const CPLXMLNode* node = parent == nullptr ? nullptr : parent->psChild; node != nullptr; node = node->psNext)
+      if (node->eType == CXT_Element && std::string_view(node->pszValue) == "DataArray")
+        all.emplace_back(CPLGetXMLValue(node, "Name", ""));
+    return all;
   }
 
   std::vector<double> need(const char* section, std::string_view name, std::size_t size) const {
@@ -137,13 +153,44 @@ class VtuFile {
     return decodeBytes(block(bytes_, appended_ + offset), type);
   }
 
+  // The number at `at`, which is moved behind it.
+  std::uint64_t headerAt(const std::string& bytes, std::size_t& at) const {
+    if (bytes.size() - at < header_) fail("an array lies beyond its end");
+    std::uint64_t value = 0;
+    std::memcpy(&value, bytes.data() + at, header_);
+    at += header_;
+    return value;
+  }
+
   // The bytes of an array; their number precedes them.
   std::string block(const std::string& bytes, std::size_t at) const {
-    if (bytes.size() - at < header_) fail("an array lies beyond its end");
-    std::uint64_t size = 0;
-    std::memcpy(&size, bytes.data() + at, header_);
-    if (size > bytes.size() - at - header_) fail("an array lies beyond its end");
-    return bytes.substr(at + header_, size);
+    if (deflated_) return inflatedBlocks(bytes, at);
+    const std::uint64_t size = headerAt(bytes, at);
+    if (size > bytes.size() - at) fail("an array lies beyond its end");
+    return bytes.substr(at, size);
+  }
+
+  // The bytes of a compressed array: before them the number of its blocks, the bytes of a whole one, those of the last
+  // if it is not whole, and the compressed bytes of each.
+  std::string inflatedBlocks(const std::string& bytes, std::size_t at) const {
+    constexpr std::uint64_t kMostOfOne = 1100;  // bytes that zlib makes of one
+    const std::uint64_t blocks = headerAt(bytes, at), whole = headerAt(bytes, at), last = headerAt(bytes, at);
+    if (blocks > (bytes.size() - at) / header_) fail("an array lies beyond its end");
+    std::vector<std::uint64_t> sizes;
+    for (std::uint64_t i = 0; i < blocks; ++i) sizes.push_back(headerAt(bytes, at));
+    std::string all;
+    for (std::uint64_t i = 0; i < blocks; ++i) {
+      if (sizes[i] > bytes.size() - at) fail("an array lies beyond its end");
+      const std::uint64_t length = i + 1 == blocks && last > 0 ? last : whole;
+      if (length / kMostOfOne > sizes[i]) fail("a compressed array is damaged");
+      const std::size_t begin = all.size();
+      all.resize(begin + length);
+      std::size_t made = 0;
+      if (CPLZLibInflate(bytes.data() + at, sizes[i], all.data() + begin, length, &made) == nullptr || made != length)
+        fail("a compressed array is damaged");
+      at += sizes[i];
+    }
+    return all;
   }
 
   std::vector<double> decodeText(std::string_view text) const {
@@ -184,6 +231,7 @@ class VtuFile {
   const CPLXMLNode* piece_ = nullptr;
   std::size_t appended_ = 0;  // where the appended arrays start; 0 if there are none
   bool base64_ = false;
+  bool deflated_ = false;  // arrays are compressed
   std::size_t header_ = 4;
 };
 
@@ -292,6 +340,40 @@ void readLines(const VtuFile& file, Grid& grid) {
   }
 }
 
+// z, from arrays of nodes and the third of each node's coordinates. Depths are taken before the third coordinates,
+// which may be those of a surface, but elevations after them: ParaView gives this name to a share of a height.
+void readElevation(const VtuFile& file, const std::vector<double>& places, bool on_globe, Grid& grid) {
+  const std::size_t nodes = grid.nodes.size();
+  const auto take = [&](const auto& isWanted) {
+    for (const std::string& name : file.names("PointData")) {
+      if (!isWanted(lowerCase(name))) continue;
+      auto values = file.array("PointData", name);
+      if (!values || values->size() != nodes) continue;
+      grid.z = std::move(*values);
+      return lowerCase(name);
+    }
+    return std::string();
+  };
+  if (!take([](const std::string& name) { return name == "z"; }).empty()) return;
+  // "h" is often the depth of the water at some time.
+  const std::string depth =
+      take([](const std::string& name) { return name != "h" && depthNameOf(name) == DepthName::Depth; });
+  if (!depth.empty()) {
+    // Rasters of bathymetry have elevations, so the word may mean these.
+    const bool are_elevations =
+        depth == "bathymetry" && std::ranges::none_of(grid.z, [](double value) { return value > 0.0; });
+    for (double& z : grid.z) z = are_elevations ? z : 0.0 - z;
+    return;
+  }
+  bool raised = false;
+  for (std::size_t i = 0; i < nodes && !on_globe && !raised; ++i) raised = places[3 * i + 2] != 0.0;
+  if (!raised) {
+    take([](const std::string& name) { return depthNameOf(name) == DepthName::Elevation; });
+    return;
+  }
+  for (std::size_t i = 0; i < nodes; ++i) grid.z.push_back(places[3 * i + 2]);
+}
+
 }  // namespace
 
 Grid readVtu(const std::string& path, const Crs& unsaid) {
@@ -308,12 +390,7 @@ Grid readVtu(const std::string& path, const Crs& unsaid) {
   const bool on_globe = lon && lat && lon->size() == nodes && lat->size() == nodes;
   for (std::size_t i = 0; on_globe && i < nodes; ++i) grid.nodes[i] = {(*lon)[i], (*lat)[i]};
   const std::vector<std::size_t> cells = readTriangles(file, grid);
-  if (auto z = file.array("PointData", "z"); z && z->size() == nodes) {
-    grid.z = std::move(*z);
-  } else if (!on_globe && std::ranges::any_of(std::views::iota(std::size_t{0}, nodes),
-                                              [&](std::size_t i) { return places[3 * i + 2] != 0.0; })) {
-    for (std::size_t i = 0; i < nodes; ++i) grid.z.push_back(places[3 * i + 2]);
-  }
+  readElevation(file, places, on_globe, grid);
   const auto readInto = [&](BulkList<double>& values, const char* name) {
     const std::vector<double> read = readCellData(file, name, cells);
     values.assign(read.begin(), read.end());

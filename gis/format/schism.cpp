@@ -61,6 +61,7 @@ FormatRecord schismFormat() {
            .writable = true,
            .holds = {GridPart::Title},
            .says_depth = true,
+           .needs_depths = true,
            .places = NodePlaces::OneTurn,
            .lengths_in_metres = true},
           {writeSchism, readSchism, files}};

@@ -226,6 +226,7 @@ FormatRecord sms2dmFormat() {
            .readable = true,
            .writable = true,
            .holds = {GridPart::Features, GridPart::Regions, GridPart::Lines, GridPart::Rivers},
+           .needs_depths = true,
            .places = NodePlaces::OneTurn,
            .lengths_in_metres = true},
           {write2dm, read2dm, withPrjBeside}};

@@ -241,6 +241,7 @@ FormatRecord telemacFormat() {
            .writable = true,
            .holds = {GridPart::Title, GridPart::Rivers},
            .says_depth = true,
+           .needs_depths = true,
            .places = NodePlaces::OneTurn,
            .lengths_in_metres = true,
            .marks_nodes = true},

@@ -239,6 +239,7 @@ FormatRecord triangleFormat() {
            .readable = true,
            .writable = true,
            .holds = {GridPart::Features, GridPart::Lines, GridPart::Rivers},
+           .needs_depths = true,
            .places = NodePlaces::OneTurn},
           {writeTriangle, readTriangle, files}};
 }

@@ -346,7 +346,8 @@ FormatRecord shapefileFormat() {
            .description = "Shapefile, three or four sets of files",
            .readable = true,
            .writable = true,
-           .holds = kLayerParts},
+           .holds = kLayerParts,
+           .needs_depths = true},
           {writeShapefile, readOgrGrid, shapefileFiles}};
 }
 

@@ -143,6 +143,7 @@ FormatRecord ww3Format() {
            .readable = true,
            .writable = true,
            .says_depth = true,
+           .needs_depths = true,
            .places = NodePlaces::OneTurn,
            .lengths_in_metres = true,
            .marks_nodes = true},

@@ -165,6 +165,7 @@ FormatRecord fesomFormat() {
            .readable = true,
            .writable = true,
            .says_depth = true,
+           .needs_depths = true,
            .places = NodePlaces::Geographic,
            .of_water = true},
           {writeFesom, readFesom, files}};

@@ -189,6 +189,7 @@ FormatRecord jigsawFormat() {
            .readable = true,
            .writable = true,
            .holds = {GridPart::Lines, GridPart::Rivers},
+           .needs_depths = true,
            .places = NodePlaces::Sphere},
           {writeJigsaw, readJigsaw, withPrjBeside, isJigsaw}};
 }

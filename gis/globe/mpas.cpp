@@ -173,6 +173,7 @@ FormatRecord mpasFormat() {
            .description = "NetCDF for MPAS' mesh converter, on a sphere",
            .readable = true,
            .writable = true,
+           .needs_depths = true,
            .places = NodePlaces::Sphere,
            .marks_nodes = true},
           {writeMpas, readMpas, nullptr, isMpas}};

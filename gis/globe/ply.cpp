@@ -36,6 +36,7 @@ FormatRecord plyFormat() {
            .endings = {".ply"},
            .description = "PLY, for viewers of shapes: longitudes and latitudes as a globe",
            .writable = true,
+           .needs_depths = true,
            .places = NodePlaces::Sphere},
           {writePly, nullptr, nullptr}};
 }

@@ -32,7 +32,7 @@ void requireZ(const Grid& grid, const std::string& path) {
   const auto node = static_cast<std::size_t>(unknown - grid.z.begin());
   throw OutputError("cannot write '" + path + "': the z of node " + std::to_string(node + 1) + " at " +
                     std::to_string(grid.nodes[node].x) + ", " + std::to_string(grid.nodes[node].y) +
-                    " is unknown, and the format cannot say that; choose .nc or .gpkg");
+                    " is unknown, and the format cannot say that; choose one that can, such as .nc and .gpkg");
 }
 
 TriMesh toTriMesh(const Grid& grid, const Projection& projection, std::vector<EdgeConflict>& conflicts,

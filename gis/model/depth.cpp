@@ -13,6 +13,7 @@
 #include "gis/model/impossible_depths.hpp"
 #include "gis/model/sample_average.hpp"
 #include "gis/model/sample_raster.hpp"
+#include "gis/rounded_depth.hpp"
 
 namespace coastmesh {
 namespace {
@@ -230,7 +231,7 @@ DepthReport setDepths(Grid& grid, const DepthOptions& options, const RunControl&
   ValueSearch search(grid, options, loop, report);
   for (std::size_t file = 0; file < options.files.size(); ++file) search.take(file, control);
   grid.z = search.finish();
-  for (double& z : grid.z) z = (options.positive_down ? 0.0 - z : z) - options.water_level_m;
+  for (double& z : grid.z) z = roundedDepth((options.positive_down ? 0.0 - z : z) - options.water_level_m);
   report.kept = keepFrom(before, grid.z);
   const std::size_t known = std::accumulate(report.nodes_of_file.begin(), report.nodes_of_file.end(), std::size_t{0});
   if (known == 0) {

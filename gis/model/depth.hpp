@@ -57,8 +57,8 @@ struct DepthReport {
 // True if some z is known and not 0: formats that need a depth at every node have 0 if there is none.
 bool hasDepths(const Grid& grid);
 
-// Sets the grid's z from rasters in any CRS, read block by block, with constant memory. A raster without a CRS is
-// assumed to be in the grid's. Throws InputError, Cancelled.
+// Sets the grid's z from rasters in any CRS, to six decimals, read block by block, with constant memory. A raster
+// without a CRS is assumed to be in the grid's. Throws InputError, Cancelled.
 DepthReport setDepths(Grid& grid, const DepthOptions& options, const RunControl& control = {},
                       const ItemLoop& loop = inOrder);
 

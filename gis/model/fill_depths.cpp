@@ -13,6 +13,7 @@
 #include "core/metric.hpp"
 #include "gis/geometry/membrane.hpp"
 #include "gis/geometry/neighbours.hpp"
+#include "gis/rounded_depth.hpp"
 
 namespace coastmesh {
 namespace {
@@ -70,7 +71,7 @@ void settleNodes(Grid& grid, const Neighbours& neighbours, std::vector<std::uint
   }
   membrane.weight.assign(membrane.neighbour.size(), 1.0);
   settle(membrane, values, loop);
-  for (std::size_t i = 0; i < nodes.size(); ++i) grid.z[nodes[i]] = values[i];
+  for (std::size_t i = 0; i < nodes.size(); ++i) grid.z[nodes[i]] = roundedDepth(values[i]);
 }
 
 }  // namespace

@@ -22,13 +22,17 @@ bool looksGeographic(const Box& box) {
   return box.xmin >= -180 && box.xmax <= 180 && box.ymin >= -90 && box.ymax <= 90;
 }
 
-Crs crsOfFirst(const RawLayer& first, ReadReport& report) {
+Crs crsOfFirst(const RawLayer& first, bool unsaid_in_plane, ReadReport& report) {
   if (first.crs && !first.crs->geographic && !first.crs->isPlane() && looksGeographic(first.bounds)) {
     report.warnings.push_back(
         sourceInWords(first.source) + ": says that it is in " + nameOf(*first.crs) +
         ", but all coordinates lie within ±180, ±90: if they are degrees, give the file EPSG:4326");
   }
   if (first.crs) return *first.crs;
+  if (unsaid_in_plane) {
+    report.notes.push_back(sourceInWords(first.source) + ": does not say its CRS; taken as metres in a plane");
+    return {};
+  }
   if (looksGeographic(first.bounds)) {
     report.warnings.push_back(sourceInWords(first.source) +
                               ": does not say its CRS; all coordinates lie within ±180, ±90, so they are taken for "
@@ -190,7 +194,8 @@ Coastline readCoastline(const std::vector<Source>& sources, const ReadFilter& fi
       if (layer.use != FeatureUse::Boundary) layers.push_back(std::move(layer));
   }
   Coastline coastline;
-  coastline.crs = crsOfFirst(layers.front(), report);
+  const bool none_says = std::ranges::none_of(layers, [](const RawLayer& layer) { return layer.crs.has_value(); });
+  coastline.crs = crsOfFirst(layers.front(), filter.unsaid_in_plane && none_says, report);
   for (std::size_t i = 1; i < layers.size(); ++i) bringTo(coastline.crs, layers.front(), layers[i], report);
   for (RawLayer& layer : layers) {
     if (coastline.features.empty()) {

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/metric.hpp"
+#include "gis/rounded_depth.hpp"
 
 namespace coastmesh {
 namespace {
@@ -190,14 +191,15 @@ PatchEdit moveOf(const RepairView& view, std::uint32_t node, std::uint32_t a, st
   PatchEdit edit{.kind = PatchEditKind::NodeMove, .nodes = {a, b}, .share = share, .placed = node};
   edit.place = placeBetween(crs, nodes[node], placeBetween(crs, nodes[a], nodes[b], 0.5), share);
   const double here = zBetween(view.grid, node, node, 0.0), there = zBetween(view.grid, a, b, 0.5);
-  edit.z = std::isnan(there) ? here : here + share * (there - here);
+  edit.z = std::isnan(there) ? here : roundedDepth(here + share * (there - here));
   for (const std::uint32_t t : view.links.triangles_at[node]) edit.triangles.push_back({view.grid.triangles[t], t, t});
   return edit;
 }
 
 double zBetween(const Grid& grid, std::uint32_t a, std::uint32_t b, double share) {
   if (grid.z.empty()) return std::numeric_limits<double>::quiet_NaN();
-  return grid.z[a] + share * (grid.z[b] - grid.z[a]);
+  // A copy keeps its bits.
+  return a == b ? grid.z[a] : roundedDepth(grid.z[a] + share * (grid.z[b] - grid.z[a]));
 }
 
 std::set<std::uint32_t> fixedNeighbours(const RepairView& view, std::uint32_t node) {

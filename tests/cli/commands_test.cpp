@@ -53,6 +53,13 @@ TEST_F(Commands, EveryOptionOfTheJsonUsageIsInTheHelp) {
   EXPECT_EQ(verbs, (std::set<std::string>{"mesh", "check", "info", "plot", "convert", "clean", "partition", "gather"}));
 }
 
+// GDAL's error would not help.
+TEST_F(Commands, InfoSaysWhyAMeshCannotBeRead) {
+  const ProgramRun run = runProgram({"info", write("sea_grd.dat", "Nodes: 3\n")});
+  EXPECT_EQ(run.code, 3);
+  EXPECT_THAT(run.errors, HasSubstr("sea_grd.dat', line 1: \"Node Number = ...\" is expected"));
+}
+
 // QGIS, the help and the manual pages show labels and sections.
 TEST_F(Commands, EveryOptionHasALabelOfItsOwnAndASection) {
   const std::vector<std::string> sections = {

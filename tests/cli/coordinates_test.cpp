@@ -335,6 +335,22 @@ TEST_F(Coordinates, MetresInAPlane) {
   }
 }
 
+// A flume of 3 m by 1 m in a file without a CRS: with --crs plane no degrees of WGS 84, in the mesh neither.
+TEST_F(Coordinates, SmallPlanesWithoutACrs) {
+  const std::string flume = write("flume.csv", "id,WKT\n1,\"POLYGON((0 0,3 0,3 1,0 1,0 0))\"\n");
+  const ProgramRun run = runProgram({"mesh", flume, "--crs", "plane", "--size", "0.2", "-o", file("m.gpkg")});
+  ASSERT_EQ(run.code, 0) << run.errors;
+  EXPECT_EQ(run.errors, "");
+  EXPECT_THAT(run.output, HasSubstr("'" + flume + "': does not say its CRS; taken as metres in a plane"));
+  EXPECT_EQ(infoOf(file("m.gpkg"))["crs"], "plane");
+  // GeoJSON always says that it is in degrees; then both are taken as they are in the CRS that it says.
+  const std::string point = write("point.geojson", R"({"type":"Point","coordinates":[1.5,0.5]})");
+  EXPECT_EQ(
+      runProgram({"mesh", flume, "--constraints", point, "--crs", "plane", "--size", "0.2", "-o", file("p.gpkg")}).code,
+      0);
+  EXPECT_THAT(runProgram({"info", flume}).output, HasSubstr("taken for longitudes and latitudes on WGS 84"));
+}
+
 TEST_F(Coordinates, MetresThatAreSaidToBeDegreesAreRefused) {
   const std::string input = ring("metres.geojson", inMetres(1000, 2000));
   const ProgramRun run = runProgram({"mesh", input, "-o", file("m.nc"), "--quiet"});
@@ -570,6 +586,9 @@ TEST_F(Coordinates, OfAModelsFileMayBeDegrees) {
     return write(name, "a sea\n1 3\n1 5 53 5\n2 " + east + " 53 5\n3 6 54 5\n1 3 1 2 3\n0\n0\n0\n0\n");
   };
   const std::string degrees = grid("sea.14", "6"), metres = grid("far.14", "600");
+  // Flumes of 30 m by 2 m, with a corner at the origin, and of 5 m around it.
+  for (const std::string flume : {"1 0 0 1\n2 30 0 1\n3 0 2 1\n", "1 -2.5 -1 1\n2 2.5 -1 1\n3 0 1 1\n"})
+    EXPECT_EQ(runProgram({"info", write("flume.14", "a flume\n1 3\n" + flume + "1 3 1 2 3\n0\n0\n0\n0\n")}).errors, "");
   for (const std::string command : {"info", "check"}) {
     EXPECT_THAT(runProgram({command, degrees}).errors, HasSubstr("give --assume-crs EPSG:4326")) << command;
     EXPECT_EQ(runProgram({command, metres}).errors, "") << command;

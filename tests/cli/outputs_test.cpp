@@ -70,6 +70,7 @@ TEST_F(Outputs, ThatUnknownDepthsPreventAreWarnedOf) {
   EXPECT_THAT(covered.errors, warning);
   EXPECT_EQ(bare.code, 4);
   EXPECT_THAT(bare.errors, warning);
+  EXPECT_THAT(runWith(-87.6, "none", "a.2dm").errors, HasSubstr("--depth-fill none: '" + file("a.2dm") + "' cannot"));
   for (const ProgramRun& run : {runWith(-87.49, "nearest", "a.14"), runWith(-87.49, "none", "a.nc")}) {
     EXPECT_EQ(run.code, 0) << run.errors;
     EXPECT_THAT(run.errors, ::testing::Not(HasSubstr("--depth-fill none:")));

@@ -191,6 +191,21 @@ TEST(Frame, TheWaterOfAPlaceWithoutAFrame) {
   EXPECT_DOUBLE_EQ(frame(coastline, options).area(), 15);
 }
 
+// Mercator's plane ends at 20,037,508 m, and has the land beyond at its other end.
+TEST(Frame, BoxesPastTheEdgeOfThePlaneAreWarnedOf) {
+  const auto warnings = [](double at, const std::string& crs, const FrameOptions& options) {
+    return frame(coastlineOf({polygonFeature(1, square(at, 0, 1e4))}, parseCrs(crs)), options).frame.warnings;
+  };
+  const std::vector<std::string> past =
+      warnings(19.9e6, "EPSG:3857", boxOf(19.8e6, -1e5, 20.3e6, 1e5, DomainSide::Outside));
+  ASSERT_EQ(past.size(), 1u);
+  EXPECT_NE(past[0].find("it reaches past the edge of EPSG:3857"), std::string::npos) << past[0];
+  EXPECT_TRUE(warnings(19.9e6, "EPSG:3857", boxOf(19.8e6, -1e5, 20e6, 1e5, DomainSide::Outside)).empty());
+  // Data that go on past the edge themselves, and a plane without such an edge.
+  EXPECT_TRUE(warnings(20.1e6, "EPSG:3857", boxOf(19.8e6, -1e5, 20.3e6, 1e5, DomainSide::Outside)).empty());
+  EXPECT_TRUE(warnings(-1e4, "EPSG:3413", boxOf(-5e5, -5e5, 5e5, 5e5, DomainSide::Outside)).empty());
+}
+
 TEST(Frame, OddBoxesAreRefused) {
   const Coastline lake = coastlineOf({polygonFeature(1, square(1, 1, 2))}, wgs84());
   EXPECT_THROW(frame(lake, boxOf(0, 10, 10, 0)), OptionError);
@@ -201,7 +216,8 @@ TEST(Frame, OddBoxesAreRefused) {
     EXPECT_THROW(frame(lake, boxOf(west, -60, east, 60)), OptionError) << west;
   const Coastline in_plane = coastlineOf({polygonFeature(1, square(1, 1, 2))});
   EXPECT_NE(refusalOf(in_plane, boxOf(10, 0, 0, 10))
-                .find("the west has to lie below the east; boxes across the antimeridian need an input in longitudes"),
+                .find("the west has to lie below the east; boxes across the antimeridian need an input in longitudes "
+                      "and latitudes, and the sides in degrees: reproject it (ogr2ogr -t_srs EPSG:4326)"),
             std::string::npos);
   EXPECT_NE(refusalOf(lake, boxOf(0, 0, 10, 100)).find("degrees"), std::string::npos);
   EXPECT_NE(refusalOf(lake, boxOf(20, 20, 30, 30)).find("nothing of the input lies in it"), std::string::npos);

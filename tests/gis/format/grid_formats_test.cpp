@@ -172,7 +172,7 @@ TEST_P(RoundTrip, KeepsGapsInZ) {
   const TemporaryFolder folder;
   const std::string path = folder / ("lakes" + endingOf(format));
   StagedOutput output(path, format, false);
-  if (format.says_depth || format.name == "2dm" || format.name == "triangle" || format.name == "shp") {
+  if (format.needs_depths) {
     EXPECT_THROW(output.write(grid), OutputError);
     return;
   }
@@ -187,6 +187,28 @@ TEST_P(RoundTrip, KeepsGapsInZ) {
       EXPECT_EQ(got.z[i], grid.z[i]) << i;
     }
   }
+}
+
+// `needs_depths` says so before a mesh is made, of formats that are not read too.
+TEST(GridFormats, SayWhetherEachNodeNeedsADepth) {
+  Grid grid = sampleGrid(wgs84(), {-87.5, 43.1}, 0.01);
+  grid.z[3] = std::numeric_limits<double>::quiet_NaN();
+  std::size_t needing = 0;
+  for (const GridFormat& format : gridFormats()) {
+    if (!format.writable || format.beside_grid) continue;
+    const TemporaryFolder folder;
+    StagedOutput output(folder / (format.endings.empty() ? "lakes.x" : "lakes" + endingOf(format)), format, false);
+    std::string refusal;
+    try {
+      output.write(grid);
+    } catch (const OutputError& error) {
+      refusal = error.what();
+    }
+    EXPECT_EQ(refusal.find("is unknown, and the format cannot say that") != refusal.npos, format.needs_depths)
+        << format.name << ": " << refusal;
+    needing += format.needs_depths;
+  }
+  EXPECT_GE(needing, 12u);
 }
 
 // A number that marks a gap in some format is an ordinary depth.

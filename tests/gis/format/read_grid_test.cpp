@@ -5,8 +5,12 @@
 #include <netcdf.h>
 #include <ogrsf_frmts.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <fstream>
+#include <limits>
 #include <memory>
 #include <sstream>
 
@@ -73,6 +77,27 @@ TEST_F(ReadGrid, NumbersOfFortran) {
   EXPECT_EQ(grid.z, (std::vector<double>{-200, 12.5, -0.5}));
   for (const char* const wrong : {"D", "D5", "1D", "1DD5", "1D5D5", "1eD5", "d", "1D+-5"})
     EXPECT_THAT(errorIn("fort.14", std::string("t\n1 3\n1 0 ") + wrong + " 1\n"), HasSubstr("line 3: a number is"));
+}
+
+// What Fortran's READ(14,*) accepts: repeated values, commas, tabs, exponents without a letter, statements that go on
+// in the next line, blank lines, and comments and slashes after the values.
+TEST_F(ReadGrid, Fort14AsFortranReadsIt) {
+  const Grid grid =
+      readGrid(put("fort.14",
+                   "t\n1, 3 elements and nodes\n1,2*0.5,53.0\n2\t1,\t0 2*5.0\n\n3 1.;\n\n1.0+0 .5q-1/ a node\n"
+                   "1*1 3 1,2,3 4 5 ! an element\n1\n2 / nodes\n2/0\n1\n 2 \n0\n0\n"));
+  EXPECT_EQ(grid.nodes, (std::vector<Point>{{0.5, 0.5}, {1, 0}, {1, 1}}));
+  EXPECT_EQ(grid.z, (std::vector<double>{-53, -5, -0.05}));
+  EXPECT_EQ(grid.triangles, (Triangles{{0, 1, 2}}));
+  ASSERT_EQ(grid.boundaries.size(), 1u);
+  EXPECT_EQ(grid.boundaries[0].nodes, (std::vector<std::uint32_t>{0, 1}));
+  const auto refusalOf = [&](const std::string& nodes) { return errorIn("fort.14", "t\n1 3\n" + nodes); };
+  EXPECT_THAT(refusalOf("1 0 0/ 5\n"), HasSubstr("line 3: a slash ends it before all its values"));
+  for (const char* const wrong : {"2*", "*5", "0*5", "-1*5", "1.5*2"})
+    EXPECT_THAT(refusalOf(std::string("1 0 0 ") + wrong + "\n"), HasSubstr("line 3: \"")) << wrong;
+  // Nodes without depths, as Fortran would misread them too.
+  EXPECT_THAT(refusalOf("1 0 0\n2 1 0\n3 1 1\n1 3 1 2 3\n0\n0\n0\n0\n"),
+              HasSubstr("line 3 has too few values, so the next line was read as a part of it"));
 }
 
 // The first line is the title, whatever it holds.
@@ -354,9 +379,13 @@ TEST_F(ReadGrid, EmptyPartsOfGisLayersAreRefused) {
               AllOf(HasSubstr("layer \"boundaries\", feature 1"), HasSubstr("not a line")));
 }
 
-// A variable at the nodes of a UGRID file, with values 1, 2, 3 and 4. Empty attributes are omitted.
+// A variable at the nodes of a UGRID file, with values 1, 2, 3 and 4, and 10 more for each further time. Empty
+// attributes are omitted.
 struct NodeVariable {
   std::string name, standard_name, positive, location = "node";
+  std::size_t times = 0;
+  std::string of_times = "time";  // the name of their dimension
+  bool on_faces = false;
 };
 
 // A UGRID file of another program: other names, indices from 0, transposed, depth positive down, and a fourth column
@@ -380,8 +409,10 @@ class Ugrid {
     text(lat, "standard_name", "latitude");
     text(lon, "standard_name", "longitude");
     std::vector<int> depth_ids;
-    for (const auto& [name, standard_name, positive, location] : depths) {
-      depth_ids.push_back(variable(name.c_str(), NC_DOUBLE, {nodes}));
+    for (const auto& [name, standard_name, positive, location, times, of_times, on_faces] : depths) {
+      std::vector<int> dimensions{on_faces ? faces : nodes};
+      if (times > 0) nc_def_dim(id_, of_times.c_str(), times, &*dimensions.insert(dimensions.begin(), 0));
+      depth_ids.push_back(variable(name.c_str(), NC_DOUBLE, dimensions));
       if (!standard_name.empty()) text(depth_ids.back(), "standard_name", standard_name);
       if (!location.empty()) text(depth_ids.back(), "mesh", "Topology");
       if (!location.empty()) text(depth_ids.back(), "location", location);
@@ -392,7 +423,8 @@ class Ugrid {
     const long long no_node = fill;
     nc_put_att_longlong(id_, conn, "_FillValue", NC_INT64, 1, &no_node);
     nc_enddef(id_);
-    const double y[] = {50, 50, 51, 51}, x[] = {5, 6, 6, 5}, z[] = {1, 2, 3, 4};
+    const double y[] = {50, 50, 51, 51}, x[] = {5, 6, 6, 5};
+    const double z[] = {1, 2, 3, 4, 11, 12, 13, 14, 21, 22, 23, 24};
     nc_put_var_double(id_, lat, y);
     nc_put_var_double(id_, lon, x);
     for (const int depth : depth_ids) nc_put_var_double(id_, depth, z);
@@ -413,6 +445,15 @@ class Ugrid {
 
   int id_ = 0;
 };
+
+TEST_F(ReadGrid, FvcomWithOrWithoutBlanksAtItsCounts) {
+  for (const std::string equals : {" = ", "=", " =", "=\t"}) {
+    const std::string cells = "Node Number" + equals + "3\nCell Number" + equals + "1\n1 1 2 3 1\n";
+    EXPECT_EQ(readGrid(put("a_grd.dat", cells + "1 0 0 5\n2 1 0 5\n3 1 1 5\n")).z.size(), 3u) << equals;
+  }
+  EXPECT_THAT(errorIn("a_grd.dat", "Node Number =\n"), HasSubstr("line 1: a whole number is expected"));
+  EXPECT_THAT(errorIn("a_grd.dat", "Node Number: 3\n"), HasSubstr("\"Node Number = ...\" is expected"));
+}
 
 TEST_F(ReadGrid, UgridOfOtherPrograms) {
   const Ugrid file(folder_ / "other.nc", false);
@@ -446,6 +487,118 @@ TEST_F(ReadGrid, UgridDepthsOfModels) {
     const Ugrid file(folder_ / "depth.nc", false, {variable});
     EXPECT_EQ(readGrid(folder_ / "depth.nc").z, z) << variable.name << ", " << variable.standard_name;
     EXPECT_EQ(remarkOnGrid(folder_ / "depth.nc"), "");
+  }
+}
+
+// Morphological models write the bed at every time; depths of one time are as good as those of none.
+TEST_F(ReadGrid, UgridDepthsOfTheFirstTime) {
+  const std::string path = folder_ / "times.nc";
+  const std::vector<double> up{1, 2, 3, 4}, none;
+  const auto read = [&](const NodeVariable& variable) {
+    const Ugrid file(path, false, {variable});
+    return readGrid(path).z;
+  };
+  EXPECT_EQ(read({"Topology_bed_level", "", "up", "node", 3}), up);
+  EXPECT_EQ(remarkOnGrid(path),
+            "'" + path + "': depths are taken from \"Topology_bed_level\" at the first of its 3 times");
+  EXPECT_EQ(read({"zb", "altitude", "", "node", 1, "nTime"}), up);
+  EXPECT_EQ(read({"zb", "altitude", "", "node", 1}), up);
+  EXPECT_EQ(remarkOnGrid(path), "");
+  EXPECT_EQ(read({"elevation", "", "", "node", 3}), none);  // the water's, as of SCHISM
+  EXPECT_EQ(read({"zb", "altitude", "", "node", 2, "layer"}), none);
+}
+
+TEST_F(ReadGrid, UgridDepthsOfNoTimeComeFirst) {
+  const Ugrid file(folder_ / "both.nc", false, {{"zb", "altitude", "", "node", 2}, {"depth", "", ""}});
+  EXPECT_EQ(readGrid(folder_ / "both.nc").z, (std::vector<double>{-1, -2, -3, -4}));
+  EXPECT_THAT(remarkOnGrid(folder_ / "both.nc"), HasSubstr("from \"depth\", not from \"zb\""));
+}
+
+TEST_F(ReadGrid, UgridDepthsOnFacesAreNamed) {
+  // D-Flow FM has the depth of the water at each time too.
+  const Ugrid file(folder_ / "faces.nc", false,
+                   {{"Topology_waterdepth", "sea_floor_depth_below_sea_surface", "", "face", 2, "time", true},
+                    {"Topology_flowelem_bl", "altitude", "", "face", 0, "", true}});
+  EXPECT_EQ(readGrid(folder_ / "faces.nc").z, std::vector<double>());
+  EXPECT_THAT(remarkOnGrid(folder_ / "faces.nc"), HasSubstr("depths on faces, \"Topology_flowelem_bl\""));
+}
+
+// Missing corners as NaN among reals, as xarray writes them, and as the library's fill value; 50.1 in single precision.
+TEST_F(ReadGrid, UgridWithMissingCornersOfAnyKind) {
+  const auto write = [&](nc_type type, double missing) {
+    int id = 0, nodes = 0, faces = 0, corners = 0, mesh = 0, x = 0, y = 0, of_faces = 0;
+    nc_create((folder_ / "corners.nc").c_str(), NC_NETCDF4 | NC_CLOBBER, &id);
+    nc_def_dim(id, "n", 4, &nodes);
+    nc_def_dim(id, "f", 2, &faces);
+    nc_def_dim(id, "c", 4, &corners);
+    nc_def_var(id, "mesh", NC_INT, 0, nullptr, &mesh);
+    nc_def_var(id, "x", NC_FLOAT, 1, &nodes, &x);
+    nc_def_var(id, "y", NC_FLOAT, 1, &nodes, &y);
+    const int shape[] = {faces, corners}, two = 2;
+    nc_def_var(id, "of_faces", type, 2, shape, &of_faces);
+    const auto text = [&](const char* name, const std::string& value) {
+      nc_put_att_text(id, mesh, name, value.size(), value.data());
+    };
+    text("cf_role", "mesh_topology");
+    nc_put_att_int(id, mesh, "topology_dimension", NC_INT, 1, &two);
+    text("node_coordinates", "x y");
+    text("face_node_connectivity", "of_faces");
+    nc_enddef(id);
+    const double xs[] = {0, 1, 1, 0}, ys[] = {50.1, 50.1, 51, 51};
+    const double columns[] = {0, 1, 2, missing, 0, 2, 3, missing};
+    nc_put_var_double(id, x, xs);
+    nc_put_var_double(id, y, ys);
+    nc_put_var_double(id, of_faces, columns);
+    nc_close(id);
+  };
+  write(NC_DOUBLE, std::numeric_limits<double>::quiet_NaN());
+  const Grid grid = readGrid(folder_ / "corners.nc");
+  EXPECT_EQ(grid.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(grid.nodes[1], (Point{1, 50.1}));
+  write(NC_INT, NC_FILL_INT);
+  EXPECT_EQ(readGrid(folder_ / "corners.nc").triangles, grid.triangles);
+  write(NC_DOUBLE, 1.5);
+  EXPECT_THROW(readGrid(folder_ / "corners.nc"), InputError);
+}
+
+// A SELAFIN file of two triangles in single precision, in either byte order.
+TEST_F(ReadGrid, SelafinInEitherByteOrder) {
+  for (const bool little : {true, false}) {
+    std::string bytes;
+    const auto number = [&](auto value) {
+      std::array<char, 4> four{};
+      std::memcpy(four.data(), &value, 4);
+      if (!little) std::ranges::reverse(four);
+      bytes.append(four.data(), 4);
+    };
+    const auto record = [&](const auto& values) {
+      number(static_cast<std::int32_t>(4 * values.size()));
+      for (const auto value : values) number(value);
+      number(static_cast<std::int32_t>(4 * values.size()));
+    };
+    const auto text = [&](std::string value, std::size_t length) {
+      value.resize(length, ' ');
+      number(static_cast<std::int32_t>(length));
+      bytes += value;
+      number(static_cast<std::int32_t>(length));
+    };
+    using Integers = std::vector<std::int32_t>;
+    using Reals = std::vector<float>;
+    text("a sea", 80);
+    record(Integers{1, 0});
+    text("BOTTOM          M", 32);
+    record(Integers{1, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+    record(Integers{2, 4, 3, 1});
+    record(Integers{1, 2, 3, 1, 3, 4});
+    record(Integers{1, 2, 3, 4});
+    record(Reals{0, 1000, 1000, 0.1f});
+    record(Reals{0, 0, 1000, 1000});
+    record(Reals{0});
+    record(Reals{-12.1f, -3274.2f, -5, -6});
+    const Grid grid = readGrid(put("sea.slf", bytes));
+    EXPECT_EQ(grid.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
+    EXPECT_EQ(grid.nodes[3], (Point{0.1, 1000}));
+    EXPECT_EQ(grid.z, (std::vector<double>{-12.1, -3274.2, -5, -6}));
   }
 }
 

@@ -111,11 +111,87 @@ TEST(ReadVtu, LinesHaveTwoNodesAndClosedOnesThree) {
   EXPECT_NE(refusalOf(line("0 2", 3, 0)).find("line 1 is of no kind that is known"), std::string::npos);
 }
 
+// The same two triangles compressed, as meshio writes files unless told otherwise; the depths in two blocks.
+constexpr const char* kCompressed = R"(<?xml version="1.0"?>
+<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian" compressor="vtkZLibDataCompressor">
+<UnstructuredGrid>
+<Piece NumberOfPoints="4" NumberOfCells="2">
+<Points>
+<DataArray type="Float32" NumberOfComponents="3" format="binary">
+AQAAAOgDAAAwAAAAEwAAAA==eJxjYEAGDfaobHQ+AwMAOuQC/Q==
+</DataArray>
+</Points>
+<Cells>
+<DataArray type="Int32" Name="connectivity" format="binary">
+AQAAAOgDAAAYAAAAFgAAAA==eJxjYGBgYARiJgYIANHMQAwAAGgACQ==
+</DataArray>
+<DataArray type="Int32" Name="offsets" format="binary">
+AQAAAOgDAAAIAAAADgAAAA==eJxjZmBgYANiAAA4AAo=
+</DataArray>
+<DataArray type="UInt8" Name="types" format="binary">
+AQAAAOgDAAACAAAACgAAAA==eJxjZQUAABEACw==
+</DataArray>
+</Cells>
+<PointData>
+<DataArray type="Float64" Name="depth" format="binary">
+AgAAABgAAAAIAAAAFAAAAA0AAAA=eJxjYACBD/YMEOAAoTgcABe3Abh4nGNgAAEBBwAAaABR
+</DataArray>
+</PointData>
+</Piece>
+</UnstructuredGrid>
+</VTKFile>
+)";
+
+TEST(ReadVtu, CompressedWithZlib) {
+  const Grid grid = read(kCompressed);
+  EXPECT_EQ(grid.nodes, (std::vector<Point>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
+  EXPECT_EQ(grid.triangles.size(), 2u);
+  EXPECT_EQ(grid.z, (std::vector<double>{-1, -2, -3, -4}));
+  const std::string depths = "AgAAABgAAAAIAAAAFAAAAA0AAAA=eJxjYACBD/YMEOAAoTgcABe3Abh4nGNgAAEBBwAAaABR";
+  const std::string damaged = "AgAAABgAAAAIAAAAFAAAAA0AAAA=eJxjYACBD/YMEOAAoTgcABe3Abh4nGNgAAEBBwAAAAAA",
+                    too_many = "AAAAgAgAAAAAAAAA";
+  for (const std::string& other : {damaged, too_many}) {
+    std::string text = kCompressed;
+    text.replace(text.find(depths), depths.size(), other);
+    EXPECT_NE(refusalOf(text), "") << other;
+  }
+}
+
+TEST(ReadVtu, DepthsOfOtherPrograms) {
+  const auto depthsOf = [](const std::string& name, const std::string& values, const std::string& places) {
+    std::string text = with("<Cells>", "<PointData><DataArray type=\"Float32\" Name=\"" + name +
+                                           "\" format=\"ascii\">" + values + "</DataArray></PointData><Cells>");
+    const std::string third = "0 0 -1  1 0 -2  1 1 -3  0 1 -4";
+    return read(text.replace(text.find(third), third.size(), places)).z;
+  };
+  const std::string flat = "0 0 0  1 0 0  1 1 0  0 1 0", raised = "0 0 -1  1 0 -2  1 1 -3  0 1 -4";
+  const std::vector<double> down{-5, -6, -7, -8}, up{5, 6, 7, 8}, of_places{-1, -2, -3, -4};
+  EXPECT_EQ(depthsOf("z", "5 6 7 8", raised), up);
+  EXPECT_EQ(depthsOf("Depth", "5 6 7 8", raised), down);
+  EXPECT_EQ(depthsOf("bathymetry", "5 6 7 8", flat), down);
+  EXPECT_EQ(depthsOf("Bathymetry", "-5 -6 -7 -8", flat), down);  // elevations under this name
+  EXPECT_EQ(depthsOf("depth", "-5 -6 -7 -8", flat), up);
+  EXPECT_EQ(depthsOf("bed_level", "5 6 7 8", flat), up);
+  EXPECT_EQ(depthsOf("Elevation", "0 0.5 1 1", raised), of_places);  // of ParaView's filter
+  EXPECT_EQ(depthsOf("h", "5 6 7 8", flat), std::vector<double>());
+  EXPECT_EQ(depthsOf("depth", "5 6 7 8 9 10 11 12", flat), std::vector<double>());  // a vector
+}
+
+// 12.1 in single precision.
+TEST(ReadVtu, SinglePrecisionHasTheDigitsThatItMeans) {
+  EXPECT_EQ(read(with("<Cells>",
+                      "<PointData><DataArray type=\"Float32\" Name=\"depth\" format=\"binary\">"
+                      "EAAAAJqZQUGamUFBmplBQZqZQUE=</DataArray></PointData><Cells>"))
+                .z,
+            (std::vector<double>{-12.1, -12.1, -12.1, -12.1}));
+}
+
 TEST(ReadVtu, WhatCannotBeReadIsSaid) {
   const std::vector<std::pair<std::string, std::string>> refused{
       {"<a", "it is not XML"},
       {"<a/>", "it has no VTKFile"},
-      {with("byte_order=\"LittleEndian\"", "compressor=\"vtkZLibDataCompressor\""), "save it without compression"},
+      {with("byte_order=\"LittleEndian\"", "compressor=\"vtkLZ4DataCompressor\""),
+       "save it with ZLib or without compression"},
       {with("LittleEndian", "BigEndian"), "save it as little-endian"},
       {with("<UnstructuredGrid>", "<UnstructuredGrid><!-- --></UnstructuredGrid><UnstructuredGrid>"),
        "it has no unstructured grid"},

@@ -179,6 +179,7 @@ TEST(StagedOutput, RefusesMissingFoldersAndFoldersAsTargets) {
   EXPECT_THAT(errorOf([&] { writeWhole(folder / "no/lake.gpkg", lakes()); }), HasSubstr("there is no folder"));
   std::filesystem::create_directory(folder / "lake.msh");
   EXPECT_THAT(errorOf([&] { writeWhole(folder / "lake.msh", lakes(), true); }), HasSubstr("it is a folder"));
+  EXPECT_THAT(errorOf([&] { writeWhole(folder / (std::string(400, 'n') + ".nc"), lakes()); }), HasSubstr("too long"));
   EXPECT_THAT(folder.names(), ElementsAre("lake.msh"));
 }
 

@@ -10,6 +10,7 @@
 
 #include "gis/error.hpp"
 #include "gis/projection/projection.hpp"
+#include "gis/rounded_depth.hpp"
 #include "tests/gis/grid_samples.hpp"
 #include "tests/support/item_loops.hpp"
 #include "tests/support/rasters.hpp"
@@ -59,7 +60,7 @@ TEST_F(Depth, BilinearIsExactOnAPlane) {
   const DepthReport report =
       setDepths(grid, {{raster("dem.tif", "EPSG:4326", {40, 40, 9.0, 53.0, 0.1}, slope)}, DepthMethod::Bilinear});
   for (std::size_t i = 0; i < grid.nodes.size(); ++i)
-    EXPECT_NEAR(grid.z[i], slope(grid.nodes[i].x, grid.nodes[i].y), 1e-9);
+    EXPECT_NEAR(grid.z[i], slope(grid.nodes[i].x, grid.nodes[i].y), 0.51e-6);
   EXPECT_THAT(report.nodes_of_file, ElementsAre(grid.nodes.size()));
   EXPECT_EQ(report.filled + report.unknown + report.partial, 0u);
 }
@@ -152,7 +153,31 @@ TEST_F(Depth, SignAndWaterLevel) {
   options.water_level_m = 2.5;
   setDepths(grid, options);
   for (std::size_t i = 0; i < grid.nodes.size(); ++i)
-    EXPECT_NEAR(grid.z[i], -slope(grid.nodes[i].x, grid.nodes[i].y) - 2.5, 1e-9);
+    EXPECT_NEAR(grid.z[i], -slope(grid.nodes[i].x, grid.nodes[i].y) - 2.5, 0.51e-6);
+}
+
+// Interpolating in a flat bed of -3274 m gave -3274.0000000000005; files shall have what the raster has.
+TEST_F(Depth, NoDigitsThatRoundingMade) {
+  Grid grid = squares("EPSG:4326", {10.03, 50.07}, 0.31, 7, 5);
+  const auto bed = [](double x, double y) {
+    return std::hypot(x - 11.0, y - 51.0) < 0.5 ? kNoValue : y > 50.9 ? slope(x, y) : -0.3;
+  };
+  DepthOptions options{{raster("dem.tif", "EPSG:4326", {40, 40, 9.0, 53.0, 0.1}, bed)}};
+  options.water_level_m = 0.1;
+  EXPECT_GT(setDepths(grid, options).filled, 0u);
+  std::size_t flat = 0;
+  for (const double z : grid.z) {
+    EXPECT_EQ(z, std::round(z * 1e6) / 1e6);
+    flat += z == -0.4;
+  }
+  EXPECT_GT(flat, 10u);
+}
+
+TEST_F(Depth, RoundedHasNoMinusZero) {
+  EXPECT_EQ(roundedDepth(-3274.0000000000005), -3274.0);
+  EXPECT_EQ(roundedDepth(12.3456785), 12.345679);
+  EXPECT_FALSE(std::signbit(roundedDepth(-1e-9)));
+  EXPECT_TRUE(std::isnan(roundedDepth(std::numeric_limits<double>::quiet_NaN())));
 }
 
 // A raster in degrees under a projected mesh: values are found by place, not by coordinates.
