@@ -8,7 +8,7 @@
 #include "apps/cli/exit_codes.hpp"
 #include "apps/cli/mesh_file.hpp"
 #include "apps/cli/run_outputs.hpp"
-#include "apps/cli/vector_output.hpp"
+#include "apps/report/vector_output.hpp"
 #include "apps/job/check_grid.hpp"
 #include "apps/job/places.hpp"
 #include "apps/report/report_sections.hpp"

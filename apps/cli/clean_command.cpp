@@ -11,7 +11,7 @@
 #include "apps/cli/commands.hpp"
 #include "apps/cli/exit_codes.hpp"
 #include "apps/cli/run_outputs.hpp"
-#include "apps/cli/vector_output.hpp"
+#include "apps/report/vector_output.hpp"
 #include "apps/job/job_input.hpp"
 #include "apps/job/stopwatch.hpp"
 #include "apps/report/report_sections.hpp"
