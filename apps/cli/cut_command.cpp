@@ -86,9 +86,10 @@ std::string textOf(const CutReport& report, const CutUsage& usage) {
       grouped(report.boundaries_kept) +
       forCount(report.boundaries_kept, " boundary or part of one kept, ", " boundaries or parts of them kept, ") +
       grouped(report.boundaries_cut) + " along the cut\n";
-  if (report.loose > 0)
-    text += grouped(report.loose) + forCount(report.loose, " triangle", " triangles") +
-            " left out that only a node would connect to the others\n";
+  const auto [loose, teeth] = report.tidied;
+  if (loose + teeth > 0)
+    text += "left out at the cut: " + grouped(teeth) + forCount(teeth, " triangle", " triangles") +
+            " with one neighbour or none, " + grouped(loose) + " that only a node would connect to the others\n";
   if (report.waters > 1)
     text += grouped(report.waters) + " waters without a connection" +
             (usage.cut.largest_water ? ": only the largest is kept\n" : "; --keep-water largest keeps one\n");

@@ -9,7 +9,6 @@
 #include "core/union_find.hpp"
 #include "gis/crs/geodesy.hpp"
 #include "gis/cut/cut_boundaries.hpp"
-#include "gis/cut/loose_fans.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/linked_grid.hpp"
 
@@ -82,7 +81,7 @@ CutReport cutGrid(Grid& grid, std::vector<std::uint8_t> taken, const CutOptions&
   report.triangles_before = grid.triangles.size();
   {
     const TriMesh mesh = linkGrid(grid, loop).mesh;
-    report.loose = leaveOutLooseFans(mesh, taken, loop);
+    report.tidied = tidyCut(mesh, taken, loop);
     const Waters waters = watersOf(mesh, taken, loop);
     report.waters = waters.firsts.size();
     if (options.largest_water && report.waters > 1) {

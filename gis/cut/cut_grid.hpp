@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/item_loop.hpp"
+#include "gis/cut/tidy_cut.hpp"
 #include "gis/grid/grid.hpp"
 
 namespace coastmesh {
@@ -17,7 +18,7 @@ struct CutOptions {
 struct CutReport {
   std::vector<std::uint32_t> nodes, triangles;  // of each node and triangle: its number in the grid before, from 0
   std::size_t nodes_before = 0, triangles_before = 0;
-  std::size_t loose = 0;            // triangles left out because only a node connected them
+  TidiedCut tidied;
   std::size_t waters = 0;           // not connected with one another, among what was wanted
   std::size_t left_out = 0;         // of them, the waters left out
   std::size_t boundaries_kept = 0;  // boundaries of the grid, or parts of them
@@ -27,10 +28,9 @@ struct CutReport {
   bool partition_dropped = false;   // the assignment to processes, which is of the whole mesh
 };
 
-// Keeps the triangles with a flag in `taken`, without those that are connected to others only through a node
-// (`leaveOutLooseFans`), and their nodes, in their order and with all their values bit for bit. Boundaries are divided
-// where they lose edges (`boundariesOfPart`); those along the cut come last. REQUIRES: one flag for each triangle, at
-// least one of them set.
+// Keeps the triangles with a flag in `taken`, without those that models would reject (`tidyCut`), and their nodes, in
+// their order and with all their values bit for bit. Boundaries are divided where they lose edges (`boundariesOfPart`);
+// those along the cut come last. REQUIRES: one flag for each triangle, at least one of them set.
 CutReport cutGrid(Grid& grid, std::vector<std::uint8_t> taken, const CutOptions& options = {},
                   const ItemLoop& loop = inOrder);
 

@@ -1,4 +1,4 @@
-#include "gis/cut/loose_fans.hpp"
+#include "gis/cut/tidy_cut.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -80,18 +80,16 @@ std::vector<Corner> cornersAtCut(const TriMesh& mesh, const std::vector<std::uin
   }));
 }
 
-}  // namespace
-
-std::size_t leaveOutLooseFans(const TriMesh& mesh, std::vector<std::uint8_t>& taken, const ItemLoop& loop) {
+std::size_t leaveOutLoose(const TriMesh& mesh, std::vector<std::uint8_t>& taken, const ItemLoop& loop) {
   std::size_t left_out = 0;
   std::vector<Corner> corners = cornersAtCut(mesh, taken, loop);
   for (std::size_t at = 0; at < corners.size(); ++at) {  // grows
     std::vector<std::vector<TriId>> sets = takenSets(fanAt(mesh, corners[at]), taken);
     if (sets.size() < 2) continue;
-    const auto larger = [](const std::vector<TriId>& a, const std::vector<TriId>& b) {
+    const auto smaller = [](const std::vector<TriId>& a, const std::vector<TriId>& b) {
       return a.size() != b.size() ? a.size() < b.size() : std::ranges::min(a) > std::ranges::min(b);
     };
-    sets.erase(std::ranges::max_element(sets, larger));
+    sets.erase(std::ranges::max_element(sets, smaller));
     for (const std::vector<TriId>& set : sets) {
       for (const TriId t : set) {
         taken[t] = 0;
@@ -101,6 +99,59 @@ std::size_t leaveOutLooseFans(const TriMesh& mesh, std::vector<std::uint8_t>& ta
     }
   }
   return left_out;
+}
+
+struct Sides {
+  unsigned cut = 0;         // with a triangle across that is not taken
+  unsigned neighbours = 0;  // with a taken one
+  TriId neighbour = kNone;
+};
+
+Sides sidesOf(const TriMesh& mesh, const std::vector<std::uint8_t>& taken, TriId t) {
+  Sides sides;
+  for (const EdgeRef across : mesh.triangles[t].adj) {
+    if (across == kNone) continue;
+    if (taken[triOf(across)] == 0) {
+      ++sides.cut;
+    } else {
+      ++sides.neighbours;
+      sides.neighbour = triOf(across);
+    }
+  }
+  return sides;
+}
+
+std::size_t leaveOutTeeth(const TriMesh& mesh, std::vector<std::uint8_t>& taken, const ItemLoop& loop) {
+  const auto isTooth = [&](TriId t) {
+    const Sides sides = sidesOf(mesh, taken, t);
+    return sides.cut > 0 && sides.neighbours < 2;
+  };
+  const std::vector<TriId> teeth =
+      joined(overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
+        std::vector<TriId> found;
+        for (auto t = static_cast<TriId>(first); t < last; ++t) {
+          if (taken[t] == 0 || !isTooth(t)) continue;
+          const TriId neighbour = sidesOf(mesh, taken, t).neighbour;
+          if (neighbour == kNone || !isTooth(neighbour)) found.push_back(t);
+        }
+        return found;
+      }));
+  for (const TriId t : teeth) taken[t] = 0;
+  return teeth.size();
+}
+
+}  // namespace
+
+TidiedCut tidyCut(const TriMesh& mesh, std::vector<std::uint8_t>& taken, const ItemLoop& loop) {
+  TidiedCut tidied;
+  tidied.loose = leaveOutLoose(mesh, taken, loop);
+  std::vector<std::uint8_t> without = taken;
+  const std::size_t teeth = leaveOutTeeth(mesh, without, loop);
+  if (teeth == 0 || std::ranges::find(without, 1) == without.end()) return tidied;
+  taken = std::move(without);
+  tidied.teeth = teeth;
+  tidied.loose += leaveOutLoose(mesh, taken, loop);
+  return tidied;
 }
 
 }  // namespace coastmesh
