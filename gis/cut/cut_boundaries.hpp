@@ -19,8 +19,8 @@ struct CutBoundaries {
 };
 
 // Boundaries keep their direction and, if they are whole, all else. One that loses edges is divided there; an island
-// then becomes land. Weirs keep what both shores are left of. `cut_role` is Open or Land; a cut all around is land or an
-// island by its shape. `taken` has one flag for each triangle; `mesh` is the grid's, from `linkGrid`.
+// then becomes land. Weirs keep what both shores are left of. `cut_role` is Open or Land; land all around is an island
+// if its shape says so. `taken` has one flag for each triangle; `mesh` is the grid's, from `linkGrid`.
 CutBoundaries boundariesOfPart(const Grid& grid, const TriMesh& mesh, const std::vector<std::uint8_t>& taken,
                                BoundaryRole cut_role, const ItemLoop& loop = inOrder);
 
