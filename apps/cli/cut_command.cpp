@@ -89,7 +89,8 @@ std::string textOf(const CutReport& report, const CutUsage& usage) {
   const auto [loose, teeth] = report.tidied;
   if (loose + teeth > 0)
     text += "left out at the cut: " + grouped(teeth) + forCount(teeth, " triangle", " triangles") +
-            " with one neighbour or none, " + grouped(loose) + " that only a node would connect to the others\n";
+            " with two sides along it or without a neighbour, " + grouped(loose) +
+            " that only a node would connect to the others\n";
   if (report.waters > 1)
     text += grouped(report.waters) + " waters without a connection" +
             (usage.cut.largest_water ? ": only the largest is kept\n" : "; --keep-water largest keeps one\n");

@@ -124,7 +124,7 @@ Sides sidesOf(const TriMesh& mesh, const std::vector<std::uint8_t>& taken, TriId
 std::size_t leaveOutTeeth(const TriMesh& mesh, std::vector<std::uint8_t>& taken, const ItemLoop& loop) {
   const auto isTooth = [&](TriId t) {
     const Sides sides = sidesOf(mesh, taken, t);
-    return sides.cut > 0 && sides.neighbours < 2;
+    return sides.cut > 1 || (sides.cut > 0 && sides.neighbours == 0);
   };
   const std::vector<TriId> teeth =
       joined(overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {

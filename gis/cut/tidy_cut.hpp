@@ -12,7 +12,7 @@ namespace coastmesh {
 // Triangles left out for the sake of models.
 struct TidiedCut {
   std::size_t loose = 0;  // connected to the others around a node only through that node
-  std::size_t teeth = 0;  // stuck out of the cut, with one neighbour or none
+  std::size_t teeth = 0;  // stuck out of the cut with two sides, or had no neighbour left
 };
 
 // Clears the flags in `taken`, one for each triangle, of those that most models would reject at the edge of what is

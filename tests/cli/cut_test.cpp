@@ -13,6 +13,7 @@ namespace coastmesh::test {
 
 namespace {
 
+using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -53,7 +54,7 @@ TEST_F(Cut, WorksOnEveryFormatAlike) {
         runProgram({"cut", file(name), box(), "--assume-crs", "EPSG:4326", "-o", file("other.14"), "--overwrite"});
     ASSERT_EQ(run.code, 0) << name << run.errors;
     EXPECT_THAT(run.output, HasSubstr(" triangles, ")) << name;
-    EXPECT_THAT(run.output, HasSubstr("1 along the cut")) << name;
+    EXPECT_THAT(run.output, HasSubstr("2 along the cut")) << name;
     // All but the title. These two formats divide the shore of the lake, which the cut then keeps divided.
     std::vector<std::string> lines = linesOf(file("other.14")), wanted = linesOf(file("part.14"));
     lines[0] = wanted[0];
@@ -122,12 +123,12 @@ TEST_F(Cut, PolygonsAndTheRestMakeTheWhole) {
       write("half.geojson", geoJsonPolygons({{{{-88, 41}, {-87.4865, 41}, {-87.4865, 42}, {-88, 42}, {-88, 41}}}}));
   ASSERT_EQ(runProgram({"cut", whole, box(), "-o", file("box.14"), "--quiet"}).code, 0);
   ASSERT_EQ(runProgram({"cut", whole, "--within", half, "-o", file("half.14"), "--quiet"}).code, 0);
-  EXPECT_EQ(readText(file("box.14")), readText(file("half.14")));
+  EXPECT_EQ(linesOf(file("box.14")), linesOf(file("half.14")));
   const ProgramRun rest =
       runProgram({"cut", whole, "--outside", half, "-o", file("rest.14"), "--cut-boundary", "land"});
   ASSERT_EQ(rest.code, 0) << rest.errors;
-  EXPECT_THAT(readText(file("rest.14")), HasSubstr("0 = number of open boundaries"));
-  EXPECT_THAT(readText(file("half.14")), HasSubstr("1 = number of open boundaries"));
+  EXPECT_THAT(linesOf(file("rest.14")), Contains("0 = number of open boundaries"));
+  EXPECT_THAT(linesOf(file("half.14")), Contains("2 = number of open boundaries"));
 }
 
 // Weirs of fort.14: both shores of a levee, of which the cut leaves two thirds.
