@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/cli/vector_output.hpp"
+#include "apps/report/vector_output.hpp"
 #include "gis/clean/clean.hpp"
 #include "gis/read/read_coastline.hpp"
 

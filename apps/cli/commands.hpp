@@ -35,6 +35,7 @@ Command declareInfo(CLI::App& root);
 Command declarePlot(CLI::App& root);
 Command declareConvert(CLI::App& root);
 Command declareClean(CLI::App& root);
+Command declareCut(CLI::App& root);
 Command declarePartition(CLI::App& root);
 Command declareGather(CLI::App& root);
 

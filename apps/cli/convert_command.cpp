@@ -6,12 +6,9 @@
 #include "apps/cli/mesh_file.hpp"
 #include "apps/cli/run_outputs.hpp"
 #include "apps/job/finish_grid.hpp"
-#include "apps/job/places.hpp"
 #include "apps/usage/finish_usage.hpp"
 #include "apps/usage/grid_usage.hpp"
-#include "gis/for_count.hpp"
 #include "gis/grid/boundary_chains.hpp"
-#include "gis/grid/ground_orientation.hpp"
 #include "parallel/recorder.hpp"
 #include "parallel/workers.hpp"
 
@@ -27,18 +24,6 @@ struct ConvertUsage {
   bool overwrite = false;
   bool quiet = false;
 };
-
-// A warning of triangles that are not counter-clockwise, as grids and most models have them; empty if all are.
-std::string windingWarning(const Grid& grid, const ItemLoop& loop) {
-  const std::vector<std::uint32_t> turned = turnedTriangles(grid, {}, loop);
-  if (turned.empty()) return {};
-  return std::to_string(turned.size()) + " of " + std::to_string(grid.triangles.size()) +
-         forCount(grid.triangles.size(), " triangle", " triangles") +
-         forCount(turned.size(), " is clockwise or flat", " are clockwise or flat") + ", the first at " +
-         pointText(middleOf(grid, turned.front())) +
-         ": most models reject this, and it makes shores islands and islands shores; --target turns clockwise "
-         "triangles";
-}
 
 int runConvert(const ConvertUsage& usage, Run& run) {
   Interrupt& interrupt = run.interrupt;

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 
+#include "apps/job/places.hpp"
 #include "core/box_halves.hpp"
 #include "gis/crs/geodesy.hpp"
 #include "gis/error.hpp"
+#include "gis/for_count.hpp"
 #include "gis/format/grid_io.hpp"
+#include "gis/grid/ground_orientation.hpp"
 
 namespace coastmesh {
 
@@ -72,6 +75,17 @@ Grid readMeshFile(const MeshFile& file, Run& run, FileNotes notes) {
 
 void warnOfCrs(const MeshFile& file, const std::string& why, Run& run) {
   if (!file.crs.empty()) run.warn("--assume-crs has no effect: " + why);
+}
+
+std::string windingWarning(const Grid& grid, const ItemLoop& loop) {
+  const std::vector<std::uint32_t> turned = turnedTriangles(grid, {}, loop);
+  if (turned.empty()) return {};
+  return std::to_string(turned.size()) + " of " + std::to_string(grid.triangles.size()) +
+         forCount(grid.triangles.size(), " triangle", " triangles") +
+         forCount(turned.size(), " is clockwise or flat", " are clockwise or flat") + ", the first at " +
+         pointText(middleOf(grid, turned.front())) +
+         ": most models reject this, and it makes shores islands and islands shores; --target turns clockwise "
+         "triangles";
 }
 
 }  // namespace coastmesh

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "apps/cli/commands.hpp"
+#include "core/item_loop.hpp"
 #include "gis/grid/grid.hpp"
 
 namespace coastmesh {
@@ -25,5 +26,8 @@ Grid readMeshFile(const MeshFile& file, Run& run, FileNotes notes = FileNotes::W
 
 // Warns that --assume-crs has no effect, if it was given.
 void warnOfCrs(const MeshFile& file, const std::string& why, Run& run);
+
+// A warning of triangles that are not counter-clockwise, as grids and most models have them; empty if all are.
+std::string windingWarning(const Grid& grid, const ItemLoop& loop);
 
 }  // namespace coastmesh

@@ -19,16 +19,6 @@ bool allFinite(const std::vector<double>& numbers) {
 }
 
 // Stores the sides of a box; returns what is wrong with them, empty if nothing.
-std::string storeBox(const std::vector<double>& sides, std::optional<Box>& box) {
-  box.reset();
-  if (!allFinite(sides)) return "is not four finite numbers W,S,E,N";
-  if (sides.empty()) return {};
-  // W may be more than E: in degrees such a box lies across the antimeridian.
-  if (!(sides[1] < sides[3]) || sides[0] == sides[2]) return "is not W,S,E,N with S below N and W other than E";
-  box = Box{sides[0], sides[1], sides[2], sides[3]};
-  return {};
-}
-
 std::string storePlace(const std::vector<double>& numbers, std::optional<Point>& place) {
   place.reset();
   if (!allFinite(numbers)) return "is not two finite numbers LON,LAT";
@@ -44,6 +34,15 @@ std::function<void(const std::string&)> storePinches(InputOptions& options) {
 }
 
 }  // namespace
+
+std::string storeBox(const std::vector<double>& sides, std::optional<Box>& box) {
+  box.reset();
+  if (!allFinite(sides)) return "is not four finite numbers W,S,E,N";
+  if (sides.empty()) return {};
+  if (!(sides[1] < sides[3]) || sides[0] == sides[2]) return "is not W,S,E,N with S below N and W other than E";
+  box = Box{sides[0], sides[1], sides[2], sides[3]};
+  return {};
+}
 
 void declareInputOptions(OptionTable& table, InputOptions& options) {
   constexpr NumberRange kNotNegative{0.0, std::numeric_limits<double>::infinity()};

@@ -1,12 +1,21 @@
 #pragma once
 
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "apps/job/job_input.hpp"
 #include "apps/usage/option_table.hpp"
+#include "gis/geometry/box.hpp"
 
 namespace coastmesh {
 
 // Declares the options on reading, the domain, cleaning and the working plane: from --layer to --crs.
 void declareInputOptions(OptionTable& table, InputOptions& options);
+
+// Stores the sides of a --bbox, as an `OptionTable::StoreNumbers`. W may be more than E: in degrees such a box lies
+// across the antimeridian.
+std::string storeBox(const std::vector<double>& sides, std::optional<Box>& box);
 
 // --surface; separate, since commands on meshes have it too.
 void declareSurface(OptionTable& table, SurfaceChoice& surface);

@@ -1,6 +1,7 @@
 #include "gis/coast/input_polygons.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "gis/coast/turned_rings.hpp"
 
@@ -27,6 +28,13 @@ bool InputPolygons::holdAtAnyTurn(const Point& place) const {
     if (locate({place.x + turn, place.y}) == Location::Inside) return true;
   }
   return false;
+}
+
+PolygonsByPlace::PolygonsByPlace(std::vector<InputPolygons> polygons, bool geographic)
+    : polygons_(std::move(polygons)), geographic_(geographic) {
+  std::vector<Box> boxes;
+  for (const InputPolygons& polygon : polygons_) boxes.push_back(polygon.bounds());
+  tree_ = BoxTree(boxes, BoxTree::Order::Hilbert);
 }
 
 }  // namespace coastmesh

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "gis/coast/coastline.hpp"
+#include "gis/geometry/box_tree.hpp"
 #include "gis/geometry/chain_index.hpp"
 
 namespace coastmesh {
@@ -21,6 +24,31 @@ class InputPolygons {
 
  private:
   ChainIndex rings_{ChainIndex::Kind::Rings};
+};
+
+// Many of them, searchable by place.
+class PolygonsByPlace {
+ public:
+  // If `geographic`, places are found at any turn of longitudes.
+  PolygonsByPlace(std::vector<InputPolygons> polygons, bool geographic);
+
+  // Calls `found(polygon)` for those that hold the place, or one a turn of longitudes from it; maybe more than once.
+  template <typename Found>
+  void visit(const Point& place, Found&& found) const {
+    if (polygons_.empty() || !std::isfinite(place.x) || !std::isfinite(place.y)) return;
+    for (const double turn : {0.0, -360.0, 360.0}) {
+      if (turn != 0.0 && !geographic_) break;
+      const Point turned{place.x + turn, place.y};
+      tree_.visit(Box::of(turned, turned), [&](std::uint32_t p) {
+        if (polygons_[p].locate(turned) != Location::Outside) found(p);
+      });
+    }
+  }
+
+ private:
+  std::vector<InputPolygons> polygons_;
+  bool geographic_;
+  BoxTree tree_;
 };
 
 }  // namespace coastmesh

@@ -50,11 +50,11 @@ struct Stretch {
   bool closed = false;
 };
 
-// The stretches that remain of a chain of nodes if only edges with `holds(from, to)` are kept.
-std::vector<Stretch> stretchesOf(std::span<const std::uint32_t> nodes, bool closed, auto&& holds) {
-  const std::size_t n = nodes.size(), edges = closed ? n : n - std::min<std::size_t>(n, 1);
+// The stretches that remain of a chain of `n` nodes if only edges with `holds(edge)` are kept; edge i follows node i.
+std::vector<Stretch> stretchesOf(std::size_t n, bool closed, auto&& holds) {
+  const std::size_t edges = closed ? n : n - std::min<std::size_t>(n, 1);
   std::vector<bool> held;
-  for (std::size_t i = 0; i < edges; ++i) held.push_back(holds(nodes[i], nodes[(i + 1) % n]));
+  for (std::size_t i = 0; i < edges; ++i) held.push_back(holds(i));
   std::vector<Stretch> stretches;
   const auto lost = std::ranges::find(held, false);
   if (lost == held.end()) {
@@ -93,23 +93,14 @@ void cutBoundaries(Grid& grid, auto&& keeps) {
       cut.push_back(std::move(boundary));
       continue;
     }
-    // Positions are used instead of nodes, because the node across the weir may be the missing one.
-    std::vector<std::uint32_t> positions;
-    for (std::uint32_t i = 0; i < boundary.nodes.size(); ++i) positions.push_back(i);
-    const auto stands = [&](std::uint32_t i) {
+    const std::size_t n = boundary.nodes.size();
+    if (n < 2) continue;
+    // The node across a weir may be the missing one.
+    const auto stands = [&](std::size_t i) {
       return keeps(boundary.nodes[i]) && (boundary.back_nodes.empty() || keeps(boundary.back_nodes[i]));
     };
-    const auto holds = [&](std::uint32_t i, std::uint32_t j) { return stands(i) && stands(j); };
-    if (positions.size() < 2) continue;
-    for (const Stretch& stretch : stretchesOf(positions, boundary.closed, holds)) {
-      Boundary piece = boundary;
-      piece.closed = stretch.closed;
-      piece.repeats_first = false;
-      piece.nodes = partOf(boundary.nodes, 1, stretch);
-      piece.back_nodes = partOf(boundary.back_nodes, 1, stretch);
-      piece.weir = partOf(boundary.weir, boundary.weir.size() / boundary.nodes.size(), stretch);
-      cut.push_back(std::move(piece));
-    }
+    std::ranges::move(piecesOf(boundary, [&](std::size_t i) { return stands(i) && stands((i + 1) % n); }),
+                      std::back_inserter(cut));
   }
   grid.boundaries = std::move(cut);
 }
@@ -117,7 +108,9 @@ void cutBoundaries(Grid& grid, auto&& keeps) {
 void cutLines(Grid& grid, auto&& holds) {
   std::vector<GridLine> cut;
   for (GridLine& line : grid.lines)
-    for (const Stretch& stretch : stretchesOf(line.nodes, line.closed, holds))
+    for (const Stretch& stretch : stretchesOf(line.nodes.size(), line.closed, [&](std::size_t i) {
+           return holds(line.nodes[i], line.nodes[(i + 1) % line.nodes.size()]);
+         }))
       cut.push_back({line.kind, line.name, stretch.closed, partOf(line.nodes, 1, stretch)});
   grid.lines = std::move(cut);
 }
@@ -344,6 +337,18 @@ void orderNodes(Grid& grid, const std::vector<std::uint32_t>& order) {
 
 void orderTriangles(Grid& grid, const std::vector<std::uint32_t>& order) {
   forEachArray(triangleArrays(grid), [&](auto& values) { reorder(values, order); });
+}
+
+std::vector<Boundary> piecesOf(const Boundary& boundary, const std::function<bool(std::size_t edge)>& holds) {
+  std::vector<Boundary> pieces;
+  const std::size_t n = boundary.nodes.size();
+  for (const Stretch& stretch : stretchesOf(n, boundary.closed, holds)) {
+    const bool whole = stretch.closed == boundary.closed && stretch.at.size() == n;
+    pieces.push_back({boundary.role, stretch.closed, partOf(boundary.nodes, 1, stretch), boundary.ibtype,
+                      partOf(boundary.back_nodes, 1, stretch), whole && boundary.repeats_first,
+                      partOf(boundary.weir, boundary.weir.size() / std::max<std::size_t>(1, n), stretch)});
+  }
+  return pieces;
 }
 
 void sortFeatures(Grid& grid) {

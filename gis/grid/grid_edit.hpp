@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <utility>
@@ -41,6 +42,10 @@ std::uint32_t copyTriangle(Grid& grid, std::uint32_t source, const GridCorners& 
 std::vector<std::uint32_t> removeTriangles(Grid& grid, const std::vector<bool>& gone);
 std::vector<std::uint32_t> removeNodes(Grid& grid, const std::vector<bool>& gone);
 std::vector<std::uint32_t> removeUnusedNodes(Grid& grid);
+
+// The pieces that remain of a boundary if only the edges are kept, by their position in it, for which `holds` is true.
+// Each node keeps its values; no piece of a loop is closed unless all of it remains.
+std::vector<Boundary> piecesOf(const Boundary& boundary, const std::function<bool(std::size_t edge)>& holds);
 
 // `order` has the present index of the first, the second and so on, each once.
 void orderNodes(Grid& grid, const std::vector<std::uint32_t>& order);

@@ -32,35 +32,6 @@ struct PlaneChain {
   bool is_whole = true;  // one piece, closed if a ring; otherwise parts of it have no place in the plane
 };
 
-// Polygons in the coordinates of the input, by their boxes.
-class PolygonsByPlace {
- public:
-  PolygonsByPlace(std::vector<InputPolygons> polygons, bool geographic)
-      : polygons_(std::move(polygons)), geographic_(geographic) {
-    std::vector<Box> boxes;
-    for (const InputPolygons& polygon : polygons_) boxes.push_back(polygon.bounds());
-    tree_ = BoxTree(boxes, BoxTree::Order::Hilbert);
-  }
-
-  // Calls `found(polygon)` for those that hold the place, or one a turn of longitudes from it; maybe more than once.
-  template <typename Found>
-  void visit(const Point& place, Found&& found) const {
-    if (polygons_.empty() || !std::isfinite(place.x) || !std::isfinite(place.y)) return;
-    for (const double turn : {0.0, -360.0, 360.0}) {
-      if (turn != 0.0 && !geographic_) break;
-      const Point turned{place.x + turn, place.y};
-      tree_.visit(Box::of(turned, turned), [&](std::uint32_t p) {
-        if (polygons_[p].locate(turned) != Location::Outside) found(p);
-      });
-    }
-  }
-
- private:
-  std::vector<InputPolygons> polygons_;
-  bool geographic_;
-  BoxTree tree_;
-};
-
 // Rings in the plane, with what a place needs to be located in them. Boundaries are half-open.
 class PlaneRings {
  public:

@@ -115,7 +115,7 @@ def write_inputs(folder):
     for name in ("dem", "part", "sizes"):
         put(name + ".prj", WGS84)
     put("angle.toml", "[mesh]\nsize-max = 150\n[check]\nmin-angle = 50\n[plot]\nsize = 300\n[info]\njson = true\n"
-        "[convert]\nformat = '2dm'\n[clean]\nsimplify = 300\n[partition]\nformat = 'gmsh'\n[gather]\nformat = '2dm'\n")
+        "[convert]\nformat = '2dm'\n[clean]\nsimplify = 300\n[partition]\nformat = 'gmsh'\n[gather]\nformat = '2dm'\n[cut]\nformat = '2dm'\n")
 
 
 def cases():
@@ -256,15 +256,21 @@ def cases():
               "--partition": Case("3"), "--report": Case("report2.json"), "--edits": Case("edits.gpkg"),
               "--progress": Case("json"), "--overwrite": Case(exists=["out.nc"]),
               "--skip-existing": Case(exists=["out.nc"]), "--quiet": Case(), "--threads": Case("1", report="threads")}
+    cut = {**common, "--output": Case("more.2dm"), "--format": Case("2dm"), "--quiet": Case(),
+           "--bbox": Case("-87.495,41.602,-87.48,41.615"), "--within": Case("clip.geojson"),
+           "--outside": Case("open.geojson"), "--keep-water": Case("largest", input="two.nc"),
+           "--cut-boundary": Case("land"), "--target": Case("adcirc", input="hourglass.nc"),
+           "--numbers": Case("numbers.csv"), "--assume-crs": Case("EPSG:4326", input="degrees.2dm")}
     return {"mesh": mesh, "check": check, "convert": convert, "clean": clean, "plot": plot, "info": info,
-            "partition": partition, "gather": gather}
+            "partition": partition, "gather": gather, "cut": cut}
 
 
 INPUT = {"mesh": "lake.geojson", "clean": "lake.geojson", "check": "lake.nc", "convert": "lake.nc", "plot": "lake.nc",
-         "info": "lake.nc", "partition": "lake.nc", "gather": "lake.shard"}
-OUTPUT = {"mesh": "out.nc", "clean": "out.gpkg", "convert": "out.nc", "plot": "out.svg", "partition": "out.nc", "gather": "out.nc"}
-# Numbers given after the file.
-ARGUMENTS = {"partition": ["4"]}
+         "info": "lake.nc", "partition": "lake.nc", "gather": "lake.shard", "cut": "lake.nc"}
+OUTPUT = {"mesh": "out.nc", "clean": "out.gpkg", "convert": "out.nc", "plot": "out.svg", "partition": "out.nc", "gather": "out.nc",
+          "cut": "out.nc"}
+# What has to be given after the file.
+ARGUMENTS = {"partition": ["4"], "cut": ["--outside", "region.geojson"]}
 
 
 class Runs:
@@ -361,7 +367,7 @@ def main():
         write_inputs(inputs)
         runs = Runs(inputs, work)
         frame = ["--bbox", "-87.51,41.603,-87.48,41.63"]
-        for name, options in {"lake.nc": ["lake.geojson"], "hourglass.nc": ["hourglass.geojson"],
+        for name, options in {"lake.nc": ["lake.geojson"], "two.nc": ["two.geojson"], "hourglass.nc": ["hourglass.geojson"],
                               "deep.nc": ["lake.geojson", "--bathymetry", "dem.asc"],
                               "bare.2dm": ["lake.geojson"], "lake.shard": [str(inputs / "lake.geojson")],
                               "framed.nc": ["lake.geojson", *frame]}.items():

@@ -108,7 +108,7 @@ class ProviderTest(unittest.TestCase):
     def test_every_verb_is_an_algorithm_and_every_option_of_theirs_a_parameter(self):
         provider = QgsApplication.processingRegistry().providerById("coastmesh")
         self.assertEqual(provider.warningMessage(), "")
-        self.assertEqual({a.name() for a in provider.algorithms()}, {"mesh", "clean", "check", "convert"})
+        self.assertEqual({a.name() for a in provider.algorithms()}, {"mesh", "clean", "check", "convert", "cut"})
         mesh = provider.algorithm("mesh")
         angle = mesh.parameterDefinition("MIN_ANGLE")
         self.assertEqual((angle.defaultValue(), angle.minimum(), angle.maximum()), (33.0, 0.0, 45.0))
@@ -513,6 +513,19 @@ class ProviderTest(unittest.TestCase):
             self.assertEqual(layers["Triangles"].source(), results["TRIANGLES"])
             self.assertNotIn("only written", self.log.text())
             QgsProject.instance().clear()
+
+    def test_a_part_of_a_mesh_in_polygons_of_a_layer(self):
+        self.mesh(memory_layer(LAKE))
+        box = QgsMeshLayer(self.path("lake.nc"), "lake", "mdal").extent()
+        west = QgsRectangle(box.xMinimum(), box.yMinimum(), box.center().x(), box.yMaximum())
+        results = self.run_algorithm("cut", INPUT=self.path("lake.nc"), WITHIN=[memory_layer(west.asWktPolygon())],
+                                     NUMBERS=self.path("numbers.csv"), OUTPUT=self.path("west.gpkg"))
+        whole = self.run_algorithm("convert", INPUT=self.path("lake.nc"), OUTPUT=self.path("whole.gpkg"))
+        part = QgsVectorLayer(results["TRIANGLES"], "", "ogr").featureCount()
+        self.assertGreater(part, 0)
+        self.assertLess(part, QgsVectorLayer(whole["TRIANGLES"], "", "ogr").featureCount())
+        with open(self.path("numbers.csv"), encoding="utf-8") as file:
+            self.assertEqual(sum(line.startswith("triangle,") for line in file), part)
 
     def test_a_mesh_in_a_crs_without_a_code(self):
         self.mesh(memory_layer(LAKE))

@@ -36,6 +36,7 @@ MESH_LAYERS = [("BOUNDARIES", "boundaries", "Boundaries"), ("TRIANGLES", "triang
 LAYERS = {
     "mesh": MESH_LAYERS,
     "convert": MESH_LAYERS,
+    "cut": MESH_LAYERS,
     "clean": [("EDITS", "edits", "Edits"), ("PSLG", "pslg", "Plane graph")],
 }
 SHOWN_LAYERS = ("BOUNDARIES", "TRIANGLES", "EDITS", "PSLG")  # nodes are too many to show
@@ -133,7 +134,13 @@ class CoastmeshAlgorithm(QgsProcessingAlgorithm):
         self.addOutput(QgsProcessingOutputNumber("SOUND", "1 where there is no defect, else 0"))
 
     def _outputs_of_convert(self):
-        self._add_file("OUTPUT", "Converted mesh", self._filters(first="ugrid"))
+        self._add_mesh_file("Converted mesh")
+
+    def _outputs_of_cut(self):
+        self._add_mesh_file("Part of the mesh")
+
+    def _add_mesh_file(self, title):
+        self._add_file("OUTPUT", title, self._filters(first="ugrid"))
         self._add_load()
         self._add_layer_outputs()
 
@@ -298,7 +305,7 @@ class CoastmeshAlgorithm(QgsProcessingAlgorithm):
         mesh = outputs.get("OUTPUT", "")
         if mesh.lower().endswith(MESH_ENDINGS):
             self._load_layer(context, mesh, "Mesh", "OUTPUT", QgsProcessingUtils.LayerHint.Mesh)
-        elif self.name() == "mesh" or self.name() == "convert" and "TRIANGLES" not in results:
+        elif self.name() == "mesh" or self.name() in ("convert", "cut") and "TRIANGLES" not in results:
             feedback.pushInfo(f"QGIS opens {' and '.join(MESH_ENDINGS)} as mesh layers; '{mesh}' was only written.")
         for name, _, title in reversed(LAYERS.get(self.name(), [])):
             if name in SHOWN_LAYERS and name in results:

@@ -124,7 +124,8 @@ def _file(option, name, title, optional):
 
 
 def _filter_of(option):
-    filters = {"--report": "JSON (*.json)", "--edits": "GeoPackage (*.gpkg);;GeoJSON (*.geojson);;FlatGeobuf (*.fgb)"}
+    filters = {"--report": "JSON (*.json)", "--numbers": "CSV (*.csv)",
+               "--edits": "GeoPackage (*.gpkg);;GeoJSON (*.geojson);;FlatGeobuf (*.fgb)"}
     return filters.get(option["name"], "All files (*)")
 
 

@@ -18,6 +18,7 @@ VERBS = {
     "clean": Verb("Clean polygons or lines for meshing", tags=["fix", "repair", "pslg", "coast"]),
     "check": Verb("Check a mesh", reads_mesh=True, tags=["validate", "quality", "defects", "grid"]),
     "convert": Verb("Convert a mesh", reads_mesh=True, tags=["export", "grid", "ugrid", "adcirc", "gmsh", "2dm"]),
+    "cut": Verb("Cut out a part of a mesh", reads_mesh=True, tags=["clip", "extract", "subset", "grid"]),
 }
 
 # Options that the provider sets, and options that QGIS covers itself: layers and filters of features.
@@ -26,7 +27,7 @@ NEVER_SHOWN = ("--output", "--overwrite", "--progress", "--quiet", "--assume-crs
 
 # What most users look for; the others are under "Advanced parameters".
 BASIC = (
-    "--min-angle", "--domain", "--bbox", "--clip", "--water-at", "--size", "--size-shore", "--size-min", "--size-max", "--grade", "--size-raster",
+    "--min-angle", "--domain", "--bbox", "--clip", "--within", "--outside", "--water-at", "--size", "--size-shore", "--size-min", "--size-max", "--grade", "--size-raster",
     "--bathymetry", "--simplify", "--min-island-area", "--input", "--target", "--delaunay", "--pinches",
     "--format",
 )

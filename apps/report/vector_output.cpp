@@ -1,4 +1,4 @@
-#include "apps/cli/vector_output.hpp"
+#include "apps/report/vector_output.hpp"
 
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>

@@ -1,0 +1,157 @@
+#include "gis/cut/tidy_cut.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace coastmesh {
+
+namespace {
+
+struct Corner {
+  TriId triangle;
+  unsigned index;
+};
+
+// The triangles around a node that are connected to the corner's through edges there, counter-clockwise; `whole` if
+// they surround the node.
+struct Fan {
+  std::vector<TriId> triangles;
+  bool whole = false;
+};
+
+Fan fanAt(const TriMesh& mesh, const Corner& corner) {
+  const VertexId node = mesh.triangle(corner.triangle).v[corner.index];
+  // The triangle across the edge that leads to the node, or from it; kNone at the end of the fan.
+  const auto across = [&](TriId t, bool counter_clockwise) {
+    const unsigned i = mesh.cornerOf(t, node);
+    const EdgeRef e = mesh.twin(edgeRef(t, counter_clockwise ? next3(i) : prev3(i)));
+    return e == kNone ? kNone : triOf(e);
+  };
+  TriId first = corner.triangle;
+  for (TriId t = first; t != kNone;) {
+    first = t;
+    t = across(t, false);
+    if (t == corner.triangle) break;
+  }
+  Fan fan;
+  TriId t = first;
+  do {
+    fan.triangles.push_back(t);
+    t = across(t, true);
+  } while (t != kNone && t != first);
+  fan.whole = t == first;
+  return fan;
+}
+
+// The taken triangles of a fan, in connected sets.
+std::vector<std::vector<TriId>> takenSets(const Fan& fan, const std::vector<std::uint8_t>& taken) {
+  std::vector<std::vector<TriId>> sets;
+  const std::size_t n = fan.triangles.size();
+  // Around a node, sets are followed from the end of a gap.
+  const auto gap = std::ranges::find_if(fan.triangles, [&](TriId t) { return taken[t] == 0; });
+  if (gap == fan.triangles.end()) return {fan.triangles};
+  const std::size_t start = fan.whole ? static_cast<std::size_t>(gap - fan.triangles.begin()) : 0;
+  bool follows = false;
+  for (std::size_t k = 0; k < n; ++k) {
+    const TriId t = fan.triangles[(start + k) % n];
+    if (taken[t] != 0) {
+      if (!follows) sets.emplace_back();
+      sets.back().push_back(t);
+    }
+    follows = taken[t] != 0;
+  }
+  return sets;
+}
+
+// Both ends of each edge between a taken triangle and another.
+std::vector<Corner> cornersAtCut(const TriMesh& mesh, const std::vector<std::uint8_t>& taken, const ItemLoop& loop) {
+  return joined(overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
+    std::vector<Corner> found;
+    for (auto t = static_cast<TriId>(first); t < last; ++t) {
+      if (taken[t] == 0) continue;
+      for (unsigned i = 0; i < 3; ++i) {
+        const EdgeRef across = mesh.twin(edgeRef(t, i));
+        if (across == kNone || taken[triOf(across)] != 0) continue;
+        found.push_back({t, next3(i)});
+        found.push_back({t, prev3(i)});
+      }
+    }
+    return found;
+  }));
+}
+
+std::size_t leaveOutLoose(const TriMesh& mesh, std::vector<std::uint8_t>& taken, const ItemLoop& loop) {
+  std::size_t left_out = 0;
+  std::vector<Corner> corners = cornersAtCut(mesh, taken, loop);
+  for (std::size_t at = 0; at < corners.size(); ++at) {  // grows
+    std::vector<std::vector<TriId>> sets = takenSets(fanAt(mesh, corners[at]), taken);
+    if (sets.size() < 2) continue;
+    const auto smaller = [](const std::vector<TriId>& a, const std::vector<TriId>& b) {
+      return a.size() != b.size() ? a.size() < b.size() : std::ranges::min(a) > std::ranges::min(b);
+    };
+    sets.erase(std::ranges::max_element(sets, smaller));
+    for (const std::vector<TriId>& set : sets) {
+      for (const TriId t : set) {
+        taken[t] = 0;
+        ++left_out;
+        for (unsigned i = 0; i < 3; ++i) corners.push_back({t, i});
+      }
+    }
+  }
+  return left_out;
+}
+
+struct Sides {
+  unsigned cut = 0;         // with a triangle across that is not taken
+  unsigned neighbours = 0;  // with a taken one
+  TriId neighbour = kNone;
+};
+
+Sides sidesOf(const TriMesh& mesh, const std::vector<std::uint8_t>& taken, TriId t) {
+  Sides sides;
+  for (const EdgeRef across : mesh.triangles[t].adj) {
+    if (across == kNone) continue;
+    if (taken[triOf(across)] == 0) {
+      ++sides.cut;
+    } else {
+      ++sides.neighbours;
+      sides.neighbour = triOf(across);
+    }
+  }
+  return sides;
+}
+
+std::size_t leaveOutTeeth(const TriMesh& mesh, std::vector<std::uint8_t>& taken, const ItemLoop& loop) {
+  const auto isTooth = [&](TriId t) {
+    const Sides sides = sidesOf(mesh, taken, t);
+    return sides.cut > 1 || (sides.cut > 0 && sides.neighbours == 0);
+  };
+  const std::vector<TriId> teeth =
+      joined(overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
+        std::vector<TriId> found;
+        for (auto t = static_cast<TriId>(first); t < last; ++t) {
+          if (taken[t] == 0 || !isTooth(t)) continue;
+          const TriId neighbour = sidesOf(mesh, taken, t).neighbour;
+          if (neighbour == kNone || !isTooth(neighbour)) found.push_back(t);
+        }
+        return found;
+      }));
+  for (const TriId t : teeth) taken[t] = 0;
+  return teeth.size();
+}
+
+}  // namespace
+
+TidiedCut tidyCut(const TriMesh& mesh, std::vector<std::uint8_t>& taken, const ItemLoop& loop) {
+  TidiedCut tidied;
+  tidied.loose = leaveOutLoose(mesh, taken, loop);
+  std::vector<std::uint8_t> without = taken;
+  const std::size_t teeth = leaveOutTeeth(mesh, without, loop);
+  if (teeth == 0 || std::ranges::find(without, 1) == without.end()) return tidied;
+  taken = std::move(without);
+  tidied.teeth = teeth;
+  tidied.loose += leaveOutLoose(mesh, taken, loop);
+  return tidied;
+}
+
+}  // namespace coastmesh
