@@ -149,7 +149,9 @@ Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOpti
   if (!guides.passages.empty() || !guides.barriers.empty()) {
     WaterAreas by_the_user;
     size.measure(start.triangles);
-    widenPassages(start.triangles, sizes, guides.passages, edit, by_the_user, noted.passages);
+    const SmallWaters small =
+        smallWaters(start.triangles, sizes, {}, options.leastOfSmall(), connectedRegions(start.triangles, loop), loop);
+    widenPassages(start.triangles, sizes, guides.passages, small, edit, by_the_user, noted.passages);
     closeBarriers(start.triangles, sizes, guides, edit, noted.open_barriers);
   }
   JoinedShores joined = openJoined(std::move(start), sizes, guides, options, loop);
