@@ -127,7 +127,9 @@ void applyGuides(ShoreTriangles& triangles, const PassageSizes& size, const Foll
   const ShoreSizes sizes{size, task.scales};
   WaterAreas by_the_user;
   size.measure(triangles);
-  widenPassages(triangles, sizes, task.guides.passages, edit, by_the_user, noted.passages);
+  const SmallWaters small =
+      smallWaters(triangles, sizes, {}, task.options.leastOfSmall(), connectedRegions(triangles, task.loop), task.loop);
+  widenPassages(triangles, sizes, task.guides.passages, small, edit, by_the_user, noted.passages);
   closeBarriers(triangles, sizes, task.guides, edit, noted.open_barriers);
 }
 

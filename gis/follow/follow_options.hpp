@@ -15,6 +15,9 @@ struct FollowOptions {
   double strait_min = 0.4;
   KeepWater keep = KeepWater::All;
   bool of_land = false;  // land is meshed, so notes refer to land instead of water
+
+  // Waters without any water this wide stay about as they are.
+  double leastOfSmall() const { return channel_min > 0.0 && channel_min < 1.0 ? channel_min : 1.0; }
 };
 
 }  // namespace coastmesh

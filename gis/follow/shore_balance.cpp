@@ -31,9 +31,8 @@ OpenedShores openShores(const ShoreStart& start, const ShoreSizes& sizes, const 
   };
   opened.after = start.triangles;
   ShoreTriangles& triangles = opened.after;
-  const double least = options.channel_min > 0.0 ? std::min(options.channel_min, 1.0) : 1.0;
   const ConnectedRegions connected = connectedRegions(triangles, loop);
-  const SmallWaters small = smallWaters(triangles, sizes, guides, least, connected, loop);
+  const SmallWaters small = smallWaters(triangles, sizes, guides, options.leastOfSmall(), connected, loop);
   openLand(triangles, sizes, guides, first * options.land_min, small, edit, opened.gained, opened.spits, loop);
   opened.gained_before = opened.gained;
   opened.edits_before = opened.edits.size();

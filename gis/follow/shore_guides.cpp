@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <set>
+#include <utility>
 
 #include "core/metric.hpp"
 #include "core/predicates.hpp"
@@ -170,8 +173,39 @@ bool LineZone::hasAnotherNear(const Point& x, double reach, std::size_t own) con
   return found;
 }
 
+namespace {
+
+// For each region of water, the one that it becomes part of: small waters become part of a larger one beside them, or
+// beside other small ones at which they lie. Borders as fine as the data would stay between them otherwise.
+std::vector<RegionId> largerBeside(const ShoreTriangles& triangles, const SmallWaters& small) {
+  const TriMesh& mesh = triangles.mesh;
+  std::vector<RegionId> larger(small.size());
+  std::iota(larger.begin(), larger.end(), RegionId{0});
+  std::set<std::pair<RegionId, RegionId>> beside;  // a small one, and another
+  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
+    const RegionId region = mesh.regions[t];
+    if (region == triangles.land || !small[static_cast<std::size_t>(region)]) continue;
+    for (const EdgeRef e : mesh.triangles[t].adj)
+      if (const RegionId other = mesh.regions[triOf(e)]; other != triangles.land && other != region)
+        beside.emplace(region, other);
+  }
+  const auto isSmall = [&](RegionId region) { return small[static_cast<std::size_t>(larger[region])]; };
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const auto& [region, other] : beside) {
+      if (!isSmall(region) || isSmall(other)) continue;
+      larger[region] = larger[other];
+      changed = true;
+    }
+  }
+  return larger;
+}
+
+}  // namespace
+
 void widenPassages(ShoreTriangles& triangles, const ShoreSizes& sizes, const std::vector<ShoreLine>& passages,
-                   const ShoreEdit& edit, WaterAreas& gained, PassageEffects& effects, const ItemLoop& loop) {
+                   const SmallWaters& small, const ShoreEdit& edit, WaterAreas& gained, PassageEffects& effects,
+                   const ItemLoop& loop) {
   Helpers helpers(triangles);
   struct Piece {
     Point a, b;
@@ -225,6 +259,7 @@ void widenPassages(ShoreTriangles& triangles, const ShoreSizes& sizes, const std
   helpers.finish(sizes.wanted);
   const BoxTree tree(boxes, BoxTree::Order::Hilbert);
   const BoxGrid grid(boxes);
+  std::vector<TriId> dug;
   for (TriId t = 0; t < triangles.mesh.triangles.size(); ++t) {
     if (triangles.mesh.regions[t] != triangles.land || (usesOf(triangles, t) & (kAround | kOnOpen)) != 0) continue;
     const auto& v = triangles.mesh.triangles[t].v;
@@ -238,12 +273,22 @@ void widenPassages(ShoreTriangles& triangles, const ShoreSizes& sizes, const std
       nearest = far;
       triangles.mesh.regions[t] = pieces[i].water;
     });
-    if (triangles.mesh.regions[t] == triangles.land) continue;
-    const double scale = sizes.scale.at(centre);
+    if (triangles.mesh.regions[t] != triangles.land) dug.push_back(t);
+  }
+  const std::vector<RegionId> larger = largerBeside(triangles, small);
+  for (RegionId& region : triangles.mesh.regions)
+    if (region != triangles.land) region = larger[region];
+  for (const TriId t : dug) {
+    const auto& v = triangles.mesh.triangles[t].v;
+    const Point &a = triangles.mesh.point(v[0]), &b = triangles.mesh.point(v[1]), &c = triangles.mesh.point(v[2]);
+    const double scale = sizes.scale.at(centroid(a, b, c));
     gained[triangles.mesh.regions[t]] += 0.5 * cross(b - a, c - a) / scale / scale;
   }
-  for (std::size_t i = widened_before; i < effects.widened.size(); ++i)
-    edit(EditKind::WidenedPassage, effects.widened[i].place, effects.widened[i].water);
+  for (std::size_t i = widened_before; i < effects.widened.size(); ++i) {
+    WidenedPassage& passage = effects.widened[i];
+    passage.water = larger[passage.water];
+    edit(EditKind::WidenedPassage, passage.place, passage.water);
+  }
   settleShores(triangles, sizes.wanted, loop);
 }
 

@@ -79,10 +79,11 @@ struct PassageEffects {
 };
 
 // Makes land water along passages, where these run over land or through water that is too narrow: from the first water
-// on the line to the last, but not beyond open boundaries. Gains of waters are added to `gained`, all else to report to
-// `effects`. Settles the triangles.
+// on the line to the last, but not beyond open boundaries. Waters that are `small` become part of a larger one that is
+// beside them then. Gains of waters are added to `gained`, all else to report to `effects`. Settles the triangles.
 void widenPassages(ShoreTriangles& triangles, const ShoreSizes& sizes, const std::vector<ShoreLine>& passages,
-                   const ShoreEdit& edit, WaterAreas& gained, PassageEffects& effects, const ItemLoop& loop = inOrder);
+                   const SmallWaters& small, const ShoreEdit& edit, WaterAreas& gained, PassageEffects& effects,
+                   const ItemLoop& loop = inOrder);
 
 // A barrier that meets no water, or that water goes around: no shore or other barrier is within an element of its end.
 struct OpenBarrier {

@@ -22,9 +22,8 @@ using ConnectedRegions = std::vector<RegionId>;
 
 ConnectedRegions connectedRegions(const ShoreTriangles& triangles, const ItemLoop& loop = inOrder);
 
-// For each region of water: true if no triangle of its water is `narrowest` times the size wide, or stays for another
-// reason. `openWater` then closes nothing of it.
-using SmallWaters = std::vector<bool>;
+// Waters no triangle of which is `narrowest` times the size wide, or stays for another reason: `openWater` closes
+// nothing of them.
 SmallWaters smallWaters(ShoreTriangles& triangles, const ShoreSizes& sizes, const ShoreGuides& guides, double narrowest,
                         const ConnectedRegions& connected, const ItemLoop& loop = inOrder);
 

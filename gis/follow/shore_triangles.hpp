@@ -38,6 +38,9 @@ struct ShoreTriangles {
   bool is_new = true;             // never settled: water may touch itself anywhere
 };
 
+// For each region of water: true if no element fits into its water (`smallWaters`).
+using SmallWaters = std::vector<bool>;
+
 // Cuts segments between water and land where another shore, or one of `lines`, is within about the size wanted, so that
 // triangles between them are as wide as the water or the land there.
 void sampleShores(ShoreGraph& graph, const SizeFunction& size, const BoxTree& lines = {},

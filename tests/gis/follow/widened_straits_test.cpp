@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/metric.hpp"
 #include "gis/follow/coast_follow.hpp"
 #include "tests/support/followed_coasts.hpp"
 
@@ -89,6 +90,27 @@ TEST(WidenedStraits, NoWaterIsCountedTwiceOrWhileStillApart) {
     followSizes(Domain(domain), ConstantSize(2.0), {}, oneFeature(), widened);
     EXPECT_GE(widened.waters.joined.count, 10u) << seed;
     EXPECT_LE(widened.waters.joined.count + widened.waters.cut_off.count, separate.waters.cut_off.count) << seed;
+  }
+}
+
+// A pond in which no element fits, beside a strait that is widened, is no feature of its own any more: its shore
+// would stay in the water, as fine as the data.
+TEST(WidenedStraits, PondsBesideThemBecomePartOfThem) {
+  Coastline features = oneFeature();
+  features.features.push_back(features.features.front());
+  for (const double low : {10.7, 10.4}) {
+    Domain domain = twoLakes(low > 10.5 ? 1.0 : 0.6);
+    addShore(domain, {{24.6, low}, {25.4, low}, {25.0, low + 0.8}});
+    for (std::size_t i = domain.pslg.segments.size() - 3; i < domain.pslg.segments.size(); ++i)
+      domain.pslg.segments[i].left = 1;
+    CleanReport report;
+    const Domain followed = followSizes(std::move(domain), ConstantSize(2.0), {.strait_min = 0.25}, features, report);
+    EXPECT_EQ(report.waters.joined.count, 1u) << low;
+    EXPECT_EQ(parts(followed), 1u) << low;
+    for (const Segment& s : followed.pslg.segments) {
+      EXPECT_TRUE(s.left == kOutside || s.right == kOutside) << low;
+      EXPECT_GT(distance(followed.pslg.points[s.a], followed.pslg.points[s.b]), 1.0) << low;
+    }
   }
 }
 
