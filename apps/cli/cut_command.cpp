@@ -174,7 +174,7 @@ Command declareCut(CLI::App& root) {
   table.flag({"--overwrite", "Replace files"}, usage->overwrite, "replace files that exist");
   table.section(Section::Run);
   table.flag({"--quiet", "No summary"}, usage->quiet, "print no summary");
-  table.example("coastmesh cut fort.14 -o bay.14 --bbox=-71.5,18,-70,19.2 --assume-crs EPSG:4326",
+  table.example("coastmesh cut fort.14 -o bay.14 --bbox=-91,46.5,-90,47 --assume-crs EPSG:4326",
                 "the part of a grid in a box");
   table.example("coastmesh cut hgrid.gr3 -o bay.gr3 --within bay.geojson --numbers numbers.csv",
                 "the part in polygons, with the numbers that its nodes had");

@@ -95,6 +95,8 @@ class Folder:
                                 os.path.join(self.path, f"{name}.{ending}"))
             with open(os.path.join(self.path, "job.toml"), "w", encoding="utf-8") as job:
                 job.write('input = ["lake.geojson"]\noutput = ["job.nc"]\nmin-angle = 30\n')
+            with open(os.path.join(self.path, "bay.geojson"), "w", encoding="utf-8") as bay:
+                bay.write('{"type": "Polygon", "coordinates": [[[-91, 46.5], [-90, 46.5], [-90, 47], [-91, 47], [-91, 46.5]]]}')
             # Depths for the whole lake.
             self.run("gdal_create -q -of GTiff -ot Float32 -outsize 20 20 -a_srs EPSG:4326 -a_ullr -93 50 -83 45 -burn -50 dem.tif")
             self.run("coastmesh clean lake.geojson -o lakes.gpkg && coastmesh mesh lake.geojson -o grid.2dm "
