@@ -32,8 +32,8 @@ OpenedShores openShores(const ShoreStart& start, const ShoreSizes& sizes, const 
   opened.after = start.triangles;
   ShoreTriangles& triangles = opened.after;
   const ConnectedRegions connected = connectedRegions(triangles, loop);
-  const SmallWaters small = smallWaters(triangles, sizes, guides, options.leastOfSmall(), connected, loop);
-  openLand(triangles, sizes, guides, first * options.land_min, small, edit, opened.gained, opened.spits, loop);
+  opened.small = smallWaters(triangles, sizes, guides, options.leastOfSmall(), connected, loop);
+  openLand(triangles, sizes, guides, first * options.land_min, opened.small, edit, opened.gained, opened.spits, loop);
   opened.gained_before = opened.gained;
   opened.edits_before = opened.edits.size();
   opened.spits_before = opened.spits.size();
@@ -45,7 +45,7 @@ OpenedShores openShores(const ShoreStart& start, const ShoreSizes& sizes, const 
   if (first < 1.0) {
     opened.straits = closedStraits(triangles, sizes.scale);
     settleShores(triangles, sizes.wanted, loop);
-    openLand(triangles, sizes, guides, options.land_min, small, edit, opened.gained, opened.spits, loop);
+    openLand(triangles, sizes, guides, options.land_min, opened.small, edit, opened.gained, opened.spits, loop);
     water = close(options.keep);
   }
   opened.waters = std::move(water.waters);

@@ -25,6 +25,7 @@ struct OpenedShores {
   WaterAreas gained_before;
   std::size_t edits_before = 0, spits_before = 0;
   ShoreTriangles after;  // not settled
+  SmallWaters small;     // by region, at the start
   std::vector<WaterPart> waters;
   std::vector<ClosedStrait> straits;  // closed before the second opening of land; see `allStraits`
   WaterAreas areas, gained;

@@ -121,9 +121,7 @@ class Joiner {
       start_.edits.emplace_back(kind, place, water);
     };
     PassageEffects effects;
-    const SmallWaters small = smallWaters(start_.triangles, sizes_, {}, options_.leastOfSmall(),
-                                          connectedRegions(start_.triangles, loop_), loop_);
-    widenPassages(start_.triangles, sizes_, lines, small, edit, start_.gained, effects, loop_);
+    widenPassages(start_.triangles, sizes_, lines, opened_.small, edit, start_.gained, effects, loop_);
     guides_.passages.insert(guides_.passages.end(), lines.begin(), lines.end());
     opened_ = openShores(start_, sizes_, guides_, options_, opened_.first, loop_);
     return true;
