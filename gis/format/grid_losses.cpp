@@ -208,9 +208,9 @@ std::string lossesIn(const Grid& grid, const GridFormat& format, LossesOf of) {
 }
 
 std::string depthWarning(const Grid& grid, const std::string& path) {
-  return grid.z.empty() ? "the mesh has no depths: '" + path +
-                              "' says 0 everywhere; --bathymetry of mesh and convert gives it some"
-                        : "";
+  return grid.z.empty()
+             ? "the mesh has no depths: '" + path + "' says 0 everywhere; give --bathymetry to mesh or convert"
+             : "";
 }
 
 std::string metreWarning(const Grid& grid, const std::string& path) {
