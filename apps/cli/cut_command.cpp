@@ -10,6 +10,7 @@
 #include "apps/usage/grid_usage.hpp"
 #include "apps/usage/input_usage.hpp"
 #include "apps/usage/target_usage.hpp"
+#include "gis/coast/box_of_frame.hpp"
 #include "gis/cut/cut_grid.hpp"
 #include "gis/cut/cut_region.hpp"
 #include "gis/error.hpp"
@@ -45,12 +46,9 @@ void requirePossible(const CutUsage& usage) {
 }
 
 [[noreturn]] void refuseEmpty(const CutUsage& usage, const Grid& grid) {
-  const Box box = boxAround(grid.nodes, inOrder);
-  char extent[160];
-  std::snprintf(extent, sizeof extent, "%.10g,%.10g,%.10g,%.10g", box.xmin, box.ymin, box.xmax, box.ymax);
   throw InputError("no triangle of '" + usage.mesh.path +
-                   "' has its middle in the part to cut out; the mesh extends, " + "as W,S,E,N, over " + extent +
-                   (grid.crs.isPlane() ? "" : " (" + nameOf(grid.crs) + ")"));
+                   "' has its middle in the part to cut out; the mesh extends, as W,S,E,N, over " +
+                   inWords(boxAround(grid.nodes, inOrder)) + (grid.crs.isPlane() ? "" : " (" + nameOf(grid.crs) + ")"));
 }
 
 void writeNumbers(const CutReport& report, const std::string& path, const ItemLoop& loop) {
@@ -148,8 +146,7 @@ Command declareCut(CLI::App& root) {
       {"--bbox", "Bounding box"}, "W,S,E,N", false,
       [&region](const std::vector<double>& sides) { return storeBox(sides, region.box); },
       "keep only triangles whose middle is in this box, in the mesh's CRS; in degrees, a box with E less than W "
-      "crosses "
-      "the antimeridian");
+      "crosses the antimeridian");
   table.texts({"--within", "Within polygons"}, region.within, kVectorFile, false,
               "keep only triangles whose middle is in a polygon of this file, in any CRS; can be repeated");
   table.texts({"--outside", "Outside polygons"}, region.outside, kVectorFile, false,
