@@ -50,14 +50,13 @@ class Constraints {
           for (std::size_t l = first; l < last; ++l) beyond = std::max({beyond, links_[l].a + 1, links_[l].b + 1});
           return beyond;
         }));
-    reserveOn(loop, first_, std::size_t{end} + 1);
-    first_.assign(std::size_t{end} + 1, 0);
+    first_ = filledList(loop, std::size_t{end} + 1, std::uint32_t{0});
     forEachByStretches(loop, links_.size(), [this](std::size_t l) {
       for (const VertexId v : {links_[l].a, links_[l].b}) __atomic_add_fetch(&first_[v], 1, __ATOMIC_RELAXED);
     });
     // first_ holds ends now; filling backwards turns them into starts.
-    for (VertexId v = 0; v < end; ++v) first_[v + 1] += first_[v];
-    at_.resize(2 * links_.size());
+    sumUpOn(loop, first_);
+    resizeUnset(at_, 2 * links_.size());
     forEachByStretches(loop, links_.size(), [this](std::size_t l) {
       for (const VertexId v : {links_[l].a, links_[l].b})
         at_[__atomic_sub_fetch(&first_[v], 1, __ATOMIC_RELAXED)] = static_cast<std::uint32_t>(l);
@@ -125,8 +124,8 @@ class Constraints {
 
   const TriMesh& mesh_;
   std::vector<Link> links_;
-  std::vector<std::uint32_t> first_, at_;  // the links at vertex v: at_[first_[v]] up to at_[first_[v + 1]]
-  std::vector<std::uint32_t> chain_;       // for each link: the constraint that it is part of
+  BulkList<std::uint32_t> first_, at_;  // the links at vertex v: at_[first_[v]] up to at_[first_[v + 1]]
+  std::vector<std::uint32_t> chain_;    // for each link: the constraint that it is part of
 };
 
 // A vertex or constraint to which distances are measured.
@@ -157,7 +156,7 @@ std::vector<Feature> featuresOf(const TriMesh& mesh, const Constraints& constrai
     if (constraints.at(v).empty()) list.push_back(v);
   });
   if (alone.empty()) return features;
-  const std::vector<std::uint8_t> used = usedVertices(mesh, loop);
+  const BulkList<std::uint8_t> used = usedVertices(mesh, loop);
   for (const VertexId v : alone)
     if (used[v]) features.push_back({v, v, kNone});
   return features;

@@ -38,7 +38,7 @@ void forEachStretch(const ItemLoop& loop, std::size_t count, std::size_t stretch
 // number of threads.
 template <typename Make>
 auto overStretches(const ItemLoop& loop, std::size_t count, const Make& make, std::size_t least = 8192) {
-  constexpr std::size_t kMostStretches = 256;
+  constexpr std::size_t kMostStretches = 1024;
   const std::size_t stretches = std::clamp<std::size_t>(count / least, 1, kMostStretches);
   using Made = decltype(make(count, count));
   static_assert(!std::is_same_v<Made, bool>, "elements of a std::vector<bool> cannot be written by several threads");

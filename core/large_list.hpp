@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 #include "core/bulk_list.hpp"
@@ -24,11 +25,46 @@ void resizeOn(const ItemLoop& loop, std::vector<Item>& items, std::size_t count,
   items.resize(count, fill);
 }
 
+// A list of `count` equal items.
+template <typename Item>
+BulkList<Item> filledList(const ItemLoop& loop, std::size_t count, const Item& value) {
+  BulkList<Item> items = unsetList<Item>(count);
+  forEachByStretches(loop, count, [&](std::size_t i) { items[i] = value; });
+  return items;
+}
+
 // Numbers that are all kNone.
 inline BulkList<std::uint32_t> noNumbers(const ItemLoop& loop, std::size_t count) {
-  BulkList<std::uint32_t> none = unsetList<std::uint32_t>(count);
-  forEachByStretches(loop, count, [&](std::size_t i) { none[i] = kNone; });
-  return none;
+  return filledList<std::uint32_t>(loop, count, kNone);
+}
+
+// How many items equal a value.
+template <typename Items, typename Item>
+std::size_t countOn(const ItemLoop& loop, const Items& items, const Item& value) {
+  std::size_t all = 0;
+  for (const std::size_t some : overStretches(loop, items.size(), [&](std::size_t first, std::size_t last) {
+         std::size_t count = 0;
+         for (std::size_t i = first; i < last; ++i) count += items[i] == value ? 1 : 0;
+         return count;
+       }))
+    all += some;
+  return all;
+}
+
+// Replaces each number by the sum of those up to it.
+template <typename Numbers>
+void sumUpOn(const ItemLoop& loop, Numbers& numbers) {
+  using Number = typename Numbers::value_type;
+  std::vector<Number> sums = overStretches(loop, numbers.size(), [&](std::size_t first, std::size_t last) {
+    Number sum = 0;
+    for (std::size_t i = first; i < last; ++i) sum += numbers[i];
+    return sum;
+  });
+  std::exclusive_scan(sums.begin(), sums.end(), sums.begin(), Number{0});
+  forEachStretch(loop, numbers.size(), sums.size(), [&](std::size_t s, std::size_t first, std::size_t last) {
+    Number sum = sums[s];
+    for (std::size_t i = first; i < last; ++i) numbers[i] = sum += numbers[i];
+  });
 }
 
 // What `add(i, list)` appends for every i below `count`, in this order; several threads fill lists of their own first.

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "core/large_list.hpp"
 #include "core/metric.hpp"
 
 namespace coastmesh {
@@ -225,8 +226,8 @@ MeshQuality measureQuality(const TriMesh& mesh, double min_angle_deg, double max
       }
     }
   }
-  const std::vector<std::uint8_t> used = usedVertices(mesh, loop);
-  whole.vertices = static_cast<std::uint64_t>(std::ranges::count(used, std::uint8_t{1}));
+  const BulkList<std::uint8_t> used = usedVertices(mesh, loop);
+  whole.vertices = countOn(loop, used, std::uint8_t{1});
   return whole;
 }
 

@@ -151,10 +151,8 @@ std::vector<std::vector<VertexId>> boundaryLoops(const TriMesh& mesh, const Item
   return loops;
 }
 
-std::vector<std::uint8_t> usedVertices(const TriMesh& mesh, const ItemLoop& loop) {
-  std::vector<std::uint8_t> used;
-  reserveOn(loop, used, mesh.points.size());
-  used.resize(mesh.points.size(), 0);
+BulkList<std::uint8_t> usedVertices(const TriMesh& mesh, const ItemLoop& loop) {
+  BulkList<std::uint8_t> used = filledList(loop, mesh.points.size(), std::uint8_t{0});
   forEachByStretches(loop, mesh.triangles.size(), [&](std::size_t t) {
     // Several threads may set the flag of a vertex at the same time.
     for (const VertexId v : mesh.triangles[t].v) __atomic_store_n(&used[v], std::uint8_t{1}, __ATOMIC_RELAXED);

@@ -43,7 +43,7 @@ std::vector<EdgeRef> outgoingEdges(const TriMesh& mesh);
 std::vector<std::vector<VertexId>> boundaryLoops(const TriMesh& mesh, const ItemLoop& loop = inOrder);
 
 // For each vertex: 1 if it is the corner of a triangle.
-std::vector<std::uint8_t> usedVertices(const TriMesh& mesh, const ItemLoop& loop = inOrder);
+BulkList<std::uint8_t> usedVertices(const TriMesh& mesh, const ItemLoop& loop = inOrder);
 
 // A hash of coordinates and corners, in order. Equal meshes, bit for bit, give equal digests on every machine.
 std::uint64_t digestOf(const TriMesh& mesh, std::uint64_t seed = 0, const ItemLoop& loop = inOrder);

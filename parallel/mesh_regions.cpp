@@ -206,31 +206,49 @@ void meshWhole(MeshedRegion& region, const Pslg& pslg, const MeshOptions& option
 }
 
 // Repairs, in the whole mesh, triangles that could not be repaired while cores were kept out of it: first by local
-// repairs, which leave the rest unchanged, then by refining ever larger surroundings of them.
+// repairs, which leave the rest unchanged, then by refining ever larger surroundings of them. What local repairs in
+// pieces leave is taken out again before it is repaired uncut: few places, on one thread. An attempt that leaves as
+// many bad triangles is undone.
 template <typename Add>
 void mendBesideCores(MeshedRegion& region, std::vector<TriId> bad, const Pslg& pslg, const RefineOptions& options,
                      const VertexNotes& notes, const HelpedRegion* helpers, const RunControl& control, const Add& add) {
-  constexpr std::array<unsigned, 3> kEdges{10, 64, 256};
+  struct Attempt {
+    unsigned edges;
+    Mending how;
+  };
+  // At 41° and more repairs give up after many failures; each further attempt mends some. Refining 256 edges around a
+  // triangle has doubled a mesh.
+  constexpr std::array kAttempts{Attempt{10, Mending::RepairInPieces}, Attempt{32, Mending::RepairUncut},
+                                 Attempt{100, Mending::RepairUncut},   Attempt{40, Mending::RepairInPieces},
+                                 Attempt{100, Mending::RepairUncut},   Attempt{64, Mending::Refine},
+                                 Attempt{256, Mending::Refine}};
   TriMesh& mesh = region.mesh;
-  for (const unsigned edges : kEdges) {
+  for (const auto& [edges, how] : kAttempts) {
     if (bad.empty()) break;
     Recorder before;
-    const Submesh patch = extractNear(mesh, notes, bad, edges, before.loop("stitch", control));
+    Submesh patch = extractNear(mesh, notes, bad, edges, before.loop("stitch", control));
     region.log.append(before.finish("stitch"));
     const std::uint64_t rest = mesh.points.size() - patch.parent.size();
     RefineOptions own = options;
     own.max_vertices -= std::min(own.max_vertices, rest);
     RoundsWorkspace workspace;
     workspace.helpers = helpers;
-    TriMesh solved = patch.mesh;
-    RoundsReport report = mendInRounds(solved, pslg, own, patch.notes, edges == kEdges.front(), control, workspace);
+    TriMesh solved = std::move(patch.mesh);
+    RoundsReport report = mendInRounds(solved, pslg, own, std::move(patch.notes), how, control, workspace);
     report.pieces = 0;  // those of a patch do not count
     const bool is_full = report.stats.budget_reached;
-    add(std::move(report));
     Recorder after;
-    bad = trianglesInViolation(solved, options, notes.corners.get(), after.loop("stitch", control));
-    const std::vector<TriId> number = putBack(mesh, patch, solved, after.loop("stitch", control));
-    for (TriId& t : bad) t = number[t];
+    std::vector<TriId> left = trianglesInViolation(solved, options, notes.corners.get(), after.loop("stitch", control));
+    if (left.size() >= bad.size()) {
+      region.stats.budget_reached |= is_full;
+      region.log.append(std::move(report.log));
+      region.log.append(after.finish("stitch"));
+      continue;
+    }
+    add(std::move(report));
+    const BulkList<TriId> number = putBack(mesh, patch, solved, after.loop("stitch", control));
+    for (TriId& t : left) t = number[t];
+    bad = std::move(left);
     region.log.append(after.finish("stitch"));
     if (is_full) break;
   }
@@ -293,7 +311,7 @@ void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opt
   if (begins(RoundsStage::Refine))
     add(refineInRounds(region.mesh, pslg, around, std::move(seeds.notes), refining, workspace));
   region.seconds.refine = watch.lap();
-  giveBackFreeMemory();
+  if (seeds.cores.empty()) giveBackFreeMemory();
   if (options.coarsen && begins(RoundsStage::Coarsen)) {
     add(coarsenInRounds(region.mesh, pslg, around, stages.next(), workspace));
     region.seconds.coarsen = watch.lap();
@@ -318,7 +336,7 @@ void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opt
   const ItemLoop label = recorder.loop("label", control);
   if (options.cap.empty() && options.list_violations)
     region.stats.unresolved = findBoundViolations(region.mesh, options.refine, label);
-  giveBackFreeMemory();
+  if (seeds.cores.empty()) giveBackFreeMemory();
   if (options.cap.empty()) labelRegions(region.mesh, pslg, label);
   if (options.mark_pieces) region.piece_of = piecesOf(region.mesh, cuts, label);
   region.log.append(recorder.finish());

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <vector>
 
-#include "core/bulk_list.hpp"
+#include "core/large_list.hpp"
 
 namespace coastmesh {
 
@@ -18,11 +19,10 @@ bool isDue(const MeshState& whole, TriId t) {
 }
 
 // Concatenates lists, of most triangles of a large mesh.
-std::vector<TriId> joinedOn(const ItemLoop& loop, const std::vector<std::vector<TriId>>& lists) {
+BulkList<TriId> joinedOn(const ItemLoop& loop, const std::vector<std::vector<TriId>>& lists) {
   std::vector<std::size_t> before(lists.size() + 1, 0);
   for (std::size_t i = 0; i < lists.size(); ++i) before[i + 1] = before[i] + lists[i].size();
-  std::vector<TriId> all;
-  resizeAnew(loop, all, before.back());
+  BulkList<TriId> all = unsetList<TriId>(before.back());
   loop(lists.size(),
        [&](std::size_t i) { std::ranges::copy(lists[i], all.begin() + static_cast<std::ptrdiff_t>(before[i])); });
   return all;
@@ -30,9 +30,9 @@ std::vector<TriId> joinedOn(const ItemLoop& loop, const std::vector<std::vector<
 
 }  // namespace
 
-std::vector<TriId> trianglesNearDue(const MeshState& whole, unsigned edges, const ItemLoop& loop) {
+BulkList<TriId> trianglesNearDue(const MeshState& whole, unsigned edges, const ItemLoop& loop) {
   const std::size_t count = whole.mesh.triangles.size();
-  std::vector<std::uint8_t> taken(count, 0);
+  BulkList<std::uint8_t> taken = filledList(loop, count, std::uint8_t{0});
   const auto stretchesOf = [&](const auto& take) {
     return joinedOn(loop, overStretches(loop, count, [&](std::size_t first, std::size_t last) {
                       std::vector<TriId> some;
@@ -41,7 +41,7 @@ std::vector<TriId> trianglesNearDue(const MeshState& whole, unsigned edges, cons
                       return some;
                     }));
   };
-  std::vector<TriId> front = stretchesOf([&](TriId t) { return (taken[t] = isDue(whole, t)) != 0; });
+  BulkList<TriId> front = stretchesOf([&](TriId t) { return (taken[t] = isDue(whole, t)) != 0; });
   for (unsigned edge = 0; edge < edges && !front.empty(); ++edge) {
     // The set does not depend on which thread reaches a triangle first.
     front = joinedOn(

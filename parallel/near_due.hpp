@@ -1,13 +1,12 @@
 #pragma once
 
-#include <vector>
-
+#include "core/bulk_list.hpp"
 #include "core/item_loop.hpp"
 #include "core/refine/submesh.hpp"
 
 namespace coastmesh {
 
 // The triangles that are due or have a due vertex, and those within `edges` edges of them; ascending.
-std::vector<TriId> trianglesNearDue(const MeshState& whole, unsigned edges, const ItemLoop& loop);
+BulkList<TriId> trianglesNearDue(const MeshState& whole, unsigned edges, const ItemLoop& loop);
 
 }  // namespace coastmesh

@@ -42,9 +42,12 @@ constexpr double kSizeStep = 3.0;
 // neighbours with 3, 92 % with 9, 93 % with 16, 96 % without a step. Pieces with longer edges are few large triangles,
 // most of them at a cut: with 16 the critical path is twice as long.
 constexpr double kLastStep = 9.0;
-// Degrees. Triangles with a smaller angle, which reach from shore to shore, are refined before the first cut. A larger
-// value costs vertices and single-threaded time; a smaller one leaves triangles that cross several pieces.
+// Degrees. Triangles with a smaller angle, which reach from shore to shore, are refined first. A larger value costs
+// vertices and time in few pieces; a smaller one leaves triangles that cross several pieces.
 constexpr double kFirstAngleDeg = 0.5;
+// Rounds of that step: the first cuts the mesh into a few large pieces, as it is little work; the second takes what lay
+// across those cuts. What is left then lies in input angles of its own size.
+constexpr int kRoundsOfFirstStep = 2;
 // Most rounds of a step, not counting the uncut one at the end. A safeguard: most steps end earlier, by `kFewDue`.
 constexpr int kMostRounds = 8;
 // Bad triangles that a step may leave to the next. A larger number leaves single-threaded work, a smaller one takes
@@ -61,6 +64,8 @@ constexpr std::size_t kSmallMesh = 1'000'000;
 // Rounds after the first work within this many edges of due triangles and vertices, and leave the rest of the mesh in
 // place. A smaller number leaves more work at the border to the next round, a larger one copies triangles for nothing.
 constexpr unsigned kEdgesRoundDue = 6;
+// The same for repairs without cuts: their patches reach six edges from a triangle.
+constexpr unsigned kEdgesOfRepairs = 12;
 // If more than this share of the triangles is near due ones, all are cut.
 constexpr double kWorthAll = 0.4;
 // Work, in triangles, that is not worth a cut: the first step makes about this many. A smaller number takes more steps,
@@ -124,6 +129,7 @@ enum class Extent {
   Uncut,    // the whole mesh, as one piece
   All,      // pieces of the whole mesh
   NearDue,  // pieces of the due triangles and vertices and their surroundings
+  Around,   // the same, and all that repairs may change around them, as one piece
 };
 
 bool anyOf(const std::vector<std::uint8_t>& flags) { return std::ranges::find(flags, 1) != flags.end(); }
@@ -182,15 +188,26 @@ class Rounds {
       return;
     }
     const std::size_t count = whole_.mesh.triangles.size();
-    std::vector<TriId> some;
-    if (extent == Extent::NearDue) {
-      some = trianglesNearDue(whole_, kEdgesRoundDue, recorder_.loop("cut"));
-      if (static_cast<double>(some.size()) > kWorthAll * static_cast<double>(count)) some.clear();
+    const auto nearDue = [&](unsigned edges) {
+      BulkList<TriId> near = trianglesNearDue(whole_, edges, recorder_.loop("cut"));
+      if (static_cast<double>(near.size()) > kWorthAll * static_cast<double>(count)) near.clear();
+      return near;
+    };
+    const auto weightOf = [&](const BulkList<TriId>& some) {
+      return some.empty() ? total(count, weigh) : total(some.size(), [&](TriId i) { return weigh(some[i]); });
+    };
+    BulkList<TriId> some;
+    if (extent == Extent::NearDue) some = nearDue(kEdgesRoundDue);
+    double weight = weightOf(some);
+    PieceId wanted = piecesFor(weight);
+    // Work for one piece is done at once, so that nothing waits for another round.
+    if (extent == Extent::Around || (extent == Extent::NearDue && wanted == 1)) {
+      some = nearDue(kEdgesOfRepairs);
+      weight = weightOf(some);
+      wanted = 1;
     }
-    const double weight =
-        some.empty() ? total(count, weigh) : total(some.size(), [&](TriId i) { return weigh(some[i]); });
     Partition& parts = workspace_.parts;
-    partition(whole_.mesh, some, piecesFor(weight), cutAngle(tally_.cut_rounds++), weigh, recorder_, parts);
+    partition(whole_.mesh, some, wanted, cutAngle(tally_.cut_rounds++), weigh, recorder_, parts);
     if (parts.pieces > tally_.pieces) {
       tally_.pieces = parts.pieces;
       tally_.cuts = parts.tree;
@@ -240,8 +257,8 @@ class Rounds {
     }
     if (some.empty()) {
       stitch(std::move(pieces), recorder_, whole_);
-      // The pieces' memory is not needed before the whole mesh is cut again.
-      if (parts.pieces > 1 && count >= kWorthGivingBack) giveBackFreeMemory();
+      // The pieces' memory is not needed before the whole mesh is cut again; cores, inserted later, need more.
+      if (parts.pieces > 1 && count >= kWorthGivingBack && !hasCores()) giveBackFreeMemory();
     } else {
       stitchInPlace(std::move(pieces), parts, recorder_, whole_);
     }
@@ -295,11 +312,11 @@ double longestFirst(const TriMesh& mesh, const Surface& surface, const ItemLoop&
   return std::min(std::sqrt(all.longest), std::sqrt(kExcess * all.area / (kEquilateral * kLittleWork)));
 }
 
-// The options of each step; those of the last are `options`. The first step works on the uncut mesh: it removes very
-// small angles, because the long thin triangles of a triangulation without Steiner points, from shore to shore, leave
-// no place for cuts, and makes edges as short as little work allows. Each further step requests shorter edges, so that
-// pieces never consist of few large triangles. If requested lengths need few triangles, the first step makes them all:
-// coarser steps would disturb the rows.
+// The options of each step; those of the last are `options`. The first step removes very small angles, because the long
+// thin triangles of a triangulation without Steiner points, from shore to shore, leave no place for many cuts; it makes
+// edges as short as little work allows. Each further step requests shorter edges, so that pieces never consist of few
+// large triangles. If requested lengths need few triangles, the first step makes them all: coarser steps would disturb
+// the rows.
 std::vector<RefineOptions> stepsTo(const RefineOptions& options, const TriMesh& mesh, const ItemLoop& loop) {
   std::vector<RefineOptions> steps{options};
   if (options.size != nullptr) {
@@ -404,12 +421,12 @@ bool isBesideFrozen(const TriMesh& mesh, TriId t, unsigned edges) {
           }));
 }
 
-// The rounds of one step, from round `first` on. `whole_first`: the step is a single uncut round. `mends`: the step
-// must leave nothing due but what waits for cores, and its last round is uncut. The step is this part of the stage;
-// `keep(round)` saves the state before that round. What ends the step depends on that state alone, so that a resumed
-// run makes the same mesh.
+// The rounds of one step, from round `first` on. `first_step`: it is the first of several. `mends`: the step must leave
+// nothing due but what waits for cores, and its last round is uncut. The step is this part of the stage; `keep(round)`
+// saves the state before that round. What ends the step depends on that state alone, so that a resumed run makes the
+// same mesh.
 template <typename Keep>
-void refineStep(Rounds& run, const Pslg& pslg, const RefineOptions& options, int first, bool whole_first, bool mends,
+void refineStep(Rounds& run, const Pslg& pslg, const RefineOptions& options, int first, bool first_step, bool mends,
                 const ProgressPart& part, const Keep& keep) {
   MeshState& whole = run.whole();
   const TriangleBound bound = boundOf(options);
@@ -422,21 +439,21 @@ void refineStep(Rounds& run, const Pslg& pslg, const RefineOptions& options, int
       return waits ? 0.0 : static_cast<double>(whole.due_triangles[t]);
     });
     // Steps other than the last may leave some triangles due.
-    if (left == 0.0 || (whole_first && round > 0)) break;
-    if (!mends && (left < kFewDue || round == kMostRounds)) break;
+    if (left == 0.0 || (first_step && round == kRoundsOfFirstStep)) break;
+    if (!mends && !first_step && (left < kFewDue || round == kMostRounds)) break;
     if (awaits_cores && left < kFewWithCores * static_cast<double>(whole.mesh.triangles.size())) break;
     if (round > 0 && isFull(run, options)) break;
-    const ProgressPart of_round = whole_first ? ProgressPart{} : partOfRound(round);
+    const ProgressPart of_round = partOfRound(round);
     run.begin(part.part(of_round.from, of_round.to));
     const bool soon_done = mends && round > 0 && left < kFewDue && whole.mesh.triangles.size() < kSmallMesh;
-    const bool uncut = whole_first || round == kMostRounds || (round > 0 && isNearlyFull(run, options));
+    const bool uncut = round == kMostRounds || (round > 0 && isNearlyFull(run, options));
     const Extent extent = uncut ? Extent::Uncut : round == 0 ? Extent::All : Extent::NearDue;
     const std::uint64_t unmended = run.stats().unmended;
     refineRound(run, pslg, options, bound, extent, mends);
-    // The whole mesh may allow repairs that a piece did not.
+    // Without cuts there may be repairs that a piece did not allow.
     if (soon_done && !uncut && run.stats().unmended != unmended) {
       markBad(run, bound);
-      refineRound(run, pslg, options, bound, Extent::Uncut, mends);
+      refineRound(run, pslg, options, bound, Extent::Around, mends);
     }
     // Another round could not do more.
     if (uncut && run.stats().budget_reached) round = kMostRounds;
@@ -466,28 +483,28 @@ RoundsReport refineInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions
   return run.finish(mesh);
 }
 
-RoundsReport mendInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, VertexNotes notes,
-                          bool repairs_alone, const RunControl& control, RoundsWorkspace& workspace) {
+RoundsReport mendInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, VertexNotes notes, Mending how,
+                          const RunControl& control, RoundsWorkspace& workspace) {
   Rounds run(std::move(mesh), control, workspace);
   MeshState& whole = run.whole();
   whole.notes = std::move(notes);
-  if (repairs_alone) {
-    // Triangles at a cut wait for the next round, which cuts elsewhere.
-    constexpr int kRepairRounds = 5;
-    for (int round = 0; round < kRepairRounds; ++round) {
-      markBad(run, strictBoundOf(options));
-      if (!anyOf(whole.due_triangles)) break;
-      run.begin({static_cast<double>(round) / kRepairRounds, static_cast<double>(round + 1) / kRepairRounds});
-      run.stats().budget_reached = false;
-      const auto weigh = [&](TriId t) { return whole.due_triangles[t] ? kOfARepair : kOfACopy; };
-      const std::uint64_t vertices = whole.mesh.points.size();
-      const Extent extent = round + 1 == kRepairRounds ? Extent::Uncut : Extent::All;
-      run.round("refine", weigh, extent, pslg, options, [&](const MeshState& state, double share) {
-        return PieceTask::of(PieceWork::Repair, optionsOfPiece(options, vertices, state, share));
-      });
-    }
-  } else {
+  if (how == Mending::Refine) {
     refineStep(run, pslg, options, 0, false, true, {}, [](int) {});
+    return run.finish(mesh);
+  }
+  // Triangles at a cut wait for the next round, which cuts elsewhere.
+  const int rounds = how == Mending::RepairUncut ? 1 : 4;
+  for (int round = 0; round < rounds; ++round) {
+    markBad(run, strictBoundOf(options));
+    if (!anyOf(whole.due_triangles)) break;
+    run.begin({static_cast<double>(round) / rounds, static_cast<double>(round + 1) / rounds});
+    run.stats().budget_reached = false;
+    const auto weigh = [&](TriId t) { return whole.due_triangles[t] ? kOfARepair : kOfACopy; };
+    const std::uint64_t vertices = whole.mesh.points.size();
+    const Extent extent = how == Mending::RepairUncut ? Extent::Uncut : Extent::All;
+    run.round("refine", weigh, extent, pslg, options, [&](const MeshState& state, double share) {
+      return PieceTask::of(PieceWork::Repair, optionsOfPiece(options, vertices, state, share));
+    });
   }
   return run.finish(mesh);
 }

@@ -43,10 +43,14 @@ struct RoundsReport {
 RoundsReport refineInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, VertexNotes notes,
                             const RunControl& control, RoundsWorkspace& workspace);
 
-// Refines the triangles that miss the bounds, in a mesh that meets them almost everywhere, in rounds of the same kind.
-// With `repairs_alone` only repairs them, in up to five rounds that change only patches around them.
-RoundsReport mendInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, VertexNotes notes,
-                          bool repairs_alone, const RunControl& control, RoundsWorkspace& workspace);
+// How to mend triangles that miss the bounds, in a mesh that meets them almost everywhere.
+enum class Mending {
+  RepairInPieces,  // repairs that change only patches around them, in up to four rounds
+  RepairUncut,     // the same in the whole mesh
+  Refine,          // refines them in rounds
+};
+RoundsReport mendInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, VertexNotes notes, Mending how,
+                          const RunControl& control, RoundsWorkspace& workspace);
 
 // Coarsens in rounds of the same kind.
 RoundsReport coarsenInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions& options, const RunControl& control,

@@ -196,8 +196,8 @@ void growWhereKept(const ItemLoop& loop, std::vector<Item, Allocator>& items, st
   if (!items.empty()) resizeBehind(loop, items, items.size(), count);
 }
 
-template <typename Item>
-void shrinkWhereKept(std::vector<Item>& items, std::size_t count) {
+template <typename Items>
+void shrinkWhereKept(Items& items, std::size_t count) {
   if (!items.empty()) items.resize(count);
 }
 

@@ -175,7 +175,7 @@ struct InputPart {
 
 std::vector<InputPart> partsOf(const TriMesh& mesh, const ItemLoop& loop) {
   const auto isConstrained = [&](EdgeRef e) { return mesh.segment(e) != kNone || mesh.twin(e) == kNone; };
-  std::vector<std::uint8_t> alone = usedVertices(mesh, loop);
+  BulkList<std::uint8_t> alone = usedVertices(mesh, loop);
   std::vector<InputPart> parts;
   for (TriId t = 0; t < mesh.triangles.size(); ++t) {
     for (unsigned i = 0; i < 3; ++i) {

@@ -151,7 +151,7 @@ std::vector<MeshDefect> checkMesh(const TriMesh& mesh, const Pslg* pslg, const C
   checkTopology(mesh, loop, defects);
   if (!defects.empty()) return defects;  // the other checks need a consistent mesh
   checkOrientation(mesh, options, loop, defects);
-  const std::vector<std::uint8_t> used = usedVertices(mesh, loop);
+  const BulkList<std::uint8_t> used = usedVertices(mesh, loop);
   checkUnused(mesh, used, loop, defects);
   if (options.pinches) checkPinches(mesh, defects);
   if (pslg != nullptr && mesh.input_vertices == 0 && !pslg->points.empty()) {

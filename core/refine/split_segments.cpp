@@ -197,9 +197,10 @@ std::uint64_t splitSegments(TriMesh& mesh, const Pslg& pslg, VertexNotes& notes,
   Renumbering by;
   constexpr std::size_t kWorthThreads = 1 << 15;
   mesh = edit.vertexCount() < kWorthThreads ? edit.release(by, false) : edit.releaseOn(loop, by);
-  std::vector<double> spacing(mesh.points.size());
-  for (VertexId v = 0; v < by.vertex.size(); ++v)
+  BulkList<double> spacing = unsetList<double>(mesh.points.size());  // every vertex comes from one before
+  forEachByStretches(loop, by.vertex.size(), [&](std::size_t v) {
     if (by.vertex[v] != kNone) spacing[by.vertex[v]] = notes.spacing[v];
+  });
   notes.spacing = std::move(spacing);
   return mesh.points.size() - before;
 }

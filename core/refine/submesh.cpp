@@ -234,10 +234,9 @@ Submesh extractNear(const TriMesh& parent, const VertexNotes& notes, std::span<c
     };
     numberAsSeen(front.size(), neighbours, slot, triangles, loop);
   }
-  VertexNotes without_spacing = notes;
-  without_spacing.spacing.clear();
+  const VertexNotes without_spacing{notes.surface, {}, notes.shell_unit, notes.small_angle, notes.corners};
   Submesh sub = extractOn(loop, parent, without_spacing, std::move(triangles), slot, number);
-  noteSpacingOfNeighbours(sub.mesh, sub.notes);
+  noteSpacingOfNeighbours(sub.mesh, sub.notes, loop);
   for (VertexId v = 0; v < sub.mesh.input_vertices; ++v)
     if (sub.parent[v] < parent.input_vertices) sub.notes.spacing[v] = notes.spacing[sub.parent[v]];
   return sub;
@@ -277,7 +276,7 @@ void removeUnused(TriMesh& mesh, std::vector<TriId> triangles, std::vector<Verte
 
 }  // namespace
 
-std::vector<TriId> putBack(TriMesh& parent, const Submesh& patch, const TriMesh& solved, const ItemLoop& loop) {
+BulkList<TriId> putBack(TriMesh& parent, const Submesh& patch, const TriMesh& solved, const ItemLoop& loop) {
   struct Beyond {
     VertexId from, to;
     EdgeRef twin;
@@ -290,19 +289,20 @@ std::vector<TriId> putBack(TriMesh& parent, const Submesh& patch, const TriMesh&
   std::ranges::sort(beyond, {}, endsOf);
 
   // Old numbers first, then new ones.
-  const auto numbersFor = [](std::size_t count, std::span<const std::uint32_t> old, std::size_t next) {
-    std::vector<std::uint32_t> numbers(old.begin(),
-                                       old.begin() + static_cast<std::ptrdiff_t>(std::min(count, old.size())));
-    while (numbers.size() < count) numbers.push_back(static_cast<std::uint32_t>(next++));
+  const auto numbersFor = [&loop](std::size_t count, std::span<const std::uint32_t> old, std::size_t next) {
+    BulkList<std::uint32_t> numbers = unsetList<std::uint32_t>(count);
+    forEachByStretches(loop, count, [&](std::size_t i) {
+      numbers[i] = i < old.size() ? old[i] : static_cast<std::uint32_t>(next + i - old.size());
+    });
     return numbers;
   };
-  const std::vector<VertexId> vertex = numbersFor(solved.points.size(), patch.parent, parent.points.size());
-  std::vector<TriId> triangle = numbersFor(solved.triangles.size(), patch.triangles, parent.triangles.size());
+  const BulkList<VertexId> vertex = numbersFor(solved.points.size(), patch.parent, parent.points.size());
+  BulkList<TriId> triangle = numbersFor(solved.triangles.size(), patch.triangles, parent.triangles.size());
   parent.points.resize(parent.points.size() + vertex.size() - std::min(vertex.size(), patch.parent.size()));
   parent.triangles.resize(parent.triangles.size() + triangle.size() -
                           std::min(triangle.size(), patch.triangles.size()));
-  forEachByStretches(loop, vertex.size() - patch.mesh.input_vertices, [&](std::size_t i) {
-    const std::size_t v = patch.mesh.input_vertices + i;
+  forEachByStretches(loop, vertex.size() - solved.input_vertices, [&](std::size_t i) {
+    const std::size_t v = solved.input_vertices + i;
     parent.points[vertex[v]] = solved.points[v];
   });
   // What lies beyond a frozen edge is in no patch: threads write different sides of its triangle.

@@ -102,7 +102,6 @@ Submesh extractNear(const TriMesh& parent, const VertexNotes& notes, std::span<c
 
 // Puts another mesh of the same submesh into its parent, as above; triangles and free vertices get new numbers, of
 // which those of the triangles are returned. Leaves regions alone.
-std::vector<TriId> putBack(TriMesh& parent, const Submesh& patch, const TriMesh& solved,
-                           const ItemLoop& loop = inOrder);
+BulkList<TriId> putBack(TriMesh& parent, const Submesh& patch, const TriMesh& solved, const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

@@ -22,7 +22,7 @@ RefineStats giveBack(RefineRun& run, MeshState& state) {
   state.mesh = run.mesh.release(by, false);
   state.due_triangles.assign(state.mesh.triangles.size(), 0);
   for (const auto& [t, corners] : run.deferred) state.due_triangles[by.triangle[t]] = 1;
-  std::vector<double> spacing(state.mesh.points.size());
+  BulkList<double> spacing(state.mesh.points.size());
   for (VertexId v = 0; v < by.vertex.size(); ++v)
     if (by.vertex[v] != kNone) spacing[by.vertex[v]] = run.notes.spacing[v];
   state.notes = std::move(run.notes);

@@ -89,7 +89,9 @@ VertexNotes noteInput(const TriMesh& mesh, const TriangleBound& bound, const Ite
 
 void noteSpacingOfNeighbours(const TriMesh& mesh, VertexNotes& notes, const ItemLoop& loop) {
   const std::size_t known = notes.spacing.size();
-  notes.spacing.resize(mesh.points.size(), std::numeric_limits<double>::infinity());
+  resizeUnset(notes.spacing, mesh.points.size());
+  forEachByStretches(loop, mesh.points.size() - known,
+                     [&](std::size_t i) { notes.spacing[known + i] = std::numeric_limits<double>::infinity(); });
   forEachByStretches(loop, mesh.triangles.size(), [&](std::size_t t) {
     for (unsigned i = 0; i < 3; ++i) {
       const EdgeRef e = edgeRef(static_cast<TriId>(t), i);

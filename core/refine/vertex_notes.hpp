@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/bulk_list.hpp"
 #include "core/input_corners.hpp"
 #include "core/item_loop.hpp"
 #include "core/metric.hpp"
@@ -13,7 +14,7 @@ namespace coastmesh {
 // A run's data on vertices besides their positions. Lengths are on the surface.
 struct VertexNotes {
   Surface surface;
-  std::vector<double> spacing;     // for each vertex: an upper bound of the input's local feature size there
+  BulkList<double> spacing;        // for each vertex: an upper bound of the input's local feature size there
   std::vector<double> shell_unit;  // for each input vertex: radius of a shell around it; 0 if there is no small angle
   std::vector<bool> small_angle;   // for each input vertex: whether one of its sectors is too small for the bounds
   // Of the whole input, also on a part of the mesh; null if there are none.

@@ -74,7 +74,7 @@ bool isClosed(const TriMesh& mesh) {
 }
 
 std::int64_t eulerNumber(const TriMesh& mesh) {
-  const std::vector<std::uint8_t> used = usedVertices(mesh);
+  const BulkList<std::uint8_t> used = usedVertices(mesh);
   std::int64_t halves = 0;  // half-edges; a boundary edge counts as two
   for (const Triangle& t : mesh.triangles)
     for (const EdgeRef twin : t.adj) halves += twin == kNone ? 2 : 1;

@@ -2,14 +2,16 @@
 
 #include <fcntl.h>
 #include <linux/aio_abi.h>
+#include <sys/mman.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
-#include <memory>
 #include <new>
 
 #include "gis/error.hpp"
@@ -182,13 +184,44 @@ std::vector<Run> fill(std::span<std::byte> buffer, std::uint64_t begin, const st
   return runs;
 }
 
-using Buffer = std::unique_ptr<std::byte, decltype(&std::free)>;
+// Memory for a window, aligned for direct writes.
+class Buffer {
+ public:
+  // For direct writes in new memory, in huge pages where the system has them: one thread pins the pages of each write,
+  // one by one. Otherwise from the heap, where much may be free.
+  explicit Buffer(bool direct) : direct_(direct) {
+    constexpr std::size_t kHugePage = std::size_t{2} << 20;
+    static_assert(kWindow % kHugePage == 0);
+    if (!direct) {
+      bytes_ = static_cast<std::byte*>(std::aligned_alloc(kSector, kWindow));
+      if (bytes_ == nullptr) throw std::bad_alloc();
+      return;
+    }
+    void* const mapped =
+        ::mmap(nullptr, kWindow + kHugePage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (mapped == MAP_FAILED) throw std::bad_alloc();
+    auto* const begin = static_cast<std::byte*>(mapped);
+    const std::size_t before = (kHugePage - reinterpret_cast<std::uintptr_t>(begin) % kHugePage) % kHugePage;
+    bytes_ = begin + before;
+    if (before > 0) ::munmap(begin, before);
+    ::munmap(bytes_ + kWindow, kHugePage - before);
+    ::madvise(bytes_, kWindow, MADV_HUGEPAGE);  // if refused, nothing changes
+  }
+  ~Buffer() {
+    if (direct_)
+      ::munmap(bytes_, kWindow);
+    else
+      std::free(bytes_);
+  }
+  Buffer(const Buffer&) = delete;
+  Buffer& operator=(const Buffer&) = delete;
 
-Buffer makeBuffer() {
-  Buffer buffer(static_cast<std::byte*>(std::aligned_alloc(kSector, kWindow)), &std::free);
-  if (!buffer) throw std::bad_alloc();
-  return buffer;
-}
+  std::byte* get() const { return bytes_; }
+
+ private:
+  std::byte* bytes_ = nullptr;
+  bool direct_;
+};
 
 }  // namespace
 
@@ -201,14 +234,15 @@ void writeParts(const std::string& path, std::vector<FilePart> parts, const Item
   OpenFile file(path, all >= large_file);
   const std::uint64_t size = parts.back().begin + parts.back().size;
   if (all >= large_file) file.allocate(size);
-  Buffer filled = makeBuffer(), written = makeBuffer();
+  const std::array<Buffer, 2> buffers{Buffer(file.direct() >= 0), Buffer(file.direct() >= 0)};
+  std::byte *filled = buffers[0].get(), *written = buffers[1].get();
   WritesAhead ahead(file);
   for (std::uint64_t begin = parts.front().begin / kWindow * kWindow; begin < size; begin += kWindow) {
     const std::uint64_t sections = (std::min(kWindow, size - begin) - 1) / kSection + 1;
     std::vector<std::vector<Run>> runs(sections);
     loop(sections, [&](std::size_t s) {
       const std::uint64_t first = s * kSection, bytes = std::min(kSection, size - begin - first);
-      runs[s] = fill({filled.get() + first, bytes}, begin + first, parts);
+      runs[s] = fill({filled + first, bytes}, begin + first, parts);
       if (ahead.available()) return;
       for (const Run& run : runs[s]) file.write(run.at, run.bytes);
     });

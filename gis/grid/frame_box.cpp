@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/bulk_list.hpp"
+#include "core/large_list.hpp"
 #include "core/metric.hpp"
 #include "core/quality.hpp"
 #include "gis/coast/feature_bounds.hpp"
@@ -59,24 +61,28 @@ std::array<double, 3> anglesOf(const Grid& grid, std::uint32_t triangle) {
 class Mover {
  public:
   Mover(Grid& grid, std::vector<std::uint32_t>&& nodes, const AngleBounds& bounds, const ItemLoop& loop)
-      : grid_(grid), nodes_(std::move(nodes)), moves_(grid.nodes.size(), 0) {
-    for (const std::uint32_t n : nodes_) moves_[n] = 1, before_.push_back(grid.nodes[n]);
+      : grid_(grid), loop_(loop), nodes_(std::move(nodes)), moves_(filledList(loop, grid.nodes.size(), Move::None)) {
+    for (const std::uint32_t n : nodes_) moves_[n] = Move::Made, before_.push_back(grid.nodes[n]);
     triangles_ = indicesOf(grid.triangles.size(), loop, [&](std::size_t t) { return hasMoved(t); });
-    for (const std::uint32_t t : triangles_) {
-      angles_.push_back(anglesOf(grid, t));
-      const auto [least, greatest] = std::ranges::minmax(angles_.back());
-      allowed_.push_back(
-          {std::min(bounds.least, least) - kAngleSlackDeg, std::max(bounds.greatest, greatest) + kAngleSlackDeg});
-    }
+    angles_.resize(triangles_.size());
+    allowed_.resize(triangles_.size());
+    forEachByStretches(loop, triangles_.size(), [&](std::size_t k) {
+      angles_[k] = anglesOf(grid, triangles_[k]);
+      const auto [least, greatest] = std::ranges::minmax(angles_[k]);
+      allowed_[k] = {std::min(bounds.least, least) - kAngleSlackDeg,
+                     std::max(bounds.greatest, greatest) + kAngleSlackDeg};
+    });
   }
 
   void move(const FrameBox& box) {
     for (const std::uint32_t n : nodes_) grid_.nodes[n] = box.nearest(grid_.nodes[n]);
+    std::vector<std::uint8_t> spoilt(triangles_.size());
+    forEachByStretches(loop_, triangles_.size(), [&](std::size_t k) { spoilt[k] = isSpoilt(k) ? 1 : 0; });
     // Nodes that are put back may spoil triangles checked before. Each node is put back at most once.
     for (bool again = true; again;) {
       again = false;
       for (std::size_t k = 0; k < triangles_.size(); ++k) {
-        if (!hasMoved(triangles_[k]) || !isSpoilt(k)) continue;
+        if (!hasMoved(triangles_[k]) || !(hasBeenPutBack(triangles_[k]) ? isSpoilt(k) : spoilt[k] != 0)) continue;
         putBack(grid_.triangles[triangles_[k]]);
         again = true;
       }
@@ -86,7 +92,8 @@ class Mover {
   // Also sets areas and angles of the triangles.
   FrameMoves moves() {
     FrameMoves moves;
-    moves.nodes = static_cast<std::size_t>(std::ranges::count(moves_, std::uint8_t{1}));
+    moves.nodes = static_cast<std::size_t>(
+        std::ranges::count_if(nodes_, [this](std::uint32_t n) { return moves_[n] == Move::Made; }));
     std::vector<std::uint32_t> changed;
     std::vector<std::array<std::uint32_t, 3>> corners;
     for (std::size_t k = 0; k < triangles_.size(); ++k) {
@@ -95,8 +102,10 @@ class Mover {
       changed.push_back(t);
       corners.push_back(grid_.triangles[t]);
       moves.angles_before.push_back(angles_[k]);
-      moves.angles_after.push_back(anglesOf(grid_, t));
     }
+    moves.angles_after.resize(changed.size());
+    forEachByStretches(loop_, changed.size(),
+                       [&](std::size_t k) { moves.angles_after[k] = anglesOf(grid_, changed[k]); });
     const std::vector<double> areas =
         grid_.area_m2.empty() ? std::vector<double>() : areasOfFew(grid_.nodes, corners, grid_.crs);
     for (std::size_t k = 0; k < changed.size(); ++k) {
@@ -107,9 +116,13 @@ class Mover {
   }
 
  private:
-  bool hasMoved(std::size_t triangle) const {
-    return std::ranges::any_of(grid_.triangles[triangle], [&](std::uint32_t n) { return moves_[n] != 0; });
+  enum class Move : std::uint8_t { None, Made, PutBack };
+
+  bool hasCorner(std::size_t triangle, Move move) const {
+    return std::ranges::any_of(grid_.triangles[triangle], [&](std::uint32_t n) { return moves_[n] == move; });
   }
+  bool hasMoved(std::size_t triangle) const { return hasCorner(triangle, Move::Made); }
+  bool hasBeenPutBack(std::size_t triangle) const { return hasCorner(triangle, Move::PutBack); }
 
   bool isSpoilt(std::size_t k) const {
     const auto& [a, b, c] = grid_.triangles[triangles_[k]];
@@ -120,16 +133,17 @@ class Mover {
 
   void putBack(const std::array<std::uint32_t, 3>& corners) {
     for (const std::uint32_t n : corners) {
-      if (moves_[n] == 0) continue;
+      if (moves_[n] != Move::Made) continue;
       grid_.nodes[n] = before_[static_cast<std::size_t>(std::ranges::lower_bound(nodes_, n) - nodes_.begin())];
-      moves_[n] = 0;
+      moves_[n] = Move::PutBack;
     }
   }
 
   Grid& grid_;
+  const ItemLoop& loop_;
   std::vector<std::uint32_t> nodes_;           // outside the box, ascending
   std::vector<Point> before_;                  // where they were
-  std::vector<std::uint8_t> moves_;            // of each node: moved, and not put back
+  BulkList<Move> moves_;                       // of each node
   std::vector<std::uint32_t> triangles_;       // with such nodes
   std::vector<std::array<double, 3>> angles_;  // of each of these, before
   std::vector<AngleBounds> allowed_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <functional>
 #include <numeric>
 #include <utility>
 
@@ -37,7 +38,11 @@ struct Block {
   Triangles triangles;
   std::uint64_t stretches = 0;
 
-  bool has(std::size_t stretch) const { return (stretches >> stretch & 1) != 0; }
+  template <typename Use>
+  void forEachStretch(const Use& use) const {
+    for (std::uint64_t rest = stretches; rest != 0; rest &= rest - 1)
+      use(static_cast<std::size_t>(std::countr_zero(rest)));
+  }
 };
 
 std::vector<Block> blocksOf(Triangles triangles, const Stretches& stretches, const ItemLoop& loop) {
@@ -58,17 +63,49 @@ std::vector<Block> blocksOf(Triangles triangles, const Stretches& stretches, con
   return blocks;
 }
 
-std::uint64_t visitsOf(const std::vector<Block>& blocks) {
-  return std::transform_reduce(blocks.begin(), blocks.end(), std::uint64_t{0}, std::plus<>(),
-                               [](const Block& b) { return static_cast<std::uint64_t>(std::popcount(b.stretches)); });
+// For each stretch the number of blocks with an edge of it.
+std::vector<std::uint64_t> visitsOf(const std::vector<Block>& blocks, const Stretches& stretches,
+                                    const ItemLoop& loop) {
+  std::vector<std::uint64_t> visits(stretches.count, 0);
+  for (const auto& some : overStretches(loop, blocks.size(), [&](std::size_t first, std::size_t last) {
+         std::vector<std::uint64_t> here(stretches.count, 0);
+         for (std::size_t b = first; b < last; ++b) blocks[b].forEachStretch([&](std::size_t s) { ++here[s]; });
+         return here;
+       }))
+    std::ranges::transform(visits, some, visits.begin(), std::plus<>());
+  return visits;
+}
+
+std::uint64_t sumOf(const std::vector<std::uint64_t>& visits) {
+  return std::accumulate(visits.begin(), visits.end(), std::uint64_t{0});
+}
+
+// The blocks with an edge of each stretch, ascending.
+struct OwnBlocks {
+  std::vector<std::uint64_t> first;  // of each stretch in `blocks`, then the end
+  std::vector<std::uint32_t> blocks;
+
+  std::span<const std::uint32_t> of(std::size_t stretch) const {
+    return std::span(blocks).subspan(first[stretch], first[stretch + 1] - first[stretch]);
+  }
+};
+
+OwnBlocks ownBlocks(const std::vector<Block>& blocks, const std::vector<std::uint64_t>& visits) {
+  OwnBlocks own;
+  own.first.assign(visits.size() + 1, 0);
+  std::inclusive_scan(visits.begin(), visits.end(), own.first.begin() + 1);
+  own.blocks.resize(own.first.back());
+  std::vector<std::uint64_t> next(own.first.begin(), own.first.end() - 1);
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    blocks[b].forEachStretch([&](std::size_t s) { own.blocks[next[s]++] = static_cast<std::uint32_t>(b); });
+  return own;
 }
 
 // Merges stretches in pairs.
 void halve(std::vector<Block>& blocks, Stretches& stretches) {
   for (Block& block : blocks) {
     std::uint64_t halved = 0;
-    for (std::size_t s = 0; s < stretches.count; s += 2)
-      if ((block.stretches >> s & 3) != 0) halved |= std::uint64_t{1} << s / 2;
+    block.forEachStretch([&](std::size_t s) { halved |= std::uint64_t{1} << s / 2; });
     block.stretches = halved;
   }
   stretches.count /= 2;
@@ -78,20 +115,17 @@ void halve(std::vector<Block>& blocks, Stretches& stretches) {
 // rows of triangles end there; none for other stretches. One thread would go through nearly all triangles for them.
 // Some are there twice. Counted first: one list for each range of blocks would keep more memory.
 std::vector<BulkList<Edge>> widespreadEdges(const std::vector<Block>& blocks, const Stretches& stretches,
-                                            const ItemLoop& loop) {
+                                            const OwnBlocks& own, const ItemLoop& loop) {
   constexpr std::size_t kFarMore = 4, kRanges = 256;
   std::vector<BulkList<Edge>> edges(stretches.count);
-  const std::uint64_t visits = visitsOf(blocks);
   for (std::size_t s = 0; s < stretches.count; ++s) {
-    const auto own = std::ranges::count_if(blocks, [&](const Block& block) { return block.has(s); });
-    if (static_cast<std::uint64_t>(own) * stretches.count <= kFarMore * visits) continue;
+    const std::span<const std::uint32_t> here = own.of(s);
+    if (here.size() * stretches.count <= kFarMore * own.blocks.size()) continue;
     const auto forEachOwn = [&](std::size_t range, const auto& use) {
-      for (std::size_t b = blocks.size() * range / kRanges; b < blocks.size() * (range + 1) / kRanges; ++b) {
-        if (!blocks[b].has(s)) continue;
-        forEachEdge(blocks[b].triangles, [&](std::uint32_t low, std::uint32_t high) {
+      for (std::size_t i = here.size() * range / kRanges; i < here.size() * (range + 1) / kRanges; ++i)
+        forEachEdge(blocks[here[i]].triangles, [&](std::uint32_t low, std::uint32_t high) {
           if (low >= stretches.begin(s) && low < stretches.begin(s + 1)) use(Edge{low, high});
         });
-      }
     };
     std::vector<std::size_t> next(kRanges + 1, 0);
     loop(kRanges, [&](std::size_t r) { forEachOwn(r, [&](const Edge&) { ++next[r + 1]; }); });
@@ -113,17 +147,15 @@ struct NodeEdges {
 
 // `known`: its edges, if they have been listed.
 NodeEdges edgesOfStretch(const std::vector<Block>& blocks, const Stretches& stretches, std::size_t stretch,
-                         std::span<const Edge> known) {
+                         std::span<const std::uint32_t> own, std::span<const Edge> known) {
   const std::size_t first = stretches.begin(stretch), nodes = stretches.begin(stretch + 1) - first;
   const auto forEachOwn = [&](const auto& use) {
     for (const auto& [low, high] : known) use(low - first, high);
     if (!known.empty()) return;
-    for (const Block& block : blocks) {
-      if (!block.has(stretch)) continue;
-      forEachEdge(block.triangles, [&](std::uint32_t low, std::uint32_t high) {
+    for (const std::uint32_t b : own)
+      forEachEdge(blocks[b].triangles, [&](std::uint32_t low, std::uint32_t high) {
         if (low >= first && low - first < nodes) use(low - first, high);
       });
-    }
   };
   NodeEdges edges;
   std::vector<std::uint32_t>& begin = edges.begin;  // each node's end, until all are stored
@@ -154,12 +186,17 @@ BulkList<Edge> uniqueEdges(std::size_t nodes, Triangles triangles, const ItemLoo
   constexpr std::size_t kMostStretches = 64, kMostVisits = 8;
   Stretches stretches{nodes, std::min(kMostStretches, std::bit_floor(nodes))};
   std::vector<Block> blocks = blocksOf(triangles, stretches, loop);
-  while (stretches.count > 1 && visitsOf(blocks) > kMostVisits * blocks.size()) halve(blocks, stretches);
+  std::vector<std::uint64_t> visits = visitsOf(blocks, stretches, loop);
+  while (stretches.count > 1 && sumOf(visits) > kMostVisits * blocks.size()) {
+    halve(blocks, stretches);
+    visits = visitsOf(blocks, stretches, loop);
+  }
 
-  std::vector<BulkList<Edge>> known = widespreadEdges(blocks, stretches, loop);
+  const OwnBlocks own = ownBlocks(blocks, visits);
+  std::vector<BulkList<Edge>> known = widespreadEdges(blocks, stretches, own, loop);
   std::vector<NodeEdges> parts(stretches.count);
   loop(parts.size(), [&](std::size_t s) {
-    parts[s] = edgesOfStretch(blocks, stretches, s, known[s]);
+    parts[s] = edgesOfStretch(blocks, stretches, s, own.of(s), known[s]);
     freeMemoryOf(known[s]);
   });
   std::vector<std::size_t> before(parts.size() + 1, 0);

@@ -46,7 +46,7 @@ NodeIndices nodeIndices(const TriMesh& mesh, std::uint32_t next, const ItemLoop&
     std::size_t first, last;
     std::uint32_t used;  // the number of used points, then the index of the first
   };
-  const std::vector<std::uint8_t> used = usedVertices(mesh, loop);
+  const BulkList<std::uint8_t> used = usedVertices(mesh, loop);
   std::vector<Stretch> stretches = overStretches(loop, used.size(), [&](std::size_t first, std::size_t last) {
     const auto begin = used.begin() + static_cast<std::ptrdiff_t>(first);
     const auto count = std::count(begin, begin + static_cast<std::ptrdiff_t>(last - first), std::uint8_t{1});

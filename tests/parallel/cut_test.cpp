@@ -201,7 +201,7 @@ TEST_P(CutInto, StitchedAgainIsTheSameMesh) {
 
 TEST(NearDue, GrowsByOneEdgeAtATime) {
   const MeshState whole = dueInACorner(squarePslg());
-  std::vector<TriId> before = trianglesNearDue(whole, 0, inOrder);
+  BulkList<TriId> before = trianglesNearDue(whole, 0, inOrder);
   ASSERT_FALSE(before.empty());
   for (const TriId t : before) EXPECT_TRUE(whole.due_triangles[t]);
   EXPECT_EQ(before.size(), static_cast<std::size_t>(std::ranges::count(whole.due_triangles, 1)));
@@ -218,7 +218,7 @@ TEST(NearDue, GrowsByOneEdgeAtATime) {
 TEST_P(CutInto, StitchedInPlaceIsTheSameMesh) {
   for (const Pslg& pslg : {fractalCoast(2, 3, 3), touchingHoles(), openLines(), twoRegions()}) {
     const MeshState before = dueInACorner(pslg);
-    const std::vector<TriId> some = trianglesNearDue(before, 3, inOrder);
+    const BulkList<TriId> some = trianglesNearDue(before, 3, inOrder);
     ASSERT_FALSE(some.empty());
     ASSERT_LT(some.size(), before.mesh.triangles.size());
     MeshState whole = before;
@@ -236,7 +236,7 @@ TEST_P(CutInto, PiecesOfSomeMayGrowAndShrink) {
   std::size_t grown = 0, shrunk = 0;
   for (const Pslg& pslg : {fractalCoast(2, 3, 3), touchingHoles(), openLines(), twoRegions()}) {
     MeshState whole = dueInACorner(pslg);
-    const std::vector<TriId> some = trianglesNearDue(whole, 6, inOrder);
+    const BulkList<TriId> some = trianglesNearDue(whole, 6, inOrder);
     const std::size_t triangles = whole.mesh.triangles.size();
     const RefineOptions finer{.min_angle_deg = 30.0, .size_max = 0.02}, coarser{.min_angle_deg = 20.0};
     Recorder recorder;

@@ -190,7 +190,7 @@ TEST_P(SubmeshOf, FitsIntoACompactMesh) {
       for (EditMesh* changed : {&finer, &coarser}) {
         const TriMesh solved = changed->release();
         TriMesh mesh = whole;
-        const std::vector<TriId> numbers = putBack(mesh, patch, solved);
+        const BulkList<TriId> numbers = putBack(mesh, patch, solved);
         for (TriId t = 0; t < numbers.size(); ++t)
           for (unsigned i = 0; i < 3; ++i)
             EXPECT_EQ(mesh.point(mesh.triangle(numbers[t]).v[i]), solved.point(solved.triangle(t).v[i]));
