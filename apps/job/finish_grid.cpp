@@ -128,10 +128,10 @@ FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunContr
   if (report.dropped.waters > 0 && !depth.files.empty()) report.depth = setDepths(grid, depth, of_depths, loop);
   const double before_m2 = report.mended ? meshArea(grid, loop) : 0.0;
   RepairMemory memory;
-  RepairOptions repair = options.repair;
-  if (report.mended && repair.min_angle_deg <= 0.0) repair.min_angle_deg = boundOfMesh(grid);
+  RepairOptions how = options.repair;
+  if (report.mended && how.min_angle_deg <= 0.0) how.min_angle_deg = boundOfMesh(grid);
   if (!grid.triangles.empty() && report.mended)
-    report.repairs = repairForTargets(grid, targets, repair, &memory, stageControl(control, kFirst), loop);
+    report.repairs = repairForTargets(grid, targets, how, &memory, stageControl(control, kFirst), loop);
   // Nodes that repairs made or moved get new depths, which may put openings above the water or make time steps too
   // short: hence further rounds.
   const auto ofDepths = [](const Repair& repair) { return repair.kind == TargetDefectKind::DryOpening; };
@@ -143,7 +143,7 @@ FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunContr
     report.depth.warnings = warnings;
     std::erase_if(report.repairs.repairs, ofDepths);
     RepairReport again =
-        repairForTargets(grid, targets, repair, &memory, stageControl(control, part.part(0.5, 1.0)), loop);
+        repairForTargets(grid, targets, how, &memory, stageControl(control, part.part(0.5, 1.0)), loop);
     changed = !std::ranges::all_of(again.repairs, ofDepths);
     std::ranges::move(again.repairs, std::back_inserter(report.repairs.repairs));
     report.repairs.left = std::move(again.left);

@@ -77,8 +77,8 @@ std::optional<ExtendedWkt> readExtendedWkt(std::string_view text) {
   return read;
 }
 
-// For text tables: text that is not WKT becomes a missing geometry, and OGR does not report it. Returns what it is if it
-// is extended, nullopt if there is none, and throws InputError for anything else.
+// For text tables: text that is not WKT becomes a missing geometry, and OGR does not report it. Returns extended WKT,
+// nullopt for an empty text, and throws InputError for anything else.
 std::optional<ExtendedWkt> oddWkt(OGRFeature& feature, const std::string& what) {
   if (feature.GetGeomFieldCount() == 0) return std::nullopt;
   const std::string_view column = feature.GetGeomFieldDefnRef(0)->GetNameRef();

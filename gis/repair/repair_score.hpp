@@ -21,7 +21,7 @@ struct EditScore {
   double made_largest = 0.0, replaced_largest = 0.0;  // their largest angles
   int short_added = 0;  // change in the number of triangles with an edge below the bound (`StepBound`)
 
-  // The number of these thresholds, in degrees, that the smallest angle reaches; at most one for an edit that makes edges
+  // The number of these thresholds, in degrees, that the smallest angle reaches; at most one if the edit makes edges
   // too short.
   int grade() const {
     int reached = 0;
