@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <functional>
 #include <iomanip>
 #include <iterator>
@@ -481,8 +482,9 @@ ChosenSizes chosenSizes(const MeshJob& job, const JobInput& input, const SizeInp
 std::string spacingText(const ChosenSizes& chosen) {
   constexpr double kMuchFiner = 3.0;
   if (!(chosen.spacing_m > kMuchFiner * chosen.sizes.shore_m)) return {};
-  return "; half of the shore is edges of " + amount("%.2g", chosen.spacing_m) +
-         " m and more, so that the sizes there show little more of it than larger ones would";
+  return "; three in four edges of the input's shore are more than " +
+         amount("%.0f", std::floor(chosen.spacing_m / chosen.sizes.shore_m)) +
+         " times as long as --size-shore, so that larger sizes show as much of it";
 }
 
 // The distance by which shores move when they follow the sizes: half an element, as water and land narrower than one

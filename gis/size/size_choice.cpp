@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <functional>
+#include <cstddef>
 #include <vector>
 
 #include "core/metric.hpp"
@@ -118,18 +118,15 @@ SizeOptions chooseSizes(const SizeOptions& options, const SizeInputs& inputs, co
 
 double shoreSpacing(const Domain& domain) {
   std::vector<double> lengths;
-  double sum = 0.0;
   for (const Segment& segment : domain.pslg.segments) {
     if (isOpenTag(segment.tag)) continue;
     const Point &a = domain.pslg.points[segment.a], &b = domain.pslg.points[segment.b];
     lengths.push_back(distance(a, b) / domain.projection.scaleAt(a + 0.5 * (b - a)));
-    sum += lengths.back();
   }
-  std::ranges::sort(lengths, std::greater{});
-  double longest = 0.0;
-  for (const double length : lengths)
-    if ((longest += length) >= 0.5 * sum) return length;
-  return 0.0;
+  if (lengths.empty()) return 0.0;
+  const auto quarter = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 4);
+  std::ranges::nth_element(lengths, quarter);
+  return *quarter;
 }
 
 std::string sizesAsOptions(const SizeOptions& options) {

@@ -67,12 +67,12 @@ TEST_F(Frame, ABoxRoundMostOfTheEarthIsTold) {
   EXPECT_THAT(outputOf("0,58,3,64"), Not(HasSubstr("antimeridian")));
 }
 
-TEST_F(Frame, APlaneThatTheBoxIsCutInIsWarnedOf) {
+TEST_F(Frame, APlaneThatIsCutInTheBoxIsWarnedOf) {
+  const LonLatRing shore{{-179.5, -17.0}, {-179.0, -17.0}, {-179.0, -16.0}};
+  const std::string land = write("land.geojson", geoJsonPolygons({{shore}}));
   const auto errorsOf = [&](const std::string& plane) {
-    const ProgramRun run = runProgram(
-        {"mesh", write("land.geojson", geoJsonPolygons({{{-179.5, -17.0}, {-179.0, -17.0}, {-179.0, -16.0}}})),
-         "--domain", "outside", "--bbox=178,-18,-178,-15", "--crs", plane, "--size", "30000", "-o", file("sea.nc"),
-         "--overwrite"});
+    const ProgramRun run = runProgram({"mesh", land, "--domain", "outside", "--bbox=178,-18,-178,-15", "--crs", plane,
+                                       "--size", "30000", "-o", file("sea.nc"), "--overwrite"});
     EXPECT_EQ(run.code, 0) << run.errors;
     return run.errors;
   };
