@@ -97,7 +97,8 @@ TEST_F(Frame, OpeningsOfOneEdgeAreWarnedOf) {
   const ProgramRun run = runProgram(arguments);
   ASSERT_EQ(run.code, 0) << run.errors;
   ASSERT_EQ(read(file("lake.14")).open.size(), 1u);
-  const std::string text = "1 open boundary is a single edge between shores, at (5.15, 60)", option = "--min-boundary ";
+  const std::string text = "1 open boundary is a single edge between shores, at (5.15, 60.0000",
+                    option = "--min-boundary ";
   EXPECT_THAT(run.errors, HasSubstr(text));
   const std::size_t at = run.errors.find(option);
   ASSERT_NE(at, std::string::npos);

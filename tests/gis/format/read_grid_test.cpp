@@ -178,7 +178,7 @@ TEST_F(ReadGrid, GmshOfOtherPrograms) {
 // As Gmsh saves nodes with Mesh.SaveParametric: the dimension and tag of their curve or surface, and places on it.
 TEST_F(ReadGrid, GmshWithParametricNodes) {
   std::string text = kSquare22;
-  const std::size_t nodes = text.find("$Nodes"), elements = text.find("$Elements");
+  const std::size_t nodes = text.find("\n$Nodes") + 1, elements = text.find("$Elements");
   text.replace(nodes, elements - nodes,
                "$ParametricNodes\n4\n4 0 1 0 1 4 0.5\n1 0 0 0 0 1\n2 1 0 0 2 1 0.25 0.75\n3 1 1 0 2 1 0 1\n"
                "$EndParametricNodes\n");

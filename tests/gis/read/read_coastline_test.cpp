@@ -210,9 +210,10 @@ TEST_F(ReadCoastline, ReadsExtendedWkt) {
   const std::string plain = "id,geometry\n1,\"POLYGON((0 0,1 0,1 1,0 0))\"\n";
   EXPECT_EQ(read(write("plain.csv", plain)).features.size(), 1u);
   expectRefused(
-      {write("two.csv", "WKT\n\"SRID=4326;POLYGON((0 0,1 0,1 1,0 0))\"\n\"SRID=4267;POLYGON((0 0,1 0,1 1,0 0))\"\n")},
+      {write("two.csv",
+             "WKT,a\n\"SRID=4326;POLYGON((0 0,1 0,1 1,0 0))\",1\n\"SRID=4267;POLYGON((0 0,1 0,1 1,0 0))\",2\n")},
       {"two.csv', feature 2: its CRS is SRID 4267, but that of features before it is 4326"});
-  expectRefused({write("none.csv", "geom\n\"SRID=4326;POLYGN((0 0,1 0,1 1,0 0))\"\n")},
+  expectRefused({write("none.csv", "geom,a\n\"SRID=4326;POLYGN((0 0,1 0,1 1,0 0))\",1\n")},
                 {"none.csv', feature 1: its geom is not a geometry (SRID=4326;POLYGN"});
   expectRefused({write("odd.csv", "geom,a\n\"SRID=999999;POLYGON((0 0,1 0,1 1,0 0))\",1\n")},
                 {"odd.csv', feature 1: the CRS of its geometry, SRID 999999, is not known"});

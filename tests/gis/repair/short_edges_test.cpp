@@ -9,6 +9,10 @@
 #include <vector>
 
 #include "gis/crs/geodesy.hpp"
+#include "gis/grid/linked_grid.hpp"
+#include "gis/repair/repair_boundaries.hpp"
+#include "gis/repair/repair_score.hpp"
+#include "gis/repair/repair_state.hpp"
 #include "gis/repair/repair_target.hpp"
 #include "tests/gis/repair/slanting_sea.hpp"
 
@@ -57,11 +61,8 @@ TEST(ShortEdges, OtherCornersStay) {
   for (const bool open : {false, true}) {
     const Grid whole = sea(open ? BoundaryRole::Open : BoundaryRole::Land);
     RepairOptions options{.shore_moves = open, .min_angle_deg = 33.0};
-    Grid grid = whole;
-    EXPECT_FALSE(repaired(grid, options).contains("corner cut off"));
-    EXPECT_LT(shortestEdge(grid), 700.0);
     options.least_edge_m = 700.0;
-    grid = whole;
+    Grid grid = whole;
     EXPECT_FALSE(repaired(grid, options).contains("corner cut off"));
     EXPECT_GT(shortestEdge(grid), 700.0);
     EXPECT_EQ(std::ranges::count(grid.nodes, whole.nodes.front()), 1);
@@ -90,6 +91,36 @@ TEST(ShortEdges, TheEndOfANarrowWaterIsCutOffAsAWhole) {
   const RepairOptions options{.shore_moves = true, .min_angle_deg = 33.0};
   EXPECT_EQ(repaired(grid, options), std::set<std::string>{"corner cut off"});
   EXPECT_EQ(grid.triangles.size(), triangles - 4 - 2);
+}
+
+TEST(ShortEdges, AreCountedByScores) {
+  Grid grid = sea(BoundaryRole::Land);
+  RepairState state{.grid = grid, .targets = kFesom, .options = {.least_edge_m = 700.0}};
+  startRepairs(state, nullptr);
+  state.links.kinds = takeBoundaryKinds(grid, linkGrid(grid).mesh);
+  startRound(state);
+  const RepairView view = state.view();
+  const std::array<std::uint32_t, 1> first{0};
+  const GridPatch patch = patchRound(view, first);
+  const PatchScale scale = scaleOf(view, patch);
+  const auto& [a, b, c] = grid.triangles[0];
+  // An inner edge of some 900 m, in four triangles.
+  EXPECT_EQ(scoreOf(view, patch, scale, splitOf(view, patch, b, c, 0.5)).short_added, 4);
+  EXPECT_EQ(scoreOf(view, patch, scale, *flipOf(view, patch, b, c)).short_added, 0);
+}
+
+// An edit that makes edges too short is as good as one with angles of 20 degrees.
+TEST(ShortEdges, ComeLast) {
+  const EditScore good{-1, 34.0}, sharp{-1, 26.0}, bad{-1, 12.0};
+  EditScore short_one{-1, 40.0};
+  short_one.short_added = 2;
+  EXPECT_TRUE(good.betterThan(short_one));
+  EXPECT_TRUE(sharp.betterThan(short_one));
+  EXPECT_TRUE(short_one.betterThan(bad));
+  ScoreBar bar;
+  EXPECT_TRUE(bar.isReachedBy(short_one));
+  bar.short_added = 0;
+  EXPECT_FALSE(bar.isReachedBy(short_one));
 }
 
 }  // namespace
