@@ -65,7 +65,7 @@ class BasicByteWriter {
   template <typename... Ts>
   void pass(const std::variant<Ts...>& value) {
     pass(static_cast<std::uint64_t>(value.index()));
-    std::visit([this](const auto& held) { pass(held); }, value);
+    std::visit([this](const auto& held) { this->pass(held); }, value);
   }
   template <typename T>
   void pass(const T& whole) requires requires {

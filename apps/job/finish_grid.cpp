@@ -1,6 +1,7 @@
 #include "apps/job/finish_grid.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdio>
 #include <iterator>
 #include <limits>
@@ -9,9 +10,11 @@
 
 #include "apps/job/mesh_area.hpp"
 #include "apps/job/places.hpp"
+#include "core/quality.hpp"
 #include "core/run_control.hpp"
 #include "gis/follow/water_notes.hpp"
 #include "gis/for_count.hpp"
+#include "gis/grid/local_plane.hpp"
 
 namespace coastmesh {
 
@@ -44,6 +47,22 @@ std::string textOf(const DroppedWaters& dropped) {
          (dropped.at_open > 0 ? "the main water, " + std::to_string(dropped.at_open) + " of them with an open boundary"
                               : "an open boundary") +
          ": the largest at " + pointText(dropped.place) + "; --keep-water all keeps them";
+}
+
+// A bound on angles for repairs of a mesh that was made elsewhere, degrees: nearly all of its triangles keep it.
+double boundOfMesh(const Grid& grid) {
+  constexpr double kMostDeg = 25.0, kShareBelow = 0.01;
+  constexpr std::size_t kMostSampled = 100'000;
+  const std::size_t stride = grid.triangles.size() / kMostSampled + 1;
+  std::vector<double> angles;
+  for (std::size_t t = 0; t < grid.triangles.size(); t += stride) {
+    const auto p = localPlane(grid, grid.triangles[t]);
+    angles.push_back(leastAngleDeg(p[0], p[1], p[2]));
+  }
+  if (angles.empty()) return 0.0;
+  const auto low = angles.begin() + static_cast<std::ptrdiff_t>(kShareBelow * static_cast<double>(angles.size()));
+  std::ranges::nth_element(angles, low);
+  return std::min(kMostDeg, *low);
 }
 
 RepairLoss lossOf(double before_m2, const Grid& grid, const ItemLoop& loop) {
@@ -109,8 +128,10 @@ FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunContr
   if (report.dropped.waters > 0 && !depth.files.empty()) report.depth = setDepths(grid, depth, of_depths, loop);
   const double before_m2 = report.mended ? meshArea(grid, loop) : 0.0;
   RepairMemory memory;
+  RepairOptions how = options.repair;
+  if (report.mended && how.min_angle_deg <= 0.0) how.min_angle_deg = boundOfMesh(grid);
   if (!grid.triangles.empty() && report.mended)
-    report.repairs = repairForTargets(grid, targets, options.repair, &memory, stageControl(control, kFirst), loop);
+    report.repairs = repairForTargets(grid, targets, how, &memory, stageControl(control, kFirst), loop);
   // Nodes that repairs made or moved get new depths, which may put openings above the water or make time steps too
   // short: hence further rounds.
   const auto ofDepths = [](const Repair& repair) { return repair.kind == TargetDefectKind::DryOpening; };
@@ -122,7 +143,7 @@ FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunContr
     report.depth.warnings = warnings;
     std::erase_if(report.repairs.repairs, ofDepths);
     RepairReport again =
-        repairForTargets(grid, targets, options.repair, &memory, stageControl(control, part.part(0.5, 1.0)), loop);
+        repairForTargets(grid, targets, how, &memory, stageControl(control, part.part(0.5, 1.0)), loop);
     changed = !std::ranges::all_of(again.repairs, ofDepths);
     std::ranges::move(again.repairs, std::back_inserter(report.repairs.repairs));
     report.repairs.left = std::move(again.left);

@@ -230,6 +230,9 @@ JobInput::JobInput(const InputOptions& options, const ItemLoop& loop) : options_
     chosen_ = Projection::to(coastline_.crs, *working);
     const std::string distorts = judgeWorkingPlane(coastline_, *working, *chosen_);
     if (!distorts.empty()) report_.warnings.push_back(distorts);
+    const std::string cut =
+        options_.frame.box ? judgeBoxInPlane(*options_.frame.box, coastline_.crs, *working, *chosen_) : "";
+    if (!cut.empty()) report_.warnings.push_back(cut);
   }
   groups_ = groupFeatures(coastline_, reach(), loop);
   bendEdges();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <functional>
 #include <iomanip>
 #include <iterator>
@@ -31,6 +32,7 @@
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/ground_orientation.hpp"
 #include "gis/grid/local_plane.hpp"
+#include "gis/model/assign_boundaries.hpp"
 #include "gis/model/shore_for_sizes.hpp"
 #include "gis/size/size_choice.hpp"
 #include "parallel/free_memory.hpp"
@@ -462,11 +464,27 @@ void warnOfIdleInputs(const MeshJob& job, const SizeInputs& sizes, const Coastli
     if (regions == result.regions) result.read.notes.push_back(text);
 }
 
+// Sizes chosen for a mesh, and `shoreSpacing` of its input.
+struct ChosenSizes {
+  SizeOptions sizes;
+  double spacing_m = 0.0;
+};
+
 // Chooses the sizes of all groups, from the largest of them: all shards have the same.
-SizeOptions chosenSizes(const MeshJob& job, const JobInput& input, const SizeInputs& sizes, const ItemLoop& loop) {
+ChosenSizes chosenSizes(const MeshJob& job, const JobInput& input, const SizeInputs& sizes, const ItemLoop& loop) {
   const std::optional<LargestGroup> largest = largestGroup(input, loop);
-  if (!largest) return job.sizes;
-  return chooseSizes(job.sizes, sizes, largest->domain, loop, dropsWatersApart(job) ? 1.0 : largest->share);
+  if (!largest) return {job.sizes};
+  const double share = dropsWatersApart(job) ? 1.0 : largest->share;
+  return {chooseSizes(job.sizes, sizes, largest->domain, loop, share), shoreSpacing(largest->domain)};
+}
+
+// What users should know of sizes that are much finer than the shore's data.
+std::string spacingText(const ChosenSizes& chosen) {
+  constexpr double kMuchFiner = 3.0;
+  if (!(chosen.spacing_m > kMuchFiner * chosen.sizes.shore_m)) return {};
+  return "; three in four edges of the input's shore are more than " +
+         amount("%.0f", std::floor(chosen.spacing_m / chosen.sizes.shore_m)) +
+         " times as long as --size-shore, so that larger sizes show as much of it";
 }
 
 // The distance by which shores move when they follow the sizes: half an element, as water and land narrower than one
@@ -483,7 +501,8 @@ void settleSizes(JobInput& input, const SizeInputs& sizes, const JobControl& con
   const Stopwatch choosing;
   Recorder recorder;
   const ItemLoop loop = recorder.loop("size", RunControl{control.cancelled, {}});
-  job.sizes = chosenSizes(job, input, sizes, loop);
+  const ChosenSizes chosen = chosenSizes(job, input, sizes, loop);
+  job.sizes = chosen.sizes;
   input.regroup(shoresMove(job.sizes), loop);
   result.seconds.size += choosing.seconds();
   result.log.append(recorder.finish("size"));
@@ -492,7 +511,8 @@ void settleSizes(JobInput& input, const SizeInputs& sizes, const JobControl& con
                               (job.sizes.bathymetry.empty() ? "" : " and the depths") + ", as with " +
                               sizesAsOptions(job.sizes) +
                               ", besides the options given; give --size-shore or any other size to choose them "
-                              "yourself");
+                              "yourself" +
+                              spacingText(chosen));
 }
 
 // The job's options for finished grids, with the boundaries of the input and of files.
@@ -532,8 +552,12 @@ void measureMeshed(const MeshJob& job, const JobInput& input, const std::vector<
 
 // Adds to `finish` what follows from the meshed grid.
 void completeFinish(const MeshJob& job, const MeshJobResult& result, FinishOptions& finish) {
-  finish.repair = {job.sizes.time_step_s / job.sizes.courant, job.sizes.coast == CoastDetail::Follow,
-                   job.mesh.refine.min_angle_deg, job.mesh.refine.max_angle_deg, result.asked};
+  finish.repair = {job.sizes.time_step_s / job.sizes.courant,
+                   job.sizes.coast == CoastDetail::Follow,
+                   job.mesh.refine.min_angle_deg,
+                   job.mesh.refine.max_angle_deg,
+                   StepOutcome::kUsualShare * job.sizes.least_m,
+                   result.asked};
   finish.repair.on_sphere = result.surfaces.contains(SurfaceKind::Sphere);
   finish.drop_apart = dropsWatersApart(job);
   finish.grazed = job.sizes.keep_water_given ? GrazedWaters::Keep : GrazedWaters::Drop;
@@ -561,6 +585,22 @@ void finishStage(const MeshJob& job, const JobInput& input, const std::vector<Me
   }
   result.seconds.finish = finishing.seconds();
   result.log.append(recorder.finish("finish"));
+}
+
+// Openings of one edge, unless the user defines boundaries.
+void warnOfLoneOpenings(const FinishOptions& finish, MeshJobResult& result) {
+  if (!finish.boundaries.files.empty() || !finish.boundaries.of_input.empty()) return;
+  const LoneOpenings lone = loneOpenings(result.grid);
+  if (lone.count == 0) return;
+  constexpr double kLonger = 1.01;  // than the longest, once rounded
+  const double closing = kLonger * lone.longest_m;
+  result.read.warnings.push_back(std::to_string(lone.count) +
+                                 forCount(lone.count, " open boundary is a single edge between shores, at ",
+                                          " open boundaries are single edges between shores, the longest at ") +
+                                 pointText(lone.place) +
+                                 ": a side of the frame cuts the tip of a water there; --min-boundary " +
+                                 (closing < 100.0 ? amount("%.3g", closing) : amount("%.0f", closing)) + " closes " +
+                                 forCount(lone.count, "it", "them"));
 }
 
 MeshJobResult runOnThreads(const MeshJob& given, const JobControl& control) {
@@ -602,7 +642,9 @@ MeshJobResult runOnThreads(const MeshJob& given, const JobControl& control) {
   recorder = {};
   if (job.exchange.shards <= 1) warnOfIdleInputs(job, sizes, input.coastline(), result);
   findTurned(result, loop);
-  result.step = measureOutcome(result.grid, job.sizes, loop, job.mesh.refine.goal, result.waters.too_small.count);
+  warnOfLoneOpenings(finish, result);
+  result.step = measureOutcome(result.grid, job.sizes, loop, job.mesh.refine.goal, result.waters.too_small.count,
+                               result.finish.repairs.repairs);
   std::ranges::copy(result.step.notes, std::back_inserter(result.read.notes));
   result.rasters_read = rasters.use();
   result.log.append(recorder.finish("grid"));

@@ -49,6 +49,44 @@ std::string smallWatersText(std::size_t small_waters, const char* option) {
          forCount(small_waters, "it", "them") + " out with --where";
 }
 
+// True for places within this distance of `middle`.
+class NearPlaces {
+ public:
+  NearPlaces(const Grid& grid, const Point& middle, double distance_m) : middle_(middle), distance_m_(distance_m) {
+    constexpr double kMetresPerDegree = 111e3;  // precise enough for what is near
+    if (grid.crs.geographic) up_ = kMetresPerDegree;
+    along_ = grid.crs.geographic ? up_ * std::cos(middle.y * std::numbers::pi / 180.0) : 1.0;
+  }
+  bool operator()(const Point& p) const {
+    return std::hypot(along_ * (p.x - middle_.x), up_ * (p.y - middle_.y)) <= distance_m_;
+  }
+
+ private:
+  Point middle_;
+  double distance_m_, up_ = 1.0, along_ = 1.0;
+};
+
+// The short edges that repairs for models made, by splitting.
+std::string ofRepairsText(const Grid& grid, const std::vector<ShortEdge>& below_least, double least_m,
+                          std::span<const Repair> repairs) {
+  constexpr double kNear = 2.0;  // smallest sizes
+  std::vector<const Repair*> splits;
+  for (const Repair& repair : repairs)
+    if (repair.what.find("split") != std::string::npos) splits.push_back(&repair);
+  std::size_t edges = 0;
+  const Repair* first = nullptr;
+  for (const ShortEdge& edge : below_least) {
+    const NearPlaces isNear(grid, edge.place, kNear * least_m);
+    const auto split = std::ranges::find_if(splits, [&](const Repair* repair) { return isNear(repair->place); });
+    if (split == splits.end()) continue;
+    ++edges;
+    if (first == nullptr) first = *split;
+  }
+  if (first == nullptr) return {};
+  return "; " + std::to_string(edges) + " of all are where repairs for a model split edges, the shortest at " +
+         pointText(first->place) + " (" + std::string(toString(first->kind)) + ")";
+}
+
 // Edges so short that the requirement is missed: they cause the exit code.
 std::string missedText(const StepOutcome& outcome, const SizeOptions& sizes) {
   if (!outcome.least_missed) return {};
@@ -60,7 +98,7 @@ std::string missedText(const StepOutcome& outcome, const SizeOptions& sizes) {
 }
 
 std::vector<std::string> warningsOf(const StepOutcome& outcome, const SizeOptions& sizes, QualityGoal goal,
-                                    std::size_t small_waters) {
+                                    std::size_t small_waters, const std::string& of_repairs) {
   const std::vector<ShortStep>& below_step = outcome.below_step;
   const std::vector<ShortEdge>& below_least = outcome.below_least;
   std::vector<std::string> all;
@@ -76,7 +114,7 @@ std::vector<std::string> warningsOf(const StepOutcome& outcome, const SizeOption
     all.push_back("edges shorter than " + amount("%g", StepOutcome::kUsualShare) + " times --size-min " +
                   amount("%g", sizes.least_m) + ": " + std::to_string(below_least.size()) + missedText(outcome, sizes) +
                   ", the shortest of " + amount("%.4g m at ", below_least.front().length_m) +
-                  pointText(below_least.front().place) + ": " + causesText(below_least, sizes, goal) +
+                  pointText(below_least.front().place) + ": " + causesText(below_least, sizes, goal) + of_repairs +
                   smallWatersText(small_waters, "--size-min"));
   }
   return all;
@@ -89,14 +127,8 @@ std::string borderWarning(const Grid& grid, const StepReport& step, const SizeOp
   const double at_shores = sizes.atShores();
   if (sizes.coast != CoastDetail::Follow || grid.feature_of.empty() || !std::isfinite(at_shores)) return {};
   if (!(step.shortest_edge_m < kFarShorter * at_shores)) return {};
-  constexpr double kMetresPerDegree = 111e3;  // precise enough for what is near
-  const Point& middle = step.shortest_edge;
-  const double up = grid.crs.geographic ? kMetresPerDegree : 1.0;
-  const double along = grid.crs.geographic ? up * std::cos(middle.y * std::numbers::pi / 180.0) : 1.0;
-  const auto isNear = [&](std::uint32_t node) {
-    const Point& p = grid.nodes[node];
-    return std::hypot(along * (p.x - middle.x), up * (p.y - middle.y)) <= kNear * step.shortest_edge_m;
-  };
+  const NearPlaces near(grid, step.shortest_edge, kNear * step.shortest_edge_m);
+  const auto isNear = [&](std::uint32_t node) { return near(grid.nodes[node]); };
   const GridFeature* first = nullptr;
   bool at_region = false, at_feature = false;
   for (std::size_t t = 0; t < grid.triangles.size() && !at_feature; ++t) {
@@ -133,7 +165,7 @@ double shareOfFineShore(const Grid& grid, const ItemLoop& loop) {
 }  // namespace
 
 StepOutcome measureOutcome(const Grid& grid, const SizeOptions& sizes, const ItemLoop& loop, QualityGoal goal,
-                           std::size_t small_waters) {
+                           std::size_t small_waters, std::span<const Repair> repairs) {
   StepOutcome outcome;
   outcome.step = measureStep(grid, loop);
   if (sizes.time_step_s > 0.0) outcome.below_step = stepsBelow(grid, sizes.time_step_s, sizes.courant, loop);
@@ -141,7 +173,8 @@ StepOutcome measureOutcome(const Grid& grid, const SizeOptions& sizes, const Ite
     outcome.below_least = edgesBelow(grid, StepOutcome::kUsualShare * sizes.least_m, loop);
   outcome.least_missed = sizes.coast == CoastDetail::Follow && !outcome.below_least.empty() &&
                          outcome.below_least.front().length_m < StepOutcome::kShareOfLeast * sizes.least_m;
-  outcome.warnings = warningsOf(outcome, sizes, goal, small_waters);
+  outcome.warnings =
+      warningsOf(outcome, sizes, goal, small_waters, ofRepairsText(grid, outcome.below_least, sizes.least_m, repairs));
   if (std::string warning = borderWarning(grid, outcome.step, sizes); !warning.empty())
     outcome.warnings.push_back(std::move(warning));
   constexpr double kUsualFine = 0.25;  // some edges are always divided for the sake of angles

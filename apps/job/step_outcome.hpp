@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "core/refine/refine_options.hpp"
 #include "gis/model/time_step.hpp"
+#include "gis/repair/repair_report.hpp"
 #include "gis/size/size_source.hpp"
 
 namespace coastmesh {
@@ -27,9 +29,10 @@ struct StepOutcome {
 };
 
 // `goal` is that of the optimiser, which may have needed short edges. `small_waters` were left as in the input, as no
-// element fits into them.
+// element fits into them; `repairs` for models may have split edges.
 StepOutcome measureOutcome(const Grid& grid, const SizeOptions& sizes, const ItemLoop& loop,
-                           QualityGoal goal = QualityGoal::Shape, std::size_t small_waters = 0);
+                           QualityGoal goal = QualityGoal::Shape, std::size_t small_waters = 0,
+                           std::span<const Repair> repairs = {});
 
 // A line for users: the shortest edge and the time step, with their places.
 std::string stepText(const StepReport& step, bool plane);

@@ -1,6 +1,7 @@
 #include "apps/job/working_plane.hpp"
 
 #include "apps/job/places.hpp"
+#include "core/metric.hpp"
 #include "gis/error.hpp"
 #include "gis/projection/distortion.hpp"
 
@@ -31,6 +32,21 @@ std::string judgeWorkingPlane(const Coastline& coastline, const Crs& working, co
          amount("%.2g", largest.degrees) +
          " degrees from those on the ground, whatever --min-angle says: leave out --crs, for a conformal plane that is "
          "fitted, or give a conformal CRS";
+}
+
+std::string judgeBoxInPlane(const Box& box, const Crs& input, const Crs& working, const Projection& chosen) {
+  constexpr double kEdge = 180.0, kBeside = 1e-6;  // degrees
+  constexpr double kTornM = 1000.0;
+  if (!input.geographic || working.isPlane() || working.geographic) return {};
+  const auto contains = [&](double longitude) { return box.xmin < longitude && longitude < box.xmax; };
+  if (box.xmin <= box.xmax && !contains(kEdge) && !contains(-kEdge)) return {};
+  const double latitude = 0.5 * (box.ymin + box.ymax);
+  const Point west = chosen.forward({kEdge - kBeside, latitude}), east = chosen.forward({kBeside - kEdge, latitude});
+  if (!(distance(west, east) * metresPerUnit(working) > kTornM)) return {};
+  return "--crs: " + nameOf(working) +
+         " is cut at the antimeridian, which --bbox crosses, so that the water is divided there: leave out --crs, or "
+         "give "
+         "a plane with its middle near, such as EPSG:3832";
 }
 
 }  // namespace coastmesh

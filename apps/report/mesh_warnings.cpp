@@ -1,10 +1,28 @@
 #include "apps/report/mesh_warnings.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "apps/job/places.hpp"
 
 namespace coastmesh {
+
+namespace {
+
+// Where degrees of longitude are short, SWAN makes repairs necessary that no repair can make well.
+std::string adviceForSwan(const MeshJobResult& result) {
+  constexpr double kFarNorth = 60.0;
+  const auto isOfShortDegrees = [](const Repair& repair) {
+    return repair.target == Target::Swan && repair.kind == TargetDefectKind::LargeAngle &&
+           std::abs(repair.place.y) > kFarNorth;
+  };
+  if (!result.crs.geographic || std::ranges::none_of(result.finish.repairs.repairs, isOfShortDegrees)) return {};
+  return "; SWAN measures angles in the degrees of its file, where good triangles of high latitudes are flat: an input "
+         "in "
+         "a projected CRS (ogr2ogr -t_srs) needs no such repairs";
+}
+
+}  // namespace
 
 std::vector<std::string> warningsOf(const MeshJobResult& result) {
   constexpr std::size_t kRefusalsShown = 20;
@@ -22,7 +40,7 @@ std::vector<std::string> warningsOf(const MeshJobResult& result) {
       result.short_of.count > result.short_before_repairs) {
     all.push_back("repairs left triangles that miss the requested bounds: " + std::to_string(result.short_of.count) +
                   " in all, the first at " + pointText(result.short_of.places.front().place) + "; before there were " +
-                  std::to_string(result.short_before_repairs));
+                  std::to_string(result.short_before_repairs) + adviceForSwan(result));
   }
   if (result.regions == 0 && result.refusals.size() == 1) return all;
   const std::size_t shown = std::min(kRefusalsShown, result.refusals.size());

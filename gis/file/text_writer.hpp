@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <concepts>
 #include <cstdint>
 #include <string>
@@ -12,6 +13,24 @@
 #include "core/item_loop.hpp"
 
 namespace coastmesh {
+
+// Room for any number.
+inline constexpr std::size_t kLongestNumber = 32;
+
+// Writes the number to `begin`, where there is room for `kLongestNumber`, and returns its end. Doubles get the fewest
+// digits that read back as the same bits, as plain decimals: exponents only below 1e-6 and from 1e15 on, since some
+// readers do not take them.
+inline char* writeNumber(char* begin, double value) {
+  constexpr double kLeastPlain = 1e-6, kBeyondPlain = 1e15;
+  const double size = std::fabs(value);
+  const bool is_plain = size == 0.0 || (size >= kLeastPlain && size < kBeyondPlain);
+  char* const end = begin + kLongestNumber;
+  return is_plain ? std::to_chars(begin, end, value, std::chars_format::fixed).ptr
+                  : std::to_chars(begin, end, value).ptr;
+}
+char* writeNumber(char* begin, std::integral auto value) {
+  return std::to_chars(begin, begin + kLongestNumber, value).ptr;
+}
 
 // Text in memory, with numbers as in TextWriter.
 class TextBlock {
@@ -34,15 +53,13 @@ class TextBlock {
   void clear() { used_ = 0; }  // keeps its memory
 
  private:
-  static constexpr std::size_t kLongestNumber = 32;
-
   void need(std::size_t size) {
     if (bytes_.size() - used_ < size) bytes_.resize(2 * bytes_.size() + size);
   }
   TextBlock& number(auto value) {
     need(kLongestNumber);
     char* const begin = bytes_.data() + used_;
-    used_ += static_cast<std::size_t>(std::to_chars(begin, begin + kLongestNumber, value).ptr - begin);
+    used_ += static_cast<std::size_t>(writeNumber(begin, value) - begin);
     return *this;
   }
 
@@ -50,8 +67,8 @@ class TextBlock {
   std::size_t used_ = 0;
 };
 
-// Writes a text file through a large buffer. Doubles are written with the fewest digits that read back as the same
-// bits. Every failure of the system throws OutputError with the path and the reason.
+// Writes a text file through a large buffer, numbers by `writeNumber`. Every failure of the system throws OutputError
+// with the path and the reason.
 class TextWriter {
  public:
   explicit TextWriter(std::string path);
@@ -98,12 +115,10 @@ class TextWriter {
   void close();
 
  private:
-  static constexpr std::size_t kLongestNumber = 32;
-
   TextWriter& number(auto value) {
     if (buffer_.size() - used_ < kLongestNumber) flush();
     char* const begin = buffer_.data() + used_;
-    used_ += static_cast<std::size_t>(std::to_chars(begin, begin + kLongestNumber, value).ptr - begin);
+    used_ += static_cast<std::size_t>(writeNumber(begin, value) - begin);
     return *this;
   }
   void flush();

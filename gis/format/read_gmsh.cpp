@@ -246,7 +246,8 @@ Contents readSections(TextReader& file) {
       readEntities(file, contents);
     } else if (section == "$PartitionedEntities") {
       readPartitionedEntities(file, contents);
-    } else if (section == "$Nodes") {
+    } else if (section == "$Nodes" || section == "$ParametricNodes") {
+      // Parameters on a curve or surface follow the coordinates.
       version == kVersion41 ? readNodes41(file, contents) : readNodes22(file, contents);
     } else if (section == "$Elements") {
       version == kVersion41 ? readElements41(file, contents) : readElements22(file, contents);

@@ -28,9 +28,17 @@ namespace {
 
 using namespace std::string_view_literals;
 
+// Some programs write the number as text.
+bool isOfFaces(const NetcdfReader& file, const std::string& mesh) {
+  const std::string text = file.text(mesh, "topology_dimension");
+  std::istringstream words(text);
+  double dimension = 0.0;
+  return file.number(mesh, "topology_dimension") == 2.0 || (words >> dimension && dimension == 2.0);
+}
+
 std::string findMesh(const NetcdfReader& file) {
   for (const std::string& name : file.variables()) {
-    if (file.text(name, "cf_role") == "mesh_topology" && file.number(name, "topology_dimension") == 2.0) return name;
+    if (file.text(name, "cf_role") == "mesh_topology" && isOfFaces(file, name)) return name;
   }
   file.fail("there is no UGRID mesh of dimension 2 in it (a variable with cf_role \"mesh_topology\")");
 }

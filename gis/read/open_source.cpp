@@ -223,6 +223,14 @@ std::pair<std::string, std::string> splitLayer(const std::string& path) {
   return {path.substr(0, bar), layer};
 }
 
+// True for a text table in which GDAL finds no column of geometries.
+bool hasTextsOnly(GDALDataset& dataset) {
+  if (dataset.GetDriverName() != std::string_view("CSV")) return false;
+  for (OGRLayer* layer : dataset.GetLayers())
+    if (layer->GetLayerDefn()->GetGeomFieldCount() > 0) return false;
+  return true;
+}
+
 }  // namespace
 
 OpenSource openSource(const std::string& given, const std::vector<std::string>& wanted, const OgrErrors& errors) {
@@ -234,7 +242,13 @@ OpenSource openSource(const std::string& given, const std::vector<std::string>& 
   if (!layer_of_file.empty()) names = {layer_of_file};
   source.names_layers = !names.empty();
   const std::string path = pathForOgr(file, names);
-  source.dataset.reset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
+  constexpr unsigned kHow = GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR;
+  source.dataset.reset(GDALDataset::Open(path.c_str(), kHow));
+  if (source.dataset && hasTextsOnly(*source.dataset)) {
+    // GDAL knows a column of geometries only as WKT; these are the names that databases and GeoPandas give it.
+    const CPLStringList columns(CSLSetNameValue(nullptr, "GEOM_POSSIBLE_NAMES", "geometry,geom,the_geom,wkt_geom"));
+    source.dataset.reset(GDALDataset::Open(path.c_str(), kHow, nullptr, columns.List()));
+  }
   // GDAL opens TELEMAC's meshes, and makes a polygon of each triangle.
   if (!source.dataset || source.dataset->GetDriverName() == std::string_view("Selafin"))
     refuse(source.name, path, errors);

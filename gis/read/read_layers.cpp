@@ -4,7 +4,11 @@
 #include <ogrsf_frmts.h>
 
 #include <algorithm>
+#include <charconv>
 #include <memory>
+#include <optional>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "gis/coast/feature_names.hpp"
@@ -48,18 +52,59 @@ std::vector<std::pair<std::string, std::string>> attributesOf(OGRFeature& featur
   return attributes;
 }
 
-// For text tables: text that is not valid WKT becomes a missing geometry, and OGR does not report it.
-void refuseOddWkt(OGRFeature& feature, const std::string& what) {
-  if (feature.GetGeomFieldCount() == 0) return;
+// A geometry as PostGIS writes it, with the EPSG code of its CRS in front: "SRID=4326;POINT(1 2)".
+struct ExtendedWkt {
+  int code = 0;  // 0: none
+  std::unique_ptr<OGRGeometry> geometry;
+};
+
+// Nullopt if it is no such text.
+std::optional<ExtendedWkt> readExtendedWkt(std::string_view text) {
+  constexpr std::string_view kMark = "SRID=";
+  text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
+  const std::size_t end = text.find(';');
+  if (end == text.npos || !EQUALN(text.data(), kMark.data(), kMark.size())) return std::nullopt;
+  ExtendedWkt read;
+  const char* const stop = text.data() + end;
+  if (const auto number = std::from_chars(text.data() + kMark.size(), stop, read.code);
+      number.ec != std::errc() || number.ptr != stop)
+    return std::nullopt;
+  OGRGeometry* geometry = nullptr;
+  const std::string wkt(text.substr(end + 1));
+  const OGRErr error = OGRGeometryFactory::createFromWkt(wkt.c_str(), nullptr, &geometry);
+  read.geometry.reset(geometry);
+  if (error != OGRERR_NONE || !geometry) return std::nullopt;
+  return read;
+}
+
+// For text tables: text that is not WKT becomes a missing geometry, and OGR does not report it. Returns extended WKT,
+// nullopt for an empty text, and throws InputError for anything else.
+std::optional<ExtendedWkt> oddWkt(OGRFeature& feature, const std::string& what) {
+  if (feature.GetGeomFieldCount() == 0) return std::nullopt;
   const std::string_view column = feature.GetGeomFieldDefnRef(0)->GetNameRef();
   for (int i = 0; i < feature.GetFieldCount(); ++i) {
     const std::string name = feature.GetFieldDefnRef(i)->GetNameRef();
-    if (!EQUAL(name.c_str(), "WKT") && column != "geom_" + name) continue;
+    if (!EQUAL(name.c_str(), "WKT") && column != "geom_" + name && column != name) continue;
+    if (std::optional<ExtendedWkt> read = readExtendedWkt(feature.GetFieldAsString(i))) return read;
     constexpr std::size_t kShown = 60;
     const std::string text = oneLine(feature.GetFieldAsString(i), kShown);
     if (text.find_first_not_of(' ') != text.npos) {
       throw InputError(what + ": its " + name + " is not a geometry (" + text + "): repair or remove this feature");
     }
+  }
+  return std::nullopt;
+}
+
+// Throws InputError with `what` in front.
+Crs crsOfCode(int code, const std::string& what) {
+  OGRSpatialReference srs;
+  if (srs.importFromEPSG(code) != OGRERR_NONE)
+    throw InputError(what + ": the CRS of its geometry, SRID " + std::to_string(code) + ", is not known");
+  srs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  try {
+    return fromOgr(&srs);
+  } catch (const InputError& error) {
+    throw InputError(what + ": " + error.what());
   }
 }
 
@@ -107,7 +152,12 @@ class LayerReader {
     feature.fid = given.GetFID() == OGRNullFID ? count_ : given.GetFID();
     feature.source = raw_.source;
     feature.use = raw_.use;
-    if (!geometry && of_texts_) refuseOddWkt(given, featureInWords(feature));
+    std::optional<ExtendedWkt> extended;
+    if (!geometry && of_texts_) extended = oddWkt(given, featureInWords(feature));
+    if (extended) {
+      geometry = extended->geometry.get();
+      takeCode(extended->code, featureInWords(feature));
+    }
     if (!geometry || geometry->IsEmpty()) {
       ++report.skipped_empty;
       return;
@@ -154,6 +204,16 @@ class LayerReader {
   }
 
  private:
+  // The CRS that a geometry states holds for the layer, which has none in a text table.
+  void takeCode(int code, const std::string& what) {
+    if (code == 0) return;
+    if (code_ != 0 && code_ != code)
+      throw InputError(what + ": its CRS is SRID " + std::to_string(code) + ", but that of features before it is " +
+                       std::to_string(code_) + "; bring all to one");
+    if (code_ == 0 && !raw_.crs) raw_.crs = crsOfCode(code, what);
+    code_ = code;
+  }
+
   void tally(const GeometryParts& parts, const std::string& what, ReadReport& report) {
     report.points += parts.coordinates;
     report.rings += parts.rings;
@@ -183,6 +243,7 @@ class LayerReader {
   std::int64_t count_ = 0;  // features with a geometry
   bool swap_axes_ = false;
   bool of_texts_ = false;
+  int code_ = 0;                               // EPSG, of its geometries; 0: none states one
   bool guesses_ = false, told_guess_ = false;  // that the encoding of a text was guessed, and reported
 };
 

@@ -17,6 +17,9 @@ struct RepairOptions {
   // Degrees: the maximum angle of the mesh. Repairs for the time step, and the final increase of small angles, keep it;
   // other repairs may exceed it, since models may need them.
   double max_angle_deg = 180.0;
+  // Metres: repairs make shorter edges only where nothing else helps, or leaves angles below 20 degrees; 0: any length
+  // will do.
+  double least_edge_m = 0.0;
   std::vector<Point> asked{};  // places of nodes that the user requested: no repair moves them
   bool on_sphere = false;      // angles are those on a sphere with unchanged latitudes, not on the ellipsoid
 };

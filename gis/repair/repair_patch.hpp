@@ -43,13 +43,14 @@ struct GridLinks {
 class CrsMap;
 class ShoreIndex;
 
-// The time step that triangles must allow (`timeSteps`).
+// The time step that triangles must allow (`timeSteps`), and the lengths of edges.
 struct StepBound {
   double time_step_s = 0.0;      // 0: none
   double least_angle_deg = 0.0;  // repairs for the time step make no smaller angles
-  // By triangle: length on the ground per unit of its local plane.
+  // By triangle: length on the ground per unit of its local plane; set if any of these bounds lengths.
   std::span<const double> metres_per_unit{};
   double largest_angle_deg = 180.0;  // repairs for the time step make no larger angles
+  double least_edge_m = 0.0;         // as in RepairOptions
 };
 
 // The grid as searches for repairs see it.

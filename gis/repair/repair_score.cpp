@@ -116,6 +116,13 @@ bool missesStep(const EditedView& edited, const GridCorners& v, std::uint32_t so
   return shortest * edited.view.step.metres_per_unit[source] < needed;
 }
 
+// True if the triangle, with corners `p` in its plane, has an edge below the bound. It is cut from triangle `source`.
+bool isShort(const RepairView& view, std::uint32_t source, const std::array<Point, 3>& p) {
+  if (view.step.least_edge_m <= 0.0) return false;
+  const double shortest = std::min({distance(p[0], p[1]), distance(p[1], p[2]), distance(p[2], p[0])});
+  return shortest * view.step.metres_per_unit[source] < view.step.least_edge_m;
+}
+
 // The local plane of a triangle shorter than `kLittle` distorts its lengths and angles by less than `kBent` and
 // `kBentDeg`.
 constexpr double kLittle = 1e5;  // metres
@@ -212,7 +219,7 @@ std::optional<TriangleScore> scoreTriangle(const RepairView& view, std::uint32_t
   const auto p = now.planeOf(v);
   if (!isUpright(now, v, p)) return std::nullopt;
   const auto [least, largest] = anglesOf(p);
-  return TriangleScore{triangleDefects(now, v, t, p), least, largest};
+  return TriangleScore{triangleDefects(now, v, t, p), least, largest, isShort(view, t, p)};
 }
 
 // The same, cached in `scale`.
@@ -362,6 +369,7 @@ std::optional<EditScore> scoreAbove(const RepairView& view, const GridPatch& pat
     score.defects -= old ? old->defects : 0;
     score.replaced_angle = std::min(score.replaced_angle, old ? old->min_angle : 0.0);
     score.replaced_largest = std::max(score.replaced_largest, old ? old->max_angle : 180.0);
+    score.short_added -= old && old->is_short;
   }
   const auto kept = std::ranges::find_if(scale.angles, isKept, &std::pair<double, std::uint32_t>::second);
   if (kept != scale.angles.end()) score.min_angle = std::min(score.min_angle, kept->first);
@@ -382,6 +390,7 @@ std::optional<EditScore> scoreAbove(const RepairView& view, const GridPatch& pat
     const std::array<Point, 3>& p = shapes.emplace_back(edited.planeOf(triangle.v));
     if (!isUpright(edited, triangle.v, p)) return std::nullopt;
     score.defects += triangleDefects(edited, triangle.v, triangle.source, p);
+    score.short_added += isShort(view, triangle.source, p);
     if (!mayReach()) return std::nullopt;
   }
   for (const std::array<Point, 3>& p : shapes) {

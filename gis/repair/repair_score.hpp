@@ -12,23 +12,26 @@
 namespace coastmesh {
 
 // The outcome of an edit of a patch. Edits are ranked by grade first, since another edit may repair the defects that
-// are left, then by fewest defects, then by largest smallest angle.
+// are left, then by fewest defects, then by fewest triangles with too short an edge, then by largest smallest angle.
 struct EditScore {
   int defects = 0;         // change of the patch's defects; negative: fewer
   double min_angle = 0.0;  // degrees, of the whole patch
   // Degrees: the smallest angle of the triangles that the edit makes, and of those that they replace.
   double made_angle = 180.0, replaced_angle = 180.0;
   double made_largest = 0.0, replaced_largest = 0.0;  // their largest angles
+  int short_added = 0;  // change in the number of triangles with an edge below the bound (`StepBound`)
 
-  // The number of these thresholds, in degrees, that the smallest angle reaches.
+  // The number of these thresholds, in degrees, that the smallest angle reaches; at most one if the edit makes edges
+  // too short.
   int grade() const {
     int reached = 0;
     for (const double angle : {20.0, 25.0, 30.0, 33.0}) reached += min_angle >= angle;
-    return reached;
+    return short_added > 0 ? std::min(reached, 1) : reached;
   }
   bool betterThan(const EditScore& other) const {
     if (grade() != other.grade()) return grade() > other.grade();
-    return defects != other.defects ? defects < other.defects : min_angle > other.min_angle;
+    if (defects != other.defects) return defects < other.defects;
+    return short_added != other.short_added ? short_added < other.short_added : min_angle > other.min_angle;
   }
 };
 
@@ -38,6 +41,7 @@ inline constexpr int kTurnedOver = std::numeric_limits<int>::max();
 struct TriangleScore {
   int defects = 0;
   double min_angle = 0.0, max_angle = 180.0;  // degrees
+  bool is_short = false;                      // an edge is below the bound
 };
 
 // Measurements of a patch, made once, so that scoring an edit costs only as much as the edit changes.
@@ -56,9 +60,10 @@ struct ScoreBar {
   double least_angle_deg = 0.0;      // no smaller angles, unless the replaced triangles have smaller ones
   const EditScore* best = nullptr;   // better than this
   double largest_angle_deg = 180.0;  // no larger angles, unless the replaced triangles have larger ones
+  int short_added = kTurnedOver;     // no more triangles with too short an edge
 
   bool isReachedBy(const EditScore& score) const {
-    return score.made_angle >= std::min(least_angle_deg, score.replaced_angle) &&
+    return score.short_added <= short_added && score.made_angle >= std::min(least_angle_deg, score.replaced_angle) &&
            score.made_largest <= std::max(largest_angle_deg, score.replaced_largest) && score.defects < defects &&
            (best == nullptr || score.betterThan(*best));
   }

@@ -87,6 +87,14 @@ void offerMoves(Contest& contest, const RepairView& view, std::uint32_t node) {
   forEachMove(view, node, kMoves, [&contest](const PatchEdit& edit) { contest.offer(edit); });
 }
 
+// True if a shore may lose its corners for the sake of FESOM2: splits, its other repair, halve edges and angles.
+bool mayCutShore(const RepairView& view) { return view.shores != nullptr && view.isFor(Target::Fesom); }
+
+// True if some of the boundary edges that the edit removes are shore: it takes off no corner of a frame.
+bool isOfShore(const RepairView& view, const PatchEdit& edit) {
+  return std::ranges::any_of(edit.gone, [&](const NodePair& edge) { return isShore(view.links.kinds.at(edge)); });
+}
+
 // The sum of the squares of what the angles of a triangle lack of `goal_deg`; infinite if it is clockwise. Not of the
 // smallest alone: where two are equally small, no move of one node would increase that.
 double squaredLack(const RepairView& view, std::array<Point, 3> p, double goal_deg) {
@@ -115,6 +123,9 @@ std::optional<PatchEdit> bestReshaping(const RepairView& view, std::span<const s
     if (const auto flip = flipOf(view, patch, a, b)) contest.offer(*flip);
     for (const double share : reach.shares) contest.offer(splitOf(view, patch, a, b, share));
   }
+  if (mayCutShore(view))
+    for (const std::uint32_t t : inside)
+      if (const auto cut = cornerCutOf(view, t); cut && isOfShore(view, *cut)) contest.offer(*cut);
   return contest.take();
 }
 
@@ -141,7 +152,7 @@ std::vector<PatchEdit> harmlessMoves(const RepairView& view, std::uint32_t node,
   const PatchScale scale = scaleOf(view, patch);
   std::vector<PatchEdit> moves;
   forEachMove(view, node, kMoves, [&](PatchEdit&& edit) {
-    if (scoreAbove(view, patch, scale, edit, {.defects = 1}) && keepsShores(view, edit))
+    if (scoreAbove(view, patch, scale, edit, {.defects = 1, .short_added = 0}) && keepsShores(view, edit))
       moves.push_back(std::move(edit));
   });
   return moves;
@@ -149,8 +160,10 @@ std::vector<PatchEdit> harmlessMoves(const RepairView& view, std::uint32_t node,
 
 std::vector<PatchEdit> harmlessSlides(const RepairView& view, std::uint32_t node, const GridPatch& patch) {
   const PatchScale scale = scaleOf(view, patch);
-  const ScoreBar bar{
-      .defects = 1, .least_angle_deg = view.step.least_angle_deg, .largest_angle_deg = view.step.largest_angle_deg};
+  const ScoreBar bar{.defects = 1,
+                     .least_angle_deg = view.step.least_angle_deg,
+                     .largest_angle_deg = view.step.largest_angle_deg,
+                     .short_added = 0};
   std::vector<PatchEdit> slides;
   forEachSlide(view, node, kSlides, [&](PatchEdit&& edit) {
     if (scoreAbove(view, patch, scale, edit, bar) && keepsShores(view, edit)) slides.push_back(std::move(edit));
@@ -173,8 +186,8 @@ std::optional<PatchEdit> bestRelaxing(const RepairView& view, std::uint32_t t, s
     const bool changes_it = std::ranges::count(edit.removed, t) > 0 ||
                             std::ranges::any_of(edit.triangles, [t](const EditedTriangle& e) { return e.slot == t; });
     if (!changes_it) return;
-    const std::optional<EditScore> score =
-        scoreAbove(view, patch, scale, edit, {.defects = 1, .largest_angle_deg = view.step.largest_angle_deg});
+    const std::optional<EditScore> score = scoreAbove(
+        view, patch, scale, edit, {.defects = 1, .largest_angle_deg = view.step.largest_angle_deg, .short_added = 0});
     if (!score || score->made_angle <= std::max(most, score->replaced_angle + kBetterDeg)) return;
     if (!keepsShores(view, edit)) return;
     most = score->made_angle;
@@ -217,7 +230,7 @@ std::optional<PatchEdit> bestSharing(const RepairView& view, std::uint32_t node,
       lack += squaredLack(view, p, goal_deg);
       if (lack >= least) return;
     }
-    const ScoreBar bar{.defects = 1, .largest_angle_deg = view.step.largest_angle_deg};
+    const ScoreBar bar{.defects = 1, .largest_angle_deg = view.step.largest_angle_deg, .short_added = 0};
     if (!scoreAbove(view, patch, scale, edit, bar) || !keepsShores(view, edit)) return;
     least = lack;
     best = edit;

@@ -17,8 +17,8 @@ struct SearchReach {
   std::span<const std::uint32_t> movable;  // nodes that may be moved a little
 };
 
-// Moves a node, or flips or splits an edge of `inside`. REQUIRES: `patch` surrounds `inside` and the triangles of the
-// movable nodes (`patchRound`).
+// Moves a node, or flips or splits an edge of `inside`; for FESOM2, cuts off a corner of a shore that may move too.
+// REQUIRES: `patch` surrounds `inside` and the triangles of the movable nodes (`patchRound`).
 std::optional<PatchEdit> bestReshaping(const RepairView& view, std::span<const std::uint32_t> inside,
                                        const SearchReach& reach, const GridPatch& patch);
 

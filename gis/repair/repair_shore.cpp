@@ -131,7 +131,7 @@ std::optional<PatchEdit> collapseOf(const RepairView& view, std::uint32_t gone, 
 }
 
 std::optional<PatchEdit> cornerCutOf(const RepairView& view, std::uint32_t t) {
-  constexpr std::size_t kMost = 3;  // triangles
+  const std::size_t most = view.isFor(Target::Fesom) ? 6 : 3;  // triangles: the end of a water one element wide
   PatchEdit edit{.kind = PatchEditKind::CornerCut};
   std::optional<BoundaryKind> exposed;
   for (std::uint32_t next = t;;) {
@@ -167,14 +167,14 @@ std::optional<PatchEdit> cornerCutOf(const RepairView& view, std::uint32_t t) {
     bool goes_on = false;
     for (unsigned i = 0; i < 3; ++i) {
       const BoundaryKind* const kind = kindOf(view, edit, w[next3(i)], w[prev3(i)]);
-      if (kind != nullptr && kind->role == BoundaryRole::Open && edgeKey(w[next3(i)], w[prev3(i)]) != edgeKey(a, b))
-        goes_on = true;
+      if (kind == nullptr || edgeKey(w[next3(i)], w[prev3(i)]) == edgeKey(a, b)) continue;
+      if (kind->role == BoundaryRole::Open || view.isFor(Target::Fesom)) goes_on = true;
     }
     if (!goes_on) {
       edit.triangles.push_back({w, beyond, beyond});
       return edit;
     }
-    if (edit.removed.size() == kMost) return std::nullopt;
+    if (edit.removed.size() == most) return std::nullopt;
     next = beyond;
   }
 }

@@ -27,8 +27,8 @@ class ShoreIndex {
 // one of them would have to move but may not, or the mesh would become invalid.
 std::optional<PatchEdit> collapseOf(const RepairView& view, std::uint32_t gone, std::uint32_t kept, double share);
 
-// Removes a triangle with two boundary edges, one open and the other open or shore; likewise the next one if that too
-// would then have an open boundary edge besides the new one, and so on. The new edge is shore if the triangle has any.
+// Removes a triangle with two boundary edges, open or shore; likewise the next one if that too would then have an open
+// boundary edge besides the new one, or any for FESOM2, and so on. The new edge is shore if the triangle has any.
 // Returns nullopt if there is no such corner, a node or edge that must stay would go, or many triangles would.
 std::optional<PatchEdit> cornerCutOf(const RepairView& view, std::uint32_t t);
 

@@ -150,7 +150,7 @@ void startRound(RepairState& state, TriMesh mesh) {
     for (const auto& [a, b] : edgesOf({BoundaryRole::Land, line.closed, line.nodes}))
       links.line_edges.insert(edgeKey(a, b));
   forgetNear(state);
-  if (state.options.time_step_s > 0.0) measureGround(state);
+  if (state.options.time_step_s > 0.0 || state.options.least_edge_m > 0.0) measureGround(state);
   for (std::vector<bool>* flags : {&state.touched, &state.dead, &state.disturbed})
     flags->assign(grid.triangles.size(), false);
   state.smallest_angle.assign(grid.triangles.size(), std::numeric_limits<double>::quiet_NaN());

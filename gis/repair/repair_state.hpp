@@ -41,7 +41,7 @@ struct RepairState {
   RepairView view() const {
     // With a fixed shore the time step can seldom be reached everywhere, so no angles are sacrificed for it.
     const StepBound step{options.time_step_s, options.shore_moves ? 20.0 : options.min_angle_deg, metres_per_unit,
-                         options.max_angle_deg};
+                         options.max_angle_deg, options.least_edge_m};
     return {grid,
             links,
             targets,

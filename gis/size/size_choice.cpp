@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
+#include "core/metric.hpp"
 #include "core/size/on_surface.hpp"
 #include "gis/clean/geodesic_area.hpp"
+#include "gis/coast/segment_tags.hpp"
 #include "gis/geometry/box.hpp"
 
 namespace coastmesh {
@@ -110,6 +114,19 @@ SizeOptions chooseSizes(const SizeOptions& options, const SizeInputs& inputs, co
     }
   }
   return chosen;
+}
+
+double shoreSpacing(const Domain& domain) {
+  std::vector<double> lengths;
+  for (const Segment& segment : domain.pslg.segments) {
+    if (isOpenTag(segment.tag)) continue;
+    const Point &a = domain.pslg.points[segment.a], &b = domain.pslg.points[segment.b];
+    lengths.push_back(distance(a, b) / domain.projection.scaleAt(a + 0.5 * (b - a)));
+  }
+  if (lengths.empty()) return 0.0;
+  const auto quarter = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 4);
+  std::ranges::nth_element(lengths, quarter);
+  return *quarter;
 }
 
 std::string sizesAsOptions(const SizeOptions& options) {

@@ -15,6 +15,9 @@ namespace coastmesh {
 SizeOptions chooseSizes(const SizeOptions& options, const SizeInputs& inputs, const Domain& domain,
                         const ItemLoop& loop, double share = 1.0);
 
+// Three in four segments of the domain's shore are at least this long, metres; 0 if there is no shore.
+double shoreSpacing(const Domain& domain);
+
 // As given on the command line, besides the options that were given: "--size-shore 1200 --size-max 40000 ...".
 std::string sizesAsOptions(const SizeOptions& options);
 

@@ -84,6 +84,27 @@ TEST_F(ChosenSizes, AreThoseOfTheLargestWater) {
   EXPECT_LE(report().at("mesh").at("vertices").get<int>(), 100'000);
 }
 
+// Sizes much finer than the data show nothing more of the shore.
+TEST_F(ChosenSizes, AreComparedWithTheShoresDetail) {
+  LonLatRing fine;
+  constexpr int kPoints = 400;  // on each side, up to 350 m apart
+  const LonLatRing corners = squareAt(0, 50, 2, 1);
+  for (std::size_t side = 0; side + 1 < corners.size(); ++side)
+    for (int i = 0; i < kPoints; ++i) {
+      const auto& [x, y] = corners[side];
+      const auto& [to_x, to_y] = corners[side + 1];
+      fine.push_back({x + (to_x - x) * i / kPoints, y + (to_y - y) * i / kPoints});
+    }
+  fine.push_back(fine.front());
+  for (const bool is_fine : {false, true}) {
+    const ProgramRun run = mesh(is_fine ? std::vector<std::vector<LonLatRing>>{{fine}} : sea(), {"--coast", "follow"});
+    ASSERT_EQ(run.code, 0) << run.errors;
+    const std::string notes = report().at("input").at("notes").dump();
+    EXPECT_EQ(notes.find("three in four edges of the input's shore are more than ") == std::string::npos, is_fine)
+        << notes;
+  }
+}
+
 TEST_F(ChosenSizes, AreNotBelowTheMinimum) {
   for (const std::string least : {"3000", "20000"}) {
     ASSERT_EQ(mesh(sea(), {"--size-min", least}).code, 0);

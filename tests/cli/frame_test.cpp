@@ -67,6 +67,50 @@ TEST_F(Frame, ABoxRoundMostOfTheEarthIsTold) {
   EXPECT_THAT(outputOf("0,58,3,64"), Not(HasSubstr("antimeridian")));
 }
 
+TEST_F(Frame, APlaneThatIsCutInTheBoxIsWarnedOf) {
+  const LonLatRing shore{{-179.5, -17.0}, {-179.0, -17.0}, {-179.0, -16.0}};
+  const std::string land = write("land.geojson", geoJsonPolygons({{shore}}));
+  const auto errorsOf = [&](const std::string& plane) {
+    const ProgramRun run = runProgram({"mesh", land, "--domain", "outside", "--bbox=178,-18,-178,-15", "--crs", plane,
+                                       "--size", "30000", "-o", file("sea.nc"), "--overwrite"});
+    EXPECT_EQ(run.code, 0) << run.errors;
+    return run.errors;
+  };
+  EXPECT_THAT(errorsOf("EPSG:3395"), HasSubstr("is cut at the antimeridian, which --bbox crosses"));
+  EXPECT_THAT(errorsOf("EPSG:3832"), Not(HasSubstr("is cut at")));
+}
+
+// The tip of a bay of a lake lies beyond the south of the box.
+TEST_F(Frame, OpeningsOfOneEdgeAreWarnedOf) {
+  const LonLatRing shore{{5.0, 60.05}, {5.1, 60.05}, {5.15, 59.98}, {5.2, 60.05},
+                         {5.3, 60.05}, {5.3, 60.2},  {5.0, 60.2}};
+  std::vector<std::string> arguments{"mesh",
+                                     write("lake.geojson", geoJsonPolygons({{shore}})),
+                                     "--bbox=4.9,60,5.4,60.3",
+                                     "--size",
+                                     "2000",
+                                     "--coast",
+                                     "follow",
+                                     "-o",
+                                     file("lake.14"),
+                                     "--overwrite"};
+  const ProgramRun run = runProgram(arguments);
+  ASSERT_EQ(run.code, 0) << run.errors;
+  ASSERT_EQ(read(file("lake.14")).open.size(), 1u);
+  const std::string text = "1 open boundary is a single edge between shores, at (5.15, 60.0000",
+                    option = "--min-boundary ";
+  EXPECT_THAT(run.errors, HasSubstr(text));
+  const std::size_t at = run.errors.find(option);
+  ASSERT_NE(at, std::string::npos);
+  const std::size_t number = at + option.size();
+  arguments.insert(arguments.end(),
+                   {"--min-boundary", run.errors.substr(number, run.errors.find(' ', number) - number)});
+  const ProgramRun closed = runProgram(arguments);
+  ASSERT_EQ(closed.code, 0) << closed.errors;
+  EXPECT_TRUE(read(file("lake.14")).open.empty());
+  EXPECT_THAT(closed.errors, Not(HasSubstr("single edge")));
+}
+
 TEST_F(Frame, NothingReachesPastTheBox) {
   const ProgramRun run = runProgram({"mesh", island(), "--domain", "outside", "--bbox=-9,58,9,64", "--size-shore",
                                      "10000", "--size-max", "90000", "--coast", "follow", "-o", file("sea.14")});

@@ -189,6 +189,14 @@ TEST_F(Target, WhatRepairsMakeOfTheBoundsIsWhatTheExitCodeSays) {
   EXPECT_GT(mesh("mended.14", {"--target", "dflowfm"}), 0u);
 }
 
+// A degree of longitude is a sixth of one of latitude there.
+TEST_F(Target, SharpTrianglesOfSwanInDegreesAreExplained) {
+  const std::string lake = write("lake.geojson", geoJsonPolygons({{{{10, 80}, {16, 80}, {16, 81}, {10, 81}}}}));
+  const ProgramRun run = runProgram({"mesh", lake, "--size", "10000", "--target", "swan", "-o", file("lake.14")});
+  EXPECT_EQ(run.code, 1);
+  EXPECT_NE(run.errors.find("SWAN measures angles in the degrees of its file"), std::string::npos) << run.errors;
+}
+
 // Only the larger of two lakes gets an open boundary.
 TEST_F(Target, WatersOfOtherFeaturesWithoutAnOpenBoundaryAreLeftOut) {
   const std::string lakes =

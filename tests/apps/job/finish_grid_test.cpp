@@ -6,7 +6,9 @@
 #include <array>
 #include <cstdint>
 
+#include "core/quality.hpp"
 #include "tests/gis/grid_samples.hpp"
+#include "tests/gis/repair/slanting_sea.hpp"
 #include "tests/support/rasters.hpp"
 
 namespace coastmesh {
@@ -62,6 +64,21 @@ TEST(FinishGrid, RequestedNodesThatAreLeftOutAreNamed) {
       std::ranges::count_if(
           warnings, [](const std::string& text) { return text.starts_with("1 point of --constraints is no node"); }),
       1);
+}
+
+// A corner of 40 degrees that FVCOM needs two triangles in: a mesh from elsewhere has no bound, but regular triangles.
+TEST(FinishGrid, RepairsOfMeshesFromElsewhereMakeNoSharpTriangles) {
+  constexpr std::uint32_t kSouth = 6;  // nodes in the south, the first ones
+  Grid grid = testing::slantingSea(kSouth - 1, 40.0, [](std::uint32_t from, std::uint32_t to) {
+    return BoundaryKind{from < kSouth && to < kSouth ? BoundaryRole::Open : BoundaryRole::Land};
+  });
+  FinishOptions options;
+  options.targets = {"fvcom"};
+  const FinishReport report = finishGrid(grid, options);
+  EXPECT_FALSE(report.repairs.repairs.empty());
+  EXPECT_TRUE(report.repairs.left.empty());
+  for (const auto& [a, b, c] : grid.triangles)
+    EXPECT_GE(leastAngleDeg(grid.nodes[a], grid.nodes[b], grid.nodes[c]), 25.0 - 0.02);
 }
 
 // The second water is a single triangle.

@@ -175,6 +175,18 @@ TEST_F(ReadGrid, GmshOfOtherPrograms) {
   EXPECT_THAT(grid.boundaries[1].nodes, ElementsAre(1, 2, 3, 0));
 }
 
+// As Gmsh saves nodes with Mesh.SaveParametric: the dimension and tag of their curve or surface, and places on it.
+TEST_F(ReadGrid, GmshWithParametricNodes) {
+  std::string text = kSquare22;
+  const std::size_t nodes = text.find("\n$Nodes") + 1, elements = text.find("$Elements");
+  text.replace(nodes, elements - nodes,
+               "$ParametricNodes\n4\n4 0 1 0 1 4 0.5\n1 0 0 0 0 1\n2 1 0 0 2 1 0.25 0.75\n3 1 1 0 2 1 0 1\n"
+               "$EndParametricNodes\n");
+  const Grid grid = readGrid(put("bay.msh", text));
+  EXPECT_EQ(grid.nodes, (std::vector<Point>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
+  EXPECT_EQ(grid.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
+}
+
 TEST_F(ReadGrid, GmshWithDepthsAsThirdCoordinate) {
   std::string text = kSquare22;
   text.replace(text.find("1 0 0 0\n2 1"), 7, "1 0 0 -5");
@@ -540,7 +552,11 @@ TEST_F(ReadGrid, UgridWithMissingCornersOfAnyKind) {
       nc_put_att_text(id, mesh, name, value.size(), value.data());
     };
     text("cf_role", "mesh_topology");
-    nc_put_att_int(id, mesh, "topology_dimension", NC_INT, 1, &two);
+    // Some programs write this as text.
+    if (std::isnan(missing))
+      text("topology_dimension", "2");
+    else
+      nc_put_att_int(id, mesh, "topology_dimension", NC_INT, 1, &two);
     text("node_coordinates", "x y");
     text("face_node_connectivity", "of_faces");
     nc_enddef(id);

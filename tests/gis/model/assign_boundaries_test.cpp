@@ -181,7 +181,7 @@ TEST_F(AssignBoundaries, DepthOpensOuterLoopsOnly) {
   for (const Point& node : grid.nodes) grid.z.push_back(-10.0 * (node.x - 10.0));
   BoundaryOptions options;
   options.open_deeper_m = 25.0;
-  assignBoundaries(grid, options);
+  EXPECT_TRUE(assignBoundaries(grid, options).warnings.empty());
   EXPECT_EQ(edgesOfRole(grid, BoundaryRole::Open), 7u + 10u + 7u);
   EXPECT_EQ(edgesOfRole(grid, BoundaryRole::Island), 4u);
   expectWholeBoundary(grid);
@@ -191,6 +191,38 @@ TEST_F(AssignBoundaries, DepthOpensOuterLoopsOnly) {
   EXPECT_EQ(none.warnings[0].find("--open-deeper 1000 opens no boundary: its deepest edge is at "), 0u);
   grid.z.clear();
   EXPECT_THROW(assignBoundaries(grid, options), InputError);
+}
+
+TEST_F(AssignBoundaries, ACoastThatDepthOpensIsWarnedOf) {
+  Grid grid = sea();
+  // The south winds, and is shallow in its middle.
+  for (Point& node : grid.nodes) {
+    grid.z.push_back(node.y == 50.0 && node.x != 14.0 ? -100.0 : -1.0);
+    if (node.y == 50.0) node.y -= static_cast<int>(node.x) % 2 == 0 ? 0.3 : 0.0;
+  }
+  BoundaryOptions options;
+  options.open_deeper_m = 50.0;
+  const BoundaryReport report = assignBoundaries(grid, options);
+  EXPECT_EQ(report.edges_by_depth, 8u);
+  ASSERT_EQ(report.warnings.size(), 1u);
+  EXPECT_THAT(report.warnings[0], HasSubstr("--open-deeper 50 opens a winding line"));
+  EXPECT_THAT(report.warnings[0], HasSubstr(" in 2 parts, the longest of 39"));  // five edges of some 78 km
+  EXPECT_THAT(report.warnings[0], HasSubstr(" km, at (17, 50"));
+}
+
+TEST_F(AssignBoundaries, OpeningsOfOneEdgeAreCounted) {
+  Grid grid = sea();
+  EXPECT_EQ(loneOpenings(grid).count, 0u);
+  grid.boundaries = cutLoops(grid, boundaryLoops(grid), [&](std::uint32_t a, std::uint32_t b) {
+    const double x = std::min(grid.nodes[a].x, grid.nodes[b].x), y = std::max(grid.nodes[a].y, grid.nodes[b].y);
+    const bool lone = y == 50.0 && x == 12.0, both = std::min(grid.nodes[a].y, grid.nodes[b].y) == 60.0 && x < 12.0;
+    return BoundaryKind{lone || both ? BoundaryRole::Open : BoundaryRole::Land};
+  });
+  const LoneOpenings lone = loneOpenings(grid);
+  EXPECT_EQ(lone.count, 1u);
+  EXPECT_NEAR(lone.longest_m, 71'700.0, 100.0);
+  EXPECT_NEAR(lone.place.x, 12.5, 1e-9);
+  EXPECT_NEAR(lone.place.y, 50.0, 0.01);
 }
 
 // Programs count open boundaries: one for each forcing.

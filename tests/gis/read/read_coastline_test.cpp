@@ -198,6 +198,27 @@ TEST_F(ReadCoastline, RefusesTextsThatAreNoWkt) {
   EXPECT_EQ(report_.skipped_empty, 2u);
 }
 
+// As PostGIS writes it, and in columns named as databases and GeoPandas do.
+TEST_F(ReadCoastline, ReadsExtendedWkt) {
+  for (const std::string column : {"WKT", "geometry", "geom", "the_geom", "Geometry"}) {
+    const Coastline coastline =
+        read(write("ewkt.csv", "id," + column + "\n1,\"SRID=32633;POLYGON((500000 0,500001 0,500001 1,500000 0))\"\n"));
+    ASSERT_EQ(coastline.features.size(), 1u) << column;
+    EXPECT_EQ(coastline.crs.authority, "EPSG:32633");
+    EXPECT_EQ(coastline.features[0].polygons[0].outer.front(), (Point{500000, 0}));
+  }
+  const std::string plain = "id,geometry\n1,\"POLYGON((0 0,1 0,1 1,0 0))\"\n";
+  EXPECT_EQ(read(write("plain.csv", plain)).features.size(), 1u);
+  expectRefused(
+      {write("two.csv",
+             "WKT,a\n\"SRID=4326;POLYGON((0 0,1 0,1 1,0 0))\",1\n\"SRID=4267;POLYGON((0 0,1 0,1 1,0 0))\",2\n")},
+      {"two.csv', feature 2: its CRS is SRID 4267, but that of features before it is 4326"});
+  expectRefused({write("none.csv", "geom,a\n\"SRID=4326;POLYGN((0 0,1 0,1 1,0 0))\",1\n")},
+                {"none.csv', feature 1: its geom is not a geometry (SRID=4326;POLYGN"});
+  expectRefused({write("odd.csv", "geom,a\n\"SRID=999999;POLYGON((0 0,1 0,1 1,0 0))\",1\n")},
+                {"odd.csv', feature 1: the CRS of its geometry, SRID 999999, is not known"});
+}
+
 TEST_F(ReadCoastline, ClosesRings) {
   const Coastline coastline =
       read(write("open.csv", "WKT,name\n\"POLYGON((0 0,1 0,1 1,0 1))\",a\n\"POLYGON((5 5,6 5,6 6,5 5))\",b\n"));

@@ -5,6 +5,7 @@
 
 #include "core/metric.hpp"
 #include "gis/crs/crs.hpp"
+#include "gis/grid/boundary_kinds.hpp"
 #include "gis/grid/grid_edit.hpp"
 
 namespace coastmesh::testing {
