@@ -2,8 +2,11 @@
 #
 # Each suite is a process of its own: starting one loads GDAL, which takes longer than most tests do. The output of a suite
 # that fails names the test.
+set(COASTMESH_TEST_FLAGS "" CACHE STRING "Flags for the sources of tests, behind all others")
 function(coastmesh_discover_tests target)
   cmake_parse_arguments(discover "" "" PROPERTIES ${ARGN})
+  separate_arguments(flags NATIVE_COMMAND ${COASTMESH_TEST_FLAGS})
+  target_compile_options(${target} PRIVATE ${flags})
   set(suites ${CMAKE_CURRENT_BINARY_DIR}/${target}_suites.cmake)
   set(script ${PROJECT_SOURCE_DIR}/tests/list_suites.cmake)
   set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS ${script})
@@ -13,7 +16,12 @@ function(coastmesh_discover_tests target)
     BYPRODUCTS ${suites} VERBATIM)
   # A program that was not built fails.
   set(included ${CMAKE_CURRENT_BINARY_DIR}/${target}_include.cmake)
+  set(labelled)
+  if(discover_PROPERTIES)
+    list(JOIN discover_PROPERTIES " " properties)
+    set(labelled "  set_tests_properties(${target}_NOT_BUILT PROPERTIES ${properties})\n")
+  endif()
   file(WRITE ${included}
-    "if(EXISTS [=[${suites}]=])\n  include([=[${suites}]=])\nelse()\n  add_test(${target}_NOT_BUILT ${target}_NOT_BUILT)\nendif()\n")
+    "if(EXISTS [=[${suites}]=])\n  include([=[${suites}]=])\nelse()\n  add_test(${target}_NOT_BUILT ${target}_NOT_BUILT)\n${labelled}endif()\n")
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${included})
 endfunction()
