@@ -115,7 +115,7 @@ def write_inputs(folder):
     for name in ("dem", "part", "sizes"):
         put(name + ".prj", WGS84)
     put("angle.toml", "[mesh]\nsize-max = 150\n[check]\nmin-angle = 50\n[plot]\nsize = 300\n[info]\njson = true\n"
-        "[convert]\nformat = '2dm'\n[clean]\nsimplify = 300\n[partition]\nformat = 'gmsh'\n[gather]\nformat = '2dm'\n[cut]\nformat = '2dm'\n")
+        "[convert]\nformat = '2dm'\n[clean]\nsimplify = 300\n[partition]\nformat = 'gmsh'\n[gather]\nformat = '2dm'\n[cut]\nformat = '2dm'\n[remesh]\nformat = '2dm'\n")
 
 
 def cases():
@@ -261,16 +261,27 @@ def cases():
            "--outside": Case("open.geojson"), "--keep-water": Case("largest", input="two.nc"),
            "--cut-boundary": Case("land"), "--target": Case("adcirc", input="hourglass.nc"),
            "--numbers": Case("numbers.csv"), "--assume-crs": Case("EPSG:4326", input="degrees.2dm")}
+    remesh = {**common, "--output": Case("more.2dm"), "--format": Case("2dm"), "--quiet": Case(),
+              "--bbox": Case("-87.495,41.602,-87.48,41.615"), "--within": Case("clip.geojson"),
+              "--outside": Case("open.geojson"), "--target": Case("adcirc", input="hourglass.nc"),
+              "--numbers": Case("numbers.csv"), "--assume-crs": Case("EPSG:4326", input="degrees.2dm")}
+    for name in ("--min-angle", "--max-angle", "--size", "--size-min", "--size-max", "--grade", "--size-shore", "--shore-rate",
+                 "--channel-elements", "--size-features", "--size-raster", "--wave-elements", "--wave-period",
+                 "--slope-elements", "--slope-filter", "--depth-band", "--time-step", "--courant"):
+        remesh[name] = Case(mesh[name].value, extra=mesh[name].extra)
+    for name in ("--bathymetry", "--depth-method", "--depth-sign", "--water-level", "--min-depth"):
+        remesh[name] = Case(mesh[name].value, extra=mesh[name].extra)
     return {"mesh": mesh, "check": check, "convert": convert, "clean": clean, "plot": plot, "info": info,
-            "partition": partition, "gather": gather, "cut": cut}
+            "partition": partition, "gather": gather, "cut": cut, "remesh": remesh}
 
 
 INPUT = {"mesh": "lake.geojson", "clean": "lake.geojson", "check": "lake.nc", "convert": "lake.nc", "plot": "lake.nc",
-         "info": "lake.nc", "partition": "lake.nc", "gather": "lake.shard", "cut": "lake.nc"}
+         "info": "lake.nc", "partition": "lake.nc", "gather": "lake.shard", "cut": "lake.nc", "remesh": "lake.nc"}
 OUTPUT = {"mesh": "out.nc", "clean": "out.gpkg", "convert": "out.nc", "plot": "out.svg", "partition": "out.nc", "gather": "out.nc",
-          "cut": "out.nc"}
+          "cut": "out.nc", "remesh": "out.nc"}
 # What has to be given after the file.
-ARGUMENTS = {"partition": ["4"], "cut": ["--outside", "region.geojson"]}
+ARGUMENTS = {"partition": ["4"], "cut": ["--outside", "region.geojson"],
+             "remesh": ["--outside", "region.geojson", "--size-max", "400"]}
 
 
 class Runs:
