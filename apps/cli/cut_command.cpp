@@ -115,7 +115,9 @@ int runCut(const CutUsage& usage, Run& run) {
       outputs.writeGrid(i, grid, recorder.loop("write", control));
     }
     if (numbers != nullptr)
-      numbers->make([&](const std::string& path) { writeNumberTable(report.nodes, report.triangles, path, recorder.loop("write", control)); });
+      numbers->make([&](const std::string& path) {
+        writeNumberTable(report.nodes, report.triangles, path, recorder.loop("write", control));
+      });
   });
   outputs.commit();
   if (!usage.quiet) std::fputs((textOf(report, usage) + finishSummary(usage.finish, finish)).c_str(), stdout);

@@ -59,9 +59,11 @@ void requirePossible(const RemeshUsage& usage) {
                    inWords(boxAround(grid.nodes, inOrder)) + (grid.crs.isPlane() ? "" : " (" + nameOf(grid.crs) + ")"));
 }
 
-// The unit of lengths of a grid.
 std::string lengthText(double length, const Grid& grid) {
-  return amount("%.4g", length) + (grid.crs.isPlane() ? "" : " m");
+  constexpr double kWhole = 1000.0;  // without decimals from here on
+  const std::string number =
+      length >= kWhole ? grouped(static_cast<std::uint64_t>(std::llround(length))) : amount("%.3g", length);
+  return number + (grid.crs.isPlane() ? "" : " m");
 }
 
 std::vector<std::string> warningsOf(const RemeshReport& report, const RemeshUsage& usage, const Grid& grid) {

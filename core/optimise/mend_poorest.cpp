@@ -139,8 +139,7 @@ bool Optimiser::isWorthTrying(const Trial& trial) {
   }
   if (trial.change == Change::Split) {
     const EdgeRef e = edgeRef(kFirst, trial.corner);
-    return mayDivide(pslg_, mesh_.segment(e)) &&
-           squaredLengthOf(mesh_.origin(e), mesh_.target(e)) > wanted * wanted;
+    return mayDivide(pslg_, mesh_.segment(e)) && squaredLengthOf(mesh_.origin(e), mesh_.target(e)) > wanted * wanted;
   }
   if (trial.change != Change::Remove) return true;
   const VertexId u = v[trial.corner];

@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "core/metric.hpp"
 #include "core/predicates.hpp"
 #include "core/union_find.hpp"
 #include "gis/coast/segment_tags.hpp"

@@ -63,7 +63,8 @@ TEST(RemeshGrid, MakesAPartFiner) {
   const RemeshReport report = remeshGrid(after, taken, ofSize(0.25));
   expectRemeshed(before, taken, after, report);
   EXPECT_EQ(report.patches, 1u);
-  EXPECT_EQ(report.replaced.triangles_removed, 800u);
+  EXPECT_EQ(report.replaced.triangles_removed, 798u);  // at two corners one sticks out with two sides
+  EXPECT_EQ(report.tidied.teeth, 2u);
   EXPECT_GE(leastAngle(after, report), 30.0);
   EXPECT_EQ(report.below_bounds, 0u);
   EXPECT_NEAR(meanEdgeNear(after, {20.0, 20.0}, 4.0), 0.25, 0.03);
@@ -94,7 +95,7 @@ TEST(RemeshGrid, BoundariesKeepTheirNodesAndTypes) {
   const Flags taken = middlesInBox(before, 0.0, 180.0, 175.0, 262.0);
   const RemeshReport report = remeshGrid(after, taken, ofSize(2.0));
   expectRemeshed(before, taken, after, report);
-  EXPECT_GT(report.replaced.boundary_nodes, 50u);
+  EXPECT_GT(report.replaced.boundary_nodes, 20u);
   EXPECT_GT(after.boundaries[0].nodes.size(), before.boundaries[0].nodes.size() + 10);
 }
 

@@ -90,9 +90,9 @@ inline std::set<NodePair> undirected(const std::vector<std::uint32_t>& nodes, bo
   return edges;
 }
 
-// All that has to hold for a grid in a plane, of which the triangles with a flag were meshed anew: what stays is bit for
-// bit as before, the mesh is conforming and as large as before, boundaries and lines are the same with further nodes on
-// their edges.
+// All that has to hold for a grid in a plane, of which the triangles with a flag were meshed anew: what stays is as
+// before, bit for bit, the mesh is conforming and as large as before, boundaries and lines are the same with further
+// nodes on their edges.
 inline void expectRemeshed(const Grid& before, const Flags& taken, const Grid& after, const RemeshReport& report) {
   const ReplaceReport& replaced = report.replaced;
   ASSERT_EQ(replaced.nodes.size(), after.nodes.size());
