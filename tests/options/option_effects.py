@@ -96,6 +96,7 @@ def write_inputs(folder):
     put("line.geojson", collection(feature("LineString", [[-87.495, 41.613], [-87.482, 41.614]])))
     put("region.geojson", collection(square(-87.496, 41.611, 0.004, {"name": "bay"})))
     put("points.geojson", collection(feature("Point", [-87.48, 41.611], {"size": 30.0})))
+    put("other_points.geojson", collection(feature("Point", [-87.496, 41.605], {"size": 15.0})))
     put("open.geojson", collection(square(-87.505, 41.596, 0.008, {"type": "open", "other": "river"})))
     put("layers/a.csv", 'WKT,name\n"POLYGON ((0 0, 1000 0, 1000 1000, 0 1000, 0 0))",a\n')
     put("layers/b.csv", 'WKT,name\n"POLYGON ((2000 0, 3000 0, 3000 1000, 2000 1000, 2000 0))",b\n')
@@ -271,6 +272,12 @@ def cases():
         remesh[name] = Case(mesh[name].value, extra=mesh[name].extra)
     for name in ("--bathymetry", "--depth-method", "--depth-sign", "--water-level", "--min-depth"):
         remesh[name] = Case(mesh[name].value, extra=mesh[name].extra)
+    remesh["--size-features"] = Case("other_points.geojson")
+    for name in ("--size-min", "--grade"):
+        remesh[name] = Case(mesh[name].value, extra=mesh[name].extra, because="points ask for sizes already")
+    # The lake is small: sizes of the shore leave little room for others.
+    remesh["--slope-filter"] = Case("900", extra=[*depths, "--size-min", "5", "--slope-elements", "60", "--grade", "1"])
+    remesh["--courant"] = Case("0.5", extra=[*depths, "--size", "60", "--time-step", "2"])
     return {"mesh": mesh, "check": check, "convert": convert, "clean": clean, "plot": plot, "info": info,
             "partition": partition, "gather": gather, "cut": cut, "remesh": remesh}
 
@@ -281,7 +288,7 @@ OUTPUT = {"mesh": "out.nc", "clean": "out.gpkg", "convert": "out.nc", "plot": "o
           "cut": "out.nc", "remesh": "out.nc"}
 # What has to be given after the file.
 ARGUMENTS = {"partition": ["4"], "cut": ["--outside", "region.geojson"],
-             "remesh": ["--outside", "region.geojson", "--size-max", "400"]}
+             "remesh": ["--outside", "region.geojson", "--size-features", "points.geojson"]}
 
 
 class Runs:
