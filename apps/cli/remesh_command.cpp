@@ -78,12 +78,11 @@ std::vector<std::string> warningsOf(const RemeshReport& report, const RemeshUsag
     all.emplace_back("--size-shore has no effect: the mesh has no shore near the part that is meshed anew");
   if (report.replaced.partition_dropped)
     all.emplace_back("the assignment to processes is of the mesh before, and left out; partition makes a new one");
-  if (report.below_bounds > 0)
-    all.push_back(grouped(report.below_bounds) +
-                  forCount(report.below_bounds, " new triangle misses", " new triangles miss") +
-                  " the bounds on angles, beside edges that have to stay; the smallest angle is " +
-                  amount("%.1f", report.inside.min_angle_deg) +
-                  " degrees (asked for: " + amount("%g", usage.remesh.mesh.refine.min_angle_deg) + ")");
+  if (report.worst_below)
+    all.push_back(
+        grouped(report.below_bounds) + forCount(report.below_bounds, " new triangle misses", " new triangles miss") +
+        " the bounds on angles, beside edges that have to stay; the smallest angle is " +
+        amount("%.1f", report.worst_below->min_angle_deg) + " degrees, at " + pointText(report.worst_below->place));
   if (!usage.remesh.depth.files.empty()) {
     all.insert(all.end(), report.depth.warnings.begin(), report.depth.warnings.end());
     if (report.depth.unknown > 0)
@@ -167,7 +166,7 @@ int runRemesh(RemeshUsage& usage, Run& run) {
   });
   outputs.commit();
   if (!usage.quiet) std::fputs((textOf(report, usage, grid) + finishSummary(usage.finish, finish)).c_str(), stdout);
-  return finish.repairs.left.empty() && report.below_bounds == 0 ? kExitDone : kExitShort;
+  return finish.repairs.left.empty() ? kExitDone : kExitShort;
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ struct MeshedPatch {
   PatchMesh made;
   RimReach rim;
   bool has_shore = true;
-  std::size_t below_bounds = 0;
+  Shortfall short_of;
 };
 
 [[noreturn]] void refuse(const VertexDemand& demand, double most) {
@@ -86,9 +86,9 @@ class PatchMesher {
       MeshedRegion region = meshRegion(domain.pslg, std::move(options), {control_.cancelled, {}});
       const GroundPlaces ground = projection.groundPlaces(region.mesh.points, loop_);
       requireSound(region, patch);
-      const MeshJudgement judgement = judgeMesh(region.mesh, {projection, std::numeric_limits<double>::infinity()},
-                                                asked, 0.0, ground.space, loop_);
-      result.below_bounds = judgement.short_of.count;
+      MeshJudgement judgement = judgeMesh(region.mesh, {projection, std::numeric_limits<double>::infinity()}, asked,
+                                          0.0, ground.space, loop_);
+      result.short_of = std::move(judgement.short_of);
       const SmoothTable table = measureTable(
           projection, ground.empty() ? std::span<const Point>(region.mesh.points) : std::span<const Point>(), loop_);
       result.made.size_m = nodeSizes(
@@ -233,7 +233,9 @@ RemeshReport remeshGrid(Grid& grid, std::vector<std::uint8_t> taken, const Remes
     triangles += count;
     changed += meshed[p].rim.share * count;
     report.has_shore = report.has_shore || meshed[p].has_shore;
-    report.below_bounds += meshed[p].below_bounds;
+    report.below_bounds += meshed[p].short_of.count;
+    for (const BoundViolationPlace& below : meshed[p].short_of.places)
+      if (!report.worst_below || below.min_angle_deg < report.worst_below->min_angle_deg) report.worst_below = below;
     made.push_back(std::move(meshed[p].made));
   }
   report.rim.share = changed / triangles;

@@ -3,9 +3,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <string>
+#include <optional>
 #include <vector>
 
+#include "apps/job/mesh_job_result.hpp"
 #include "core/item_loop.hpp"
 #include "core/run_control.hpp"
 #include "gis/cut/tidy_cut.hpp"
@@ -41,8 +42,9 @@ struct RemeshReport {
   std::size_t whole_edges = 0;  // of weirs, and of boundaries within the mesh: kept as they are
   RimReach rim;                 // the widest, and the mean share by triangles
   bool has_shore = true;        // false: sizes at the shore are requested, but no patch has one near
-  std::size_t below_bounds =
-      0;  // new triangles that miss the bounds on angles, and that no angle of the outline excuses
+  // New triangles that miss the bounds on angles, beside edges that stay: no corner of the outline excuses them.
+  std::size_t below_bounds = 0;
+  std::optional<BoundViolationPlace> worst_below{};  // that with the smallest angle, in the grid's CRS
   TriangleFigures inside, outside;
   DepthReport depth;
 };
