@@ -9,6 +9,10 @@
 
 namespace coastmesh {
 
+// Whether new vertices may divide a segment. One of `Never` is an edge of the mesh: for a part of a larger mesh, whose
+// rest keeps its edges.
+enum class Divide : std::uint32_t { Freely, Never };
+
 // A straight constraint from `a` to `b`.
 struct Segment {
   VertexId a = kNone;
@@ -16,6 +20,7 @@ struct Segment {
   std::int32_t tag = 0;         // boundary marker; carried to the output, never interpreted
   RegionId left = kUnlabelled;  // the region on the left when going from a to b
   RegionId right = kUnlabelled;
+  Divide divide = Divide::Freely;
 };
 
 // The range of coordinates. Within it products of four lengths, as in circumcentres and bounds on angles, neither
@@ -39,6 +44,12 @@ struct Pslg {
   // without every face that contains one of `holes`; if there are no segments, it is the convex hull of the points.
   std::vector<Point> holes;
 };
+
+// True if an edge that carries the number `s` may be divided: it belongs to a segment (not kNone or kFrozen), and that
+// allows it.
+inline bool mayDivide(const Pslg& pslg, SegmentId s) {
+  return s < pslg.segments.size() && pslg.segments[s].divide == Divide::Freely;
+}
 
 // The part of a PSLG that is in its domain; the rest is not in the mesh.
 struct PslgCover {

@@ -13,7 +13,7 @@ template <>
 struct HasNoGaps<Segment> : std::true_type {};
 template <>
 struct HasNoGaps<InputCorner> : std::true_type {};
-static_assert(sizeof(Segment) == 5 * sizeof(std::uint32_t) && sizeof(InputCorner) == 7 * sizeof(double));
+static_assert(sizeof(Segment) == 6 * sizeof(std::uint32_t) && sizeof(InputCorner) == 7 * sizeof(double));
 
 // Found by argument-dependent lookup from `pass`.
 auto partsOf(auto& pslg) requires std::is_same_v<std::remove_cvref_t<decltype(pslg)>, Pslg> {

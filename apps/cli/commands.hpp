@@ -36,6 +36,7 @@ Command declarePlot(CLI::App& root);
 Command declareConvert(CLI::App& root);
 Command declareClean(CLI::App& root);
 Command declareCut(CLI::App& root);
+Command declareRemesh(CLI::App& root);
 Command declarePartition(CLI::App& root);
 Command declareGather(CLI::App& root);
 

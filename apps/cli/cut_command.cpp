@@ -13,8 +13,8 @@
 #include "gis/coast/box_of_frame.hpp"
 #include "gis/cut/cut_grid.hpp"
 #include "gis/cut/cut_region.hpp"
+#include "gis/cut/number_table.hpp"
 #include "gis/error.hpp"
-#include "gis/file/text_writer.hpp"
 #include "gis/for_count.hpp"
 #include "gis/grid/boundary_chains.hpp"
 #include "parallel/recorder.hpp"
@@ -49,18 +49,6 @@ void requirePossible(const CutUsage& usage) {
   throw InputError("no triangle of '" + usage.mesh.path +
                    "' has its middle in the part to cut out; the mesh extends, as W,S,E,N, over " +
                    inWords(boxAround(grid.nodes, inOrder)) + (grid.crs.isPlane() ? "" : " (" + nameOf(grid.crs) + ")"));
-}
-
-void writeNumbers(const CutReport& report, const std::string& path, const ItemLoop& loop) {
-  TextWriter out(path);
-  out << "item,number,source\n";
-  const auto write = [&](const char* item, const std::vector<std::uint32_t>& sources) {
-    out.rows(loop, sources.size(),
-             [&](TextBlock& row, std::size_t i) { row << item << ',' << i + 1 << ',' << sources[i] + 1 << '\n'; });
-  };
-  write("node", report.nodes);
-  write("triangle", report.triangles);
-  out.close();
 }
 
 std::vector<std::string> warningsOf(const CutReport& report) {
@@ -127,7 +115,9 @@ int runCut(const CutUsage& usage, Run& run) {
       outputs.writeGrid(i, grid, recorder.loop("write", control));
     }
     if (numbers != nullptr)
-      numbers->make([&](const std::string& path) { writeNumbers(report, path, recorder.loop("write", control)); });
+      numbers->make([&](const std::string& path) {
+        writeNumberTable(report.nodes, report.triangles, path, recorder.loop("write", control));
+      });
   });
   outputs.commit();
   if (!usage.quiet) std::fputs((textOf(report, usage) + finishSummary(usage.finish, finish)).c_str(), stdout);

@@ -91,7 +91,7 @@ int runProgram(int argc, char** argv, Interrupt& interrupt, Cluster* cluster) {
       ->type_name("FORM")
       ->trigger_on_parse();
   for (const auto declare : {declareMesh, declareCheck, declareInfo, declarePlot, declareConvert, declareCut,
-                             declareClean, declarePartition, declareGather}) {
+                             declareRemesh, declareClean, declarePartition, declareGather}) {
     commands.push_back(declare(app));
   }
   if (argc < 2) {

@@ -27,12 +27,10 @@ void declareEnum(OptionTable& table, const OptionNames& names, Enum& value, cons
 
 }  // namespace
 
-void declareFinishOptions(OptionTable& table, FinishOptions& options) {
+void declareDepths(OptionTable& table, DepthOptions& depth, const std::string& help) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  DepthOptions& depth = options.depth;
   table.section(Section::Depths);
-  table.texts({"--bathymetry", "Depth rasters"}, depth.files, kRasterFile, false,
-              "raster with the depths of the nodes; can be repeated, the first with a value at a node is used");
+  table.texts({"--bathymetry", "Depth rasters"}, depth.files, kRasterFile, false, help);
   table.needing({"--bathymetry"}, [&] {
     declareEnum(table, {"--depth-method", "Interpolation of depths"}, depth.method, kDepthMethodNames,
                 "between the four pixels around a node, or the average over the pixels in its triangles");
@@ -44,6 +42,15 @@ void declareFinishOptions(OptionTable& table, FinishOptions& options) {
                  "height of the still water above the rasters' zero; depths are measured from it");
     table.number({"--min-depth", "Minimum depth"}, depth.min_depth_m, "M", {-kInfinity, kInfinity},
                  "lower nodes that are shallower than this");
+  });
+}
+
+void declareFinishOptions(OptionTable& table, FinishOptions& options) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  DepthOptions& depth = options.depth;
+  declareDepths(table, depth,
+                "raster with the depths of the nodes; can be repeated, the first with a value at a node is used");
+  table.needing({"--bathymetry"}, [&] {
     declareEnum(table, {"--depth-fill", "Nodes without a depth"}, depth.fill, kDepthFillNames,
                 "value of nodes for which no raster has one: the mean of their neighbours, the value of the nearest "
                 "node, or none");

@@ -5,6 +5,9 @@
 
 namespace coastmesh {
 
+// Declares the options of depths from rasters, without --depth-fill; `help` is that of --bathymetry.
+void declareDepths(OptionTable& table, DepthOptions& depth, const std::string& help);
+
 // Declares the options of depths, boundaries and models.
 void declareFinishOptions(OptionTable& table, FinishOptions& options);
 

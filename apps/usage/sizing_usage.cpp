@@ -31,24 +31,17 @@ const std::vector<std::string> kSizes = {"--size",           "--size-shore",    
 
 }  // namespace
 
-void declareSizing(OptionTable& table, SizeOptions& sizes, SizingUsage& usage,
-                   const std::function<SizeChoice()>& choice) {
+void declareSizes(OptionTable& table, SizeOptions& sizes, SizingUsage& usage, const SizeHelp& help,
+                  const std::function<SizeChoice()>& choice) {
   const auto chooses = [choice] { return choice() != SizeChoice::None; };
   const auto choosesByDepth = [choice] { return choice() == SizeChoice::FromExtentAndDepths; };
-  const auto follows = [&usage, chooses] { return !usage.coast_given && chooses(); };
-  const auto keepsTime = [&usage, choosesByDepth] { return !usage.time_step_given && choosesByDepth(); };
   constexpr NumberRange kAboveZero{0.0, kInfinity, true};
   constexpr NumberRange kNotNegative{0.0, kInfinity};
   table.section(Section::Sizes);
   table.number({"--size", "Size everywhere"}, sizes.size_m, "M", kAboveZero,
                "edge length everywhere, unless another option requests less");
-  table
-      .number({"--size-min", "Minimum size"}, sizes.least_m, "M", kNotNegative,
-              "no size is smaller; with --coast follow edges shorter than 0.7 of it are avoided, "
-              "at the shore too; those left are reported, with exit code 1 if one is shorter than half of it")
-      .needs(kSizes, chooses);
-  table.number({"--size-max", "Maximum size"}, sizes.most_m, "M", kAboveZero,
-               "no size is larger; without any other size, no edge is longer");
+  table.number({"--size-min", "Minimum size"}, sizes.least_m, "M", kNotNegative, help.least).needs(kSizes, chooses);
+  table.number({"--size-max", "Maximum size"}, sizes.most_m, "M", kAboveZero, help.most);
   table
       .number({"--grade", "Gradation of sizes"}, sizes.gradation, "G", {0.0, 1.0, true},
               "sizes at two places differ by at most this times their distance", &usage.grade_given)
@@ -81,6 +74,26 @@ void declareSizing(OptionTable& table, SizeOptions& sizes, SizingUsage& usage,
       {"--depth-band", "Sizes by depth"}, "FROM,TO,SIZE", true,
       [&sizes](const std::vector<double>& numbers) { return storeBand(numbers, sizes.depth.bands); },
       "size where the depth is at least FROM and less than TO, all in metres, depths positive");
+  table.number({"--time-step", "Time step"}, sizes.time_step_s, "S", {0.0, 1e6}, help.time_step,
+               &usage.time_step_given);
+  table
+      .number({"--courant", "Maximum Courant number"}, sizes.courant, "C", {1e-3, 1e3},
+              "sqrt(9.81 depth) times the time step over the shortest edge of a triangle, with the depth of its "
+              "deepest corner")
+      .needs({"--time-step"}, [&usage, choosesByDepth] { return !usage.time_step_given && choosesByDepth(); });
+}
+
+void declareSizing(OptionTable& table, SizeOptions& sizes, SizingUsage& usage,
+                   const std::function<SizeChoice()>& choice) {
+  const SizeHelp help{
+      "no size is smaller; with --coast follow edges shorter than 0.7 of it are avoided, "
+      "at the shore too; those left are reported, with exit code 1 if one is shorter than half of it",
+      "no size is larger; without any other size, no edge is longer",
+      "no element is smaller than --courant allows for this time step: sizes are at least 5/3 of that, as the "
+      "shortest edges come out at 0.6 of the size; triangles that miss it are reported, with exit code 1; 0: "
+      "not used"};
+  declareSizes(table, sizes, usage, help, choice);
+  const auto follows = [&usage, choice] { return !usage.coast_given && choice() != SizeChoice::None; };
   table.section(Section::Coast);
   table.choice(
       {"--coast", "Detail of the coast"}, "keep", {"keep", "follow"},
@@ -131,17 +144,6 @@ void declareSizing(OptionTable& table, SizeOptions& sizes, SizingUsage& usage,
       .texts({"--barriers", "Barriers"}, sizes.barriers, kVectorFile, false,
              "with --coast follow: lines along which water is closed, half an element wide")
       .needs({"--coast follow"}, follows);
-  table.section(Section::Sizes);
-  table.number({"--time-step", "Time step"}, sizes.time_step_s, "S", {0.0, 1e6},
-               "no element is smaller than --courant allows for this time step: sizes are at least 5/3 of that, as the "
-               "shortest edges come out at 0.6 of the size; triangles that miss it are reported, with exit code 1; 0: "
-               "not used",
-               &usage.time_step_given);
-  table
-      .number({"--courant", "Maximum Courant number"}, sizes.courant, "C", {1e-3, 1e3},
-              "sqrt(9.81 depth) times the time step over the shortest edge of a triangle, with the depth of its "
-              "deepest corner")
-      .needs({"--time-step"}, keepsTime);
 }
 
 void settleSizing(const SizingUsage& usage, const DepthOptions& depths, SizeChoice choice, SizeOptions& sizes) {

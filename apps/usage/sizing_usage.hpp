@@ -22,6 +22,15 @@ struct SizingUsage {
 // Whether sizes are to be chosen for a sea model, and from what.
 enum class SizeChoice { None, FromExtent, FromExtentAndDepths };
 
+// What some of the options on sizes do, which differs between commands.
+struct SizeHelp {
+  std::string least, most, time_step;
+};
+
+// Declares the options that request sizes, without those on coasts; otherwise as below.
+void declareSizes(OptionTable& table, SizeOptions& sizes, SizingUsage& usage, const SizeHelp& help,
+                  const std::function<SizeChoice()>& choice);
+
 // Declares the options on the size of elements; `sizes` and `usage` must outlive the parsing. `choice` is called once
 // parsed: options that need sizes have an effect if they are chosen.
 void declareSizing(OptionTable& table, SizeOptions& sizes, SizingUsage& usage,

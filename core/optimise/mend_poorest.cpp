@@ -139,8 +139,7 @@ bool Optimiser::isWorthTrying(const Trial& trial) {
   }
   if (trial.change == Change::Split) {
     const EdgeRef e = edgeRef(kFirst, trial.corner);
-    return mesh_.segment(e) < pslg_.segments.size() &&
-           squaredLengthOf(mesh_.origin(e), mesh_.target(e)) > wanted * wanted;
+    return mayDivide(pslg_, mesh_.segment(e)) && squaredLengthOf(mesh_.origin(e), mesh_.target(e)) > wanted * wanted;
   }
   if (trial.change != Change::Remove) return true;
   const VertexId u = v[trial.corner];
@@ -155,7 +154,7 @@ bool Optimiser::isWorthTrying(const Trial& trial) {
 // Splits a subsegment of the input in the middle. Returns false if that is impossible.
 bool Optimiser::halveSegment(EdgeRef e) {
   const SegmentId seg = mesh_.segment(e);
-  if (seg >= pslg_.segments.size()) return false;
+  if (!mayDivide(pslg_, seg)) return false;
   const VertexId a = mesh_.origin(e), b = mesh_.target(e);
   const Segment& whole = pslg_.segments[seg];
   const Point x =

@@ -89,7 +89,8 @@ EdgeRef subsegmentBeside(const RefineRun& run, const Point& x, const Patch& cavi
     if (r.seg == kNone && r.beyond != kNone) continue;
     const Point &a = mesh.point(r.a), &b = mesh.point(r.b);
     const bool behind = isBehind(at_x, x, a, b);
-    if (!behind && (r.seg == kFrozen || !isEncroached(run.cos_lens, at_x, a, b))) continue;
+    const bool is_kept = r.seg != kNone && !mayDivide(run.pslg, r.seg);
+    if (!behind && (is_kept || !isEncroached(run.cos_lens, at_x, a, b))) continue;
     const double angle = behind ? std::numbers::pi : angleAt(x, a, b);
     if (angle <= widest) continue;
     widest = angle;

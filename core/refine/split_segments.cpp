@@ -132,7 +132,7 @@ std::vector<Cut> subsegmentsOf(const TriMesh& mesh, const Pslg& pslg, const Item
     for (auto t = static_cast<TriId>(first); t < last; ++t) {
       for (unsigned i = 0; i < 3; ++i) {
         const EdgeRef e = edgeRef(t, i);
-        if (mesh.segment(e) >= pslg.segments.size()) continue;
+        if (!mayDivide(pslg, mesh.segment(e))) continue;
         if (mesh.twin(e) != kNone && mesh.twin(e) < e) continue;
         cuts.push_back({mesh.origin(e), mesh.target(e), mesh.segment(e)});
       }

@@ -84,7 +84,7 @@ bool splitFor(RefineRun& run, EdgeRef edge, TriId t, unsigned apex) {
   Patch& patch = run.memory.patch;
   EditMesh& mesh = run.mesh;
   const SegmentId seg = mesh.segment(edge);
-  if (seg == kNone || seg == kFrozen) {
+  if (!mayDivide(run.pslg, seg)) {
     if (seg == kFrozen && run.variant.clear_of_frozen) defer(run, t);
     return false;
   }

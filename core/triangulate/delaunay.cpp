@@ -37,7 +37,7 @@ void checkReferences(const Pslg& pslg) {
   for (const Point& p : pslg.points) checkPlace(p, "a coordinate");
   for (const Point& hole : pslg.holes) checkPlace(hole, "a coordinate of a hole");
   for (SegmentId s = 0; s < pslg.segments.size(); ++s) {
-    const auto& [a, b, tag, left, right] = pslg.segments[s];
+    const VertexId a = pslg.segments[s].a, b = pslg.segments[s].b;
     if (a >= pslg.points.size() || b >= pslg.points.size())
       refuse(PslgDefect::Kind::UnknownVertex, {}, s, "a segment names a vertex that does not exist");
     if (a == b) refuse(PslgDefect::Kind::SegmentOfNoLength, pslg.points[a], s, "a segment has no length");

@@ -11,29 +11,13 @@
 #include "core/quality.hpp"
 #include "gis/coast/segment_tags.hpp"
 #include "gis/crs/geodesy.hpp"
+#include "gis/crs/longitude_range.hpp"
 #include "gis/grid/grid_lines.hpp"
 #include "gis/grid/loop_role.hpp"
 #include "gis/projection/smooth_table.hpp"
 
 namespace coastmesh {
 namespace {
-
-// The range of a group's longitudes: a whole turn that contains those of its input.
-struct LongitudeRange {
-  double west = -180.0;
-
-  double bring(double longitude) const {
-    if (longitude >= west && longitude <= west + 360.0) return longitude;
-    return longitude - 360.0 * std::floor((longitude - west) / 360.0);
-  }
-};
-
-LongitudeRange rangeOf(const std::vector<Point>& input) {
-  const auto [least, greatest] = std::ranges::minmax(input, {}, &Point::x);
-  if (least.x >= -180.0 && greatest.x <= 180.0) return {-180.0};
-  if (least.x >= 0.0 && greatest.x <= 360.0) return {0.0};
-  return {(least.x + greatest.x) / 2.0 - 180.0};
-}
 
 // The index in the grid of each used point of a mesh, kNone for unused ones.
 struct NodeIndices {

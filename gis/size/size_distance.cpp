@@ -263,11 +263,43 @@ void DistanceField::bound(std::span<const SizeBox> boxes, std::span<SizeRange> r
   }
 }
 
+namespace {
+
+// Twice the largest size.
+double peakOf(const std::vector<SizedLine>& lines) {
+  double most = 0.0;
+  for (const SizedLine& line : lines) most = std::max(most, line.size_m);
+  return 2.0 * most;
+}
+
+std::vector<SizedLine> upsideDown(std::vector<SizedLine> lines, double peak) {
+  for (SizedLine& line : lines) line.size_m = peak - line.size_m;
+  return lines;
+}
+
+}  // namespace
+
+FallingField::FallingField(const std::vector<SizedLine>& lines, std::function<double(const Point&)> scale,
+                           const Surface& surface)
+    : peak_(peakOf(lines)), rising_(upsideDown(lines, peak_), std::move(scale), peak_, surface) {}
+
+void FallingField::sample(std::span<const Point> places, std::span<double> sizes) const {
+  rising_.sample(places, sizes);
+  for (double& size : sizes) size = std::max(0.0, peak_ - size);
+}
+
+void FallingField::bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const {
+  rising_.bound(boxes, ranges);
+  for (SizeRange& range : ranges)
+    range = {std::max(0.0, peak_ - range.high), std::max(0.0, peak_ - range.low),
+             std::max(0.0, peak_ - range.at_centre), true};
+}
+
 std::vector<SizedLine> shoreLines(const Pslg& pslg, double size_m, double rate) {
   const bool labelled = hasRegions(pslg);
   std::vector<SizedLine> lines;
   for (const Segment& s : pslg.segments)
-    if (!labelled || (!isOpenTag(s.tag) && isBoundary(s)))
+    if (!labelled || (!isOpenTag(s.tag) && isBoundary(s) && s.divide == Divide::Freely))
       lines.push_back({pslg.points[s.a], pslg.points[s.b], size_m, rate});
   return lines;
 }

@@ -78,7 +78,25 @@ class DistanceField final : public SizeField {
   Surface surface_;
 };
 
-// The shore of a domain: the segments with land on one side that are not open; all segments if none is labelled.
+// The maximum of size - rate * distance over all lines, and 0: a lower bound for sizes near lines whose elements stay.
+class FallingField final : public SizeField {
+ public:
+  // As above. REQUIRES: at least one line.
+  FallingField(const std::vector<SizedLine>& lines, std::function<double(const Point&)> scale,
+               const Surface& surface = {});
+
+  void sample(std::span<const Point> places, std::span<double> sizes) const override;
+  void bound(std::span<const SizeBox> boxes, std::span<SizeRange> ranges) const override;
+  void limitRate(double rate) override { rising_.limitRate(rate); }
+  bool isGraded() const override { return true; }
+
+ private:
+  double peak_;           // above all sizes
+  DistanceField rising_;  // the same upside down: the minimum of (peak - size) + rate * distance
+};
+
+// The shore of a domain: the segments with land on one side that are not open and may be divided; all segments if none
+// is labelled.
 std::vector<SizedLine> shoreLines(const Pslg& pslg, double size_m, double rate);
 
 }  // namespace coastmesh

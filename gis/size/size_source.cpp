@@ -46,6 +46,11 @@ class ComposedSizes final : public SizeSource {
     asking_.push_back(std::move(option));
   }
   void setFloor(std::unique_ptr<SizeField> field) { floor_ = std::move(field); }
+  // Bounds of all sizes.
+  void setRim(std::unique_ptr<SizeField> least, std::unique_ptr<SizeField> most) {
+    rim_least_ = std::move(least);
+    rim_most_ = std::move(most);
+  }
 
   void sample(std::span<const Point> places, std::span<double> sizes) const override {
     forStretches(
@@ -70,7 +75,14 @@ class ComposedSizes final : public SizeSource {
           }
           std::ranges::fill(own, 0.0);
           if (floor_) floor_->sample(here, own);
-          for (std::size_t i = 0; i < out.size(); ++i) out[i] = bounded(out[i], own[i]) * measure_(here[i]);
+          for (std::size_t i = 0; i < out.size(); ++i) out[i] = bounded(out[i], own[i]);
+          if (rim_least_) {
+            rim_least_->sample(here, own);
+            for (std::size_t i = 0; i < out.size(); ++i) out[i] = std::max(out[i], own[i]);
+            rim_most_->sample(here, own);
+            for (std::size_t i = 0; i < out.size(); ++i) out[i] = std::min(out[i], own[i]);
+          }
+          for (std::size_t i = 0; i < out.size(); ++i) out[i] = std::min(out[i], most_m_) * measure_(here[i]);
         },
         kLeastRange);
   }
@@ -102,7 +114,8 @@ class ComposedSizes final : public SizeSource {
   }
   void limitRate(double rate) {
     for (const auto& field : fields_) field->limitRate(rate);
-    if (floor_) floor_->limitRate(rate);
+    for (SizeField* field : {floor_.get(), rim_least_.get(), rim_most_.get()})
+      if (field != nullptr) field->limitRate(rate);
   }
   bool isWanted(const SizeBox& box) const override { return mask_.meets(box); }
 
@@ -137,11 +150,17 @@ class ComposedSizes final : public SizeSource {
           std::ranges::fill(own, SizeRange{0.0, 0.0, 0.0});
           if (floor_) floor_->bound(here, own);
           for (std::size_t i = 0; i < out.size(); ++i) {
-            const double measure = measure_(here[i].centre);
             const bool known = !std::isnan(out[i].at_centre) && !std::isnan(own[i].at_centre);
-            out[i] = {bounded(out[i].low, own[i].low) * measure, bounded(out[i].high, own[i].high) * measure,
-                      known ? bounded(out[i].at_centre, own[i].at_centre) * measure : kUnknown,
+            out[i] = {bounded(out[i].low, own[i].low), bounded(out[i].high, own[i].high),
+                      known ? bounded(out[i].at_centre, own[i].at_centre) : kUnknown,
                       out[i].is_graded && own[i].high <= out[i].low};
+          }
+          if (rim_least_) boundByRim(here, own, out);
+          for (std::size_t i = 0; i < out.size(); ++i) {
+            const double measure = measure_(here[i].centre);
+            SizeRange& range = out[i];
+            for (double* size : {&range.low, &range.high, &range.at_centre})
+              if (!std::isnan(*size)) *size = std::min(*size, most_m_) * measure;
           }
         },
         kLeastRange);
@@ -149,7 +168,26 @@ class ComposedSizes final : public SizeSource {
 
  private:
   double bounded(double size, double floor) const {
-    return std::min({std::max({size, options_.least_m, floor}), options_.most_m, most_m_});
+    return std::min(std::max({size, options_.least_m, floor}), options_.most_m);
+  }
+
+  // Bounds of sizes with the rim, from those without it; `own` is memory.
+  void boundByRim(std::span<const SizeBox> boxes, std::vector<SizeRange>& own, std::span<SizeRange> ranges) const {
+    const auto combine = [&](const SizeField& field, const auto& of, bool raises) {
+      field.bound(boxes, own);
+      for (std::size_t i = 0; i < ranges.size(); ++i) {
+        SizeRange& range = ranges[i];
+        const double a = range.at_centre, b = own[i].at_centre;
+        // Sizes of the rim grow at most by the gradation.
+        const bool is_of_rim = raises ? range.high <= own[i].low : own[i].high <= range.low;
+        range = {of(range.low, own[i].low), of(range.high, own[i].high),
+                 std::isnan(a) || std::isnan(b) ? kUnknown : of(a, b), range.is_graded || is_of_rim};
+      }
+    };
+    combine(
+        *rim_least_, [](double a, double b) { return std::max(a, b); }, true);
+    combine(
+        *rim_most_, [](double a, double b) { return std::min(a, b); }, false);
   }
 
   const SizeOptions& options_;
@@ -160,6 +198,7 @@ class ComposedSizes final : public SizeSource {
   std::vector<std::unique_ptr<SizeField>> fields_;
   std::vector<std::string> asking_;   // of each field
   std::unique_ptr<SizeField> floor_;  // what the time step allows
+  std::unique_ptr<SizeField> rim_least_, rim_most_;
 };
 
 // True if the rule may request no size where a raster knows the depth.
@@ -492,6 +531,56 @@ void addFloor(ComposedSizes& source, std::unique_ptr<SizeField> step, const Size
   source.setFloor(std::move(floor));
 }
 
+// What the rim changes, from what is requested without it.
+RimReach reachOfRim(const ComposedSizes& source, const std::vector<SizedLine>& rim, const SizeField& least,
+                    const SizeField& most, const SizeOptions& options, const PlaneOfDomain& plane) {
+  constexpr std::size_t kMostSamples = 2000;
+  constexpr int kProbes = 128;
+  constexpr double kSame = 1.1;
+  const auto requestedAt = [&](const std::vector<Point>& places) {
+    std::vector<double> sizes(places.size());
+    source.sample(places, sizes);
+    for (std::size_t i = 0; i < places.size(); ++i) sizes[i] /= plane.measure(places[i]);
+    return sizes;
+  };
+  RimReach reach;
+  const std::size_t step = std::max<std::size_t>(1, rim.size() / kMostSamples);
+  std::vector<Point> places;
+  for (std::size_t i = 0; i < rim.size(); i += step) places.push_back(midpoint(rim[i].a, rim[i].b));
+  const std::vector<double> at_rim = requestedAt(places);
+  for (std::size_t k = 0; k < places.size(); ++k)
+    if (at_rim[k] < kInfinity)
+      reach.width_m = std::max(reach.width_m, std::abs(at_rim[k] - rim[k * step].size_m) / options.gradation);
+  places = probesOf(plane.root, kProbes, [&](const SizeBox& box) { return source.isWanted(box); });
+  const std::vector<double> requested = requestedAt(places);
+  std::vector<double> low(places.size()), high(places.size());
+  least.sample(places, low);
+  most.sample(places, high);
+  std::size_t changed = 0;
+  for (std::size_t k = 0; k < places.size(); ++k)
+    if (low[k] > kSame * requested[k] || kSame * high[k] < requested[k]) ++changed;
+  if (!places.empty()) reach.share = static_cast<double>(changed) / static_cast<double>(places.size());
+  return reach;
+}
+
+// Sizes that join those of the elements beside the rim.
+RimReach addRim(ComposedSizes& source, const std::vector<SizedLine>& rim, const SizeOptions& options,
+                const PlaneOfDomain& plane) {
+  const Surface& surface = plane.table->surface();
+  std::vector<SizedLine> lines = rim;
+  double longest = 0.0;
+  for (SizedLine& line : lines) {
+    line.rate = options.gradation;
+    longest = std::max(longest, line.size_m);
+  }
+  auto least = std::make_unique<FallingField>(lines, plane.scale, surface);
+  auto most =
+      std::make_unique<DistanceField>(std::move(lines), plane.scale, std::max(largestSize(options), longest), surface);
+  const RimReach reach = reachOfRim(source, rim, *least, *most, options, plane);
+  source.setRim(std::move(least), std::move(most));
+  return reach;
+}
+
 // The gradation to be reserved for changes of the scale: at most half of it. For elements as large as seas, sizes are
 // limited so that half is left.
 double gradationForScale(ComposedSizes& source, const SizeOptions& options, const PlaneOfDomain& plane) {
@@ -610,6 +699,7 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
   sizes.filled = depths.filled;
   if (depths.asked) source.add(askingOfDepths(options.depth), std::move(depths.asked));
   if (depths.step) addFloor(source, std::move(depths.step), options, plane, sized_shore, mask, sizes, loop);
+  if (!inputs.rim.empty()) sizes.rim = addRim(source, inputs.rim, options, plane);
 
   source.limitRate(options.gradation);
   const double for_scale = gradationForScale(source, options, plane);

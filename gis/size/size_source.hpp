@@ -17,6 +17,7 @@
 #include "gis/raster/raster_band.hpp"
 #include "gis/size/gap_fill.hpp"
 #include "gis/size/size_depth.hpp"
+#include "gis/size/size_distance.hpp"
 #include "gis/size/size_features.hpp"
 #include "gis/size/size_field.hpp"
 
@@ -89,6 +90,15 @@ struct SizeInputs {
   std::function<std::optional<Pslg>(const Domain& domain, const SizeOptions& options, const ItemLoop& loop)> shoreOf;
   // The domain with these parts tagged as open. The function may be empty.
   std::function<Domain(Domain&& domain, const SizeOptions& options, const ItemLoop& loop)> opened;
+  // Lines in the plane of the only domain, with the lengths of elements that stay beside them. Whatever is requested,
+  // sizes differ from these by at most the gradation times the distance.
+  std::vector<SizedLine> rim;
+};
+
+// How the lines of `SizeInputs::rim` change what is requested.
+struct RimReach {
+  double width_m = 0.0;  // the distance over which sizes change between the rim and what is requested beside it
+  double share = 0.0;    // of the domain: sizes differ from what is requested; estimated from samples
 };
 
 // Throws InputError.
@@ -148,6 +158,7 @@ struct DomainSizes {
   FilledWater filled{};
   bool has_shore = true;  // false: sizes at the shore are requested, but there is none
   RaisedShore raised{};
+  RimReach rim{};
   double floor_m = 0.0;  // the largest size that the time step requires anywhere, estimated from samples
 };
 

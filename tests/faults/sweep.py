@@ -45,6 +45,7 @@ CASES = {
     "svg": (["m.svg"], ["plot", "../source.nc", "--color", "angle", "--overwrite"], SOURCE),
     "convert": (["m.gpkg", "m.14"], ["convert", "../source.nc", "--target", "adcirc"] + WRITE, SOURCE),
     "cut": (["m.gpkg", "m.14"], ["cut", "../source.nc", "--bbox=-180,-90,180,90"] + WRITE, SOURCE),
+    "remesh": (["m.gpkg", "m.14"], ["remesh", "../source.nc", "--bbox=-180,-90,180,90", "--size", "4000"] + WRITE, SOURCE),
     "partition": (["partition.prop"], ["partition", "../source.nc", "3"] + WRITE, SOURCE),
     "check": (["m.gpkg"], ["check", "../source.nc", "--input", "INPUT", "--min-angle", "40"] + WRITE, SOURCE),
     "clean": (["m.gpkg"], ["clean", "INPUT", "--report", REPORT] + WRITE, []),

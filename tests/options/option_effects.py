@@ -96,6 +96,7 @@ def write_inputs(folder):
     put("line.geojson", collection(feature("LineString", [[-87.495, 41.613], [-87.482, 41.614]])))
     put("region.geojson", collection(square(-87.496, 41.611, 0.004, {"name": "bay"})))
     put("points.geojson", collection(feature("Point", [-87.48, 41.611], {"size": 30.0})))
+    put("other_points.geojson", collection(feature("Point", [-87.496, 41.605], {"size": 15.0})))
     put("open.geojson", collection(square(-87.505, 41.596, 0.008, {"type": "open", "other": "river"})))
     put("layers/a.csv", 'WKT,name\n"POLYGON ((0 0, 1000 0, 1000 1000, 0 1000, 0 0))",a\n')
     put("layers/b.csv", 'WKT,name\n"POLYGON ((2000 0, 3000 0, 3000 1000, 2000 1000, 2000 0))",b\n')
@@ -115,7 +116,7 @@ def write_inputs(folder):
     for name in ("dem", "part", "sizes"):
         put(name + ".prj", WGS84)
     put("angle.toml", "[mesh]\nsize-max = 150\n[check]\nmin-angle = 50\n[plot]\nsize = 300\n[info]\njson = true\n"
-        "[convert]\nformat = '2dm'\n[clean]\nsimplify = 300\n[partition]\nformat = 'gmsh'\n[gather]\nformat = '2dm'\n[cut]\nformat = '2dm'\n")
+        "[convert]\nformat = '2dm'\n[clean]\nsimplify = 300\n[partition]\nformat = 'gmsh'\n[gather]\nformat = '2dm'\n[cut]\nformat = '2dm'\n[remesh]\nformat = '2dm'\n")
 
 
 def cases():
@@ -261,16 +262,33 @@ def cases():
            "--outside": Case("open.geojson"), "--keep-water": Case("largest", input="two.nc"),
            "--cut-boundary": Case("land"), "--target": Case("adcirc", input="hourglass.nc"),
            "--numbers": Case("numbers.csv"), "--assume-crs": Case("EPSG:4326", input="degrees.2dm")}
+    remesh = {**common, "--output": Case("more.2dm"), "--format": Case("2dm"), "--quiet": Case(),
+              "--bbox": Case("-87.495,41.602,-87.48,41.615"), "--within": Case("clip.geojson"),
+              "--outside": Case("open.geojson"), "--target": Case("adcirc", input="hourglass.nc"),
+              "--numbers": Case("numbers.csv"), "--assume-crs": Case("EPSG:4326", input="degrees.2dm")}
+    for name in ("--min-angle", "--max-angle", "--size", "--size-min", "--size-max", "--grade", "--size-shore", "--shore-rate",
+                 "--channel-elements", "--size-features", "--size-raster", "--wave-elements", "--wave-period",
+                 "--slope-elements", "--slope-filter", "--depth-band", "--time-step", "--courant"):
+        remesh[name] = Case(mesh[name].value, extra=mesh[name].extra)
+    for name in ("--bathymetry", "--depth-method", "--depth-sign", "--water-level", "--min-depth"):
+        remesh[name] = Case(mesh[name].value, extra=mesh[name].extra)
+    remesh["--size-features"] = Case("other_points.geojson")
+    for name in ("--size-min", "--grade"):
+        remesh[name] = Case(mesh[name].value, extra=mesh[name].extra, because="points ask for sizes already")
+    # The lake is small: sizes of the shore leave little room for others.
+    remesh["--slope-filter"] = Case("900", extra=[*depths, "--size-min", "5", "--slope-elements", "60", "--grade", "1"])
+    remesh["--courant"] = Case("0.5", extra=[*depths, "--size", "60", "--time-step", "2"])
     return {"mesh": mesh, "check": check, "convert": convert, "clean": clean, "plot": plot, "info": info,
-            "partition": partition, "gather": gather, "cut": cut}
+            "partition": partition, "gather": gather, "cut": cut, "remesh": remesh}
 
 
 INPUT = {"mesh": "lake.geojson", "clean": "lake.geojson", "check": "lake.nc", "convert": "lake.nc", "plot": "lake.nc",
-         "info": "lake.nc", "partition": "lake.nc", "gather": "lake.shard", "cut": "lake.nc"}
+         "info": "lake.nc", "partition": "lake.nc", "gather": "lake.shard", "cut": "lake.nc", "remesh": "lake.nc"}
 OUTPUT = {"mesh": "out.nc", "clean": "out.gpkg", "convert": "out.nc", "plot": "out.svg", "partition": "out.nc", "gather": "out.nc",
-          "cut": "out.nc"}
+          "cut": "out.nc", "remesh": "out.nc"}
 # What has to be given after the file.
-ARGUMENTS = {"partition": ["4"], "cut": ["--outside", "region.geojson"]}
+ARGUMENTS = {"partition": ["4"], "cut": ["--outside", "region.geojson"],
+             "remesh": ["--outside", "region.geojson", "--size-features", "points.geojson"]}
 
 
 class Runs:

@@ -108,7 +108,7 @@ class ProviderTest(unittest.TestCase):
     def test_every_verb_is_an_algorithm_and_every_option_of_theirs_a_parameter(self):
         provider = QgsApplication.processingRegistry().providerById("coastmesh")
         self.assertEqual(provider.warningMessage(), "")
-        self.assertEqual({a.name() for a in provider.algorithms()}, {"mesh", "clean", "check", "convert", "cut"})
+        self.assertEqual({a.name() for a in provider.algorithms()}, {"mesh", "clean", "check", "convert", "cut", "remesh"})
         mesh = provider.algorithm("mesh")
         angle = mesh.parameterDefinition("MIN_ANGLE")
         self.assertEqual((angle.defaultValue(), angle.minimum(), angle.maximum()), (33.0, 0.0, 45.0))
@@ -526,6 +526,16 @@ class ProviderTest(unittest.TestCase):
         self.assertLess(part, QgsVectorLayer(whole["TRIANGLES"], "", "ogr").featureCount())
         with open(self.path("numbers.csv"), encoding="utf-8") as file:
             self.assertEqual(sum(line.startswith("triangle,") for line in file), part)
+
+    def test_a_part_of_a_mesh_anew(self):
+        self.mesh(memory_layer(LAKE))
+        box = QgsMeshLayer(self.path("lake.nc"), "lake", "mdal").extent()
+        west = QgsRectangle(box.xMinimum(), box.yMinimum(), box.center().x(), box.yMaximum())
+        before = self.run_algorithm("convert", INPUT=self.path("lake.nc"), OUTPUT=self.path("before.gpkg"))
+        results = self.run_algorithm("remesh", INPUT=self.path("lake.nc"), WITHIN=[memory_layer(west.asWktPolygon())],
+                                     SIZE=box.width() * 1000, OUTPUT=self.path("finer.gpkg"))
+        self.assertGreater(QgsVectorLayer(results["TRIANGLES"], "", "ogr").featureCount(),
+                           QgsVectorLayer(before["TRIANGLES"], "", "ogr").featureCount())
 
     def test_a_mesh_in_a_crs_without_a_code(self):
         self.mesh(memory_layer(LAKE))

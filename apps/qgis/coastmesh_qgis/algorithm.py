@@ -37,6 +37,7 @@ LAYERS = {
     "mesh": MESH_LAYERS,
     "convert": MESH_LAYERS,
     "cut": MESH_LAYERS,
+    "remesh": MESH_LAYERS,
     "clean": [("EDITS", "edits", "Edits"), ("PSLG", "pslg", "Plane graph")],
 }
 SHOWN_LAYERS = ("BOUNDARIES", "TRIANGLES", "EDITS", "PSLG")  # nodes are too many to show
@@ -138,6 +139,9 @@ class CoastmeshAlgorithm(QgsProcessingAlgorithm):
 
     def _outputs_of_cut(self):
         self._add_mesh_file("Part of the mesh")
+
+    def _outputs_of_remesh(self):
+        self._add_mesh_file("Mesh with a new part")
 
     def _add_mesh_file(self, title):
         self._add_file("OUTPUT", title, self._filters(first="ugrid"))
@@ -305,7 +309,7 @@ class CoastmeshAlgorithm(QgsProcessingAlgorithm):
         mesh = outputs.get("OUTPUT", "")
         if mesh.lower().endswith(MESH_ENDINGS):
             self._load_layer(context, mesh, "Mesh", "OUTPUT", QgsProcessingUtils.LayerHint.Mesh)
-        elif self.name() == "mesh" or self.name() in ("convert", "cut") and "TRIANGLES" not in results:
+        elif self.name() == "mesh" or self.name() in ("convert", "cut", "remesh") and "TRIANGLES" not in results:
             feedback.pushInfo(f"QGIS opens {' and '.join(MESH_ENDINGS)} as mesh layers; '{mesh}' was only written.")
         for name, _, title in reversed(LAYERS.get(self.name(), [])):
             if name in SHOWN_LAYERS and name in results:

@@ -19,6 +19,7 @@ VERBS = {
     "check": Verb("Check a mesh", reads_mesh=True, tags=["validate", "quality", "defects", "grid"]),
     "convert": Verb("Convert a mesh", reads_mesh=True, tags=["export", "grid", "ugrid", "adcirc", "gmsh", "2dm"]),
     "cut": Verb("Cut out a part of a mesh", reads_mesh=True, tags=["clip", "extract", "subset", "grid"]),
+    "remesh": Verb("Mesh a part of a mesh anew", reads_mesh=True, tags=["refine", "coarsen", "resolution", "grid"]),
 }
 
 # Options that the provider sets, and options that QGIS covers itself: layers and filters of features.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <random>
+#include <span>
 #include <vector>
 
 #include "core/metric.hpp"
@@ -52,6 +53,38 @@ TEST(DistanceField, IsTheLeastOverAllLines) {
     const Point inside = places[i] + boxes[i].half * Point{uniform(random, -1.0, 1.0), uniform(random, -1.0, 1.0)};
     EXPECT_GE(naive(inside), ranges[i].low - 1e-9);
     EXPECT_LE(naive(inside), ranges[i].high + 2e-3);
+  }
+}
+
+TEST(FallingField, IsTheMostOverAllLines) {
+  std::mt19937_64 random(15);
+  std::vector<SizedLine> lines;
+  for (int i = 0; i < 100; ++i) {
+    const Point a{uniform(random, 0.0, 10.0), uniform(random, 0.0, 10.0)};
+    lines.push_back({a, a, uniform(random, 0.1, 2.0), uniform(random, 0.1, 0.5)});
+  }
+  FallingField field(lines, [](const Point&) { return 2.0; });
+  for (const double most_rate : {1.0, 0.2}) {
+    field.limitRate(most_rate);
+    for (int i = 0; i < 500; ++i) {
+      const Point x{uniform(random, -15.0, 25.0), uniform(random, -15.0, 25.0)};
+      const SizeBox box{x, uniform(random, 0.0, 2.0)};
+      double size = -1.0;
+      SizeRange range;
+      field.sample(std::span(&x, 1), std::span(&size, 1));
+      field.bound(std::span(&box, 1), std::span(&range, 1));
+      const auto naive = [&](const Point& place) {
+        double most = 0.0;
+        for (const SizedLine& l : lines)
+          most = std::max(most, l.size_m - std::min(l.rate, most_rate) * distance(place, l.a) / 2.0);
+        return most;
+      };
+      EXPECT_NEAR(size, naive(x), 1e-9);
+      EXPECT_NEAR(range.at_centre, size, 1e-9);
+      const Point inside = x + box.half * Point{uniform(random, -1.0, 1.0), uniform(random, -1.0, 1.0)};
+      EXPECT_GE(naive(inside), range.low - 1e-9);
+      EXPECT_LE(naive(inside), range.high + 1e-9);
+    }
   }
 }
 

@@ -1,0 +1,218 @@
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include "apps/cli/commands.hpp"
+#include "apps/cli/exit_codes.hpp"
+#include "apps/cli/mesh_file.hpp"
+#include "apps/cli/run_outputs.hpp"
+#include "apps/job/finish_grid.hpp"
+#include "apps/job/places.hpp"
+#include "apps/remesh/remesh_grid.hpp"
+#include "apps/report/report_sections.hpp"
+#include "apps/usage/finish_usage.hpp"
+#include "apps/usage/grid_usage.hpp"
+#include "apps/usage/input_usage.hpp"
+#include "apps/usage/sizing_usage.hpp"
+#include "apps/usage/target_usage.hpp"
+#include "gis/coast/box_of_frame.hpp"
+#include "gis/cut/cut_region.hpp"
+#include "gis/cut/number_table.hpp"
+#include "gis/error.hpp"
+#include "gis/for_count.hpp"
+#include "gis/grid/boundary_chains.hpp"
+#include "parallel/recorder.hpp"
+#include "parallel/workers.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+struct RemeshUsage {
+  MeshFile mesh;
+  CutRegion region;
+  RemeshOptions remesh;
+  SizingUsage sizing;
+  std::vector<std::string> outputs;
+  std::string format;
+  std::string numbers;
+  FinishOptions finish;
+  bool overwrite = false;
+  bool quiet = false;
+};
+
+void requirePossible(const RemeshUsage& usage) {
+  if (!usage.region.any())
+    throw OptionError("nothing says which part of the mesh to mesh anew: give --bbox, --within or --outside");
+  const SizeOptions& sizes = usage.remesh.sizes;
+  if (!sizes.any() && !std::isfinite(sizes.most_m))
+    throw OptionError("nothing says how large the new triangles should be: give --size, or others");
+  if (!usage.numbers.empty() && !usage.finish.targets.empty())
+    throw OptionError(
+        "--numbers: repairs for --target add, move and remove nodes, so that numbers are no longer those of the mesh; "
+        "leave --target out, and repair with convert --target if check finds anything");
+}
+
+[[noreturn]] void refuseEmpty(const RemeshUsage& usage, const Grid& grid) {
+  throw InputError("no triangle of '" + usage.mesh.path +
+                   "' has its middle in the part to mesh anew; the mesh extends, as W,S,E,N, over " +
+                   inWords(boxAround(grid.nodes, inOrder)) + (grid.crs.isPlane() ? "" : " (" + nameOf(grid.crs) + ")"));
+}
+
+std::string lengthText(double length, const Grid& grid) {
+  constexpr double kWhole = 1000.0;  // without decimals from here on
+  const std::string number =
+      length >= kWhole ? grouped(static_cast<std::uint64_t>(std::llround(length))) : amount("%.3g", length);
+  return number + (grid.crs.isPlane() ? "" : " m");
+}
+
+std::vector<std::string> warningsOf(const RemeshReport& report, const RemeshUsage& usage, const Grid& grid) {
+  constexpr double kMostly = 0.5;
+  std::vector<std::string> all;
+  if (report.rim.share > kMostly)
+    all.push_back("sizes differ from those asked for in " + amount("%.0f", 100.0 * report.rim.share) +
+                  " % of the part, as they have to join those of the triangles around it" +
+                  (report.rim.width_m > 0.0 ? ", over up to " + lengthText(report.rim.width_m, grid) : "") +
+                  ": a larger part or a larger --grade leaves more room");
+  if (!report.has_shore)
+    all.emplace_back("--size-shore has no effect: the mesh has no shore near the part that is meshed anew");
+  if (report.replaced.partition_dropped)
+    all.emplace_back("the assignment to processes is of the mesh before, and left out; partition makes a new one");
+  if (report.worst_below)
+    all.push_back(
+        grouped(report.below_bounds) + forCount(report.below_bounds, " new triangle misses", " new triangles miss") +
+        " the bounds on angles, beside edges that have to stay; the smallest angle is " +
+        amount("%.1f", report.worst_below->min_angle_deg) + " degrees, at " + pointText(report.worst_below->place));
+  if (!usage.remesh.depth.files.empty()) {
+    all.insert(all.end(), report.depth.warnings.begin(), report.depth.warnings.end());
+    if (report.depth.unknown > 0)
+      all.push_back(grouped(report.depth.unknown) + forCount(report.depth.unknown, " new node has", " new nodes have") +
+                    " no depth, as no raster and no node around has one");
+  }
+  return all;
+}
+
+std::string figuresText(const TriangleFigures& figures, const Grid& grid) {
+  return grouped(figures.triangles) + forCount(figures.triangles, " triangle", " triangles") + ", edges from " +
+         lengthText(figures.shortest_m, grid) + " to " + lengthText(figures.longest_m, grid) + ", angles from " +
+         amount("%.1f", figures.min_angle_deg) + " degrees\n";
+}
+
+std::string textOf(const RemeshReport& report, const RemeshUsage& usage, const Grid& grid) {
+  const ReplaceReport& replaced = report.replaced;
+  std::string text =
+      grouped(replaced.triangles_removed) + " of " + grouped(replaced.triangles_before) + " triangles replaced by " +
+      grouped(replaced.triangles_added) + ", " + grouped(replaced.nodes_removed) + " of " +
+      grouped(replaced.nodes_before) + " nodes by " + grouped(replaced.nodes_added) +
+      (report.patches > 1 ? ", in " + grouped(report.patches) + " parts without a common edge" : "") + "\n";
+  text += "new: " + figuresText(report.inside, grid);
+  if (report.outside.triangles > 0) text += "unchanged: " + figuresText(report.outside, grid);
+  if (replaced.boundary_nodes + replaced.line_nodes > 0)
+    text += "nodes added to boundaries: " + grouped(replaced.boundary_nodes) +
+            ", to lines: " + grouped(replaced.line_nodes) + "\n";
+  if (report.whole_edges > 0) text += "edges of weirs that stay in the part: " + grouped(report.whole_edges) + "\n";
+  if (report.rim.width_m > 0.0)
+    text += "sizes change from those around to those asked for over up to " + lengthText(report.rim.width_m, grid) +
+            "; in " + amount("%.0f", 100.0 * report.rim.share) + " % of the part they differ from those asked for\n";
+  const auto [loose, teeth] = report.tidied;
+  if (loose + teeth > 0)
+    text += "kept at the edge of the part: " + grouped(teeth) + forCount(teeth, " triangle", " triangles") +
+            " with two sides along it or without a neighbour, " + grouped(loose) +
+            " that only a node connects to the others\n";
+  if (!usage.remesh.depth.files.empty())
+    text += "new nodes without a value in any raster, which keep the depth of the mesh before: " +
+            grouped(report.depth.kept) + "\n";
+  return text;
+}
+
+int runRemesh(RemeshUsage& usage, Run& run) {
+  requirePossible(usage);
+  RemeshOptions& options = usage.remesh;
+  settleSizing(usage.sizing, options.depth, SizeChoice::None, options.sizes);
+  for (const std::string& note : notesOnOverriddenSizes(usage.sizing, options.sizes)) run.warn(note);
+  Interrupt& interrupt = run.interrupt;
+  RunOutputs outputs(usage.overwrite, run.inputs, interrupt);
+  outputs.addGrids(usage.outputs, usage.format);
+  StagedFiles* const numbers = usage.numbers.empty() ? nullptr : &outputs.addFile(usage.numbers);
+  Grid grid = readMeshFile(usage.mesh, run);
+  findMissingBoundaries(grid);
+  const RunControl control{[&interrupt] { return interrupt.requested(); }, {}};
+  RemeshReport report;
+  FinishReport finish;
+  std::vector<std::string> warnings;
+  withThreads({}, [&] {
+    Recorder recorder;
+    const ItemLoop loop = recorder.loop("remesh", control);
+    std::vector<std::uint8_t> taken = trianglesIn(usage.region, grid, warnings, loop);
+    if (std::ranges::find(taken, 1) == taken.end()) refuseEmpty(usage, grid);
+    report = remeshGrid(grid, std::move(taken), options, control, loop);
+    finish = finishGrid(grid, usage.finish, control, loop);
+    if (usage.finish.targets.empty()) warnings.push_back(windingWarning(grid, loop));
+  });
+  for (const auto& some : {warnings, warningsOf(report, usage, grid), finish.warnings(), outputs.numberWarnings(grid),
+                           outputs.lossWarnings(grid, LossesOf::Grid)})
+    for (const std::string& warning : some)
+      if (!warning.empty()) run.warn(warning);
+  withThreads({}, [&] {
+    Recorder recorder;
+    for (std::size_t i = 0; i < outputs.grids(); ++i) {
+      interrupt.check();
+      outputs.writeGrid(i, grid, recorder.loop("write", control));
+    }
+    if (numbers != nullptr)
+      numbers->make([&](const std::string& path) {
+        writeNumberTable(report.replaced.nodes, report.replaced.triangles, path, recorder.loop("write", control));
+      });
+  });
+  outputs.commit();
+  if (!usage.quiet) std::fputs((textOf(report, usage, grid) + finishSummary(usage.finish, finish)).c_str(), stdout);
+  return finish.repairs.left.empty() ? kExitDone : kExitShort;
+}
+
+}  // namespace
+
+Command declareRemesh(CLI::App& root) {
+  auto usage = std::make_shared<RemeshUsage>();
+  OptionTable table = commandOptions("remesh", "Mesh a part of a mesh anew, with other sizes");
+  declareMeshFile(table, "MESH", "mesh to read", usage->mesh);
+  CutRegion& region = usage->region;
+  table.section(Section::Domain);
+  table.numbers(
+      {"--bbox", "Bounding box"}, "W,S,E,N", false,
+      [&region](const std::vector<double>& sides) { return storeBox(sides, region.box); },
+      "replace only triangles whose middle is in this box, in the mesh's CRS; in degrees, a box with E less than W "
+      "crosses the antimeridian");
+  table.texts({"--within", "Within polygons"}, region.within, kVectorFile, false,
+              "replace only triangles whose middle is in a polygon of this file, in any CRS; can be repeated");
+  table.texts({"--outside", "Outside polygons"}, region.outside, kVectorFile, false,
+              "keep triangles whose middle is in a polygon of this file; can be repeated");
+  RefineOptions& refine = usage->remesh.mesh.refine;
+  table.section(Section::Triangles);
+  table.number({"--min-angle", "Minimum angle"}, refine.min_angle_deg, "DEG", {0.0, 45.0},
+               "minimum angle of the new triangles");
+  table.number({"--max-angle", "Maximum angle"}, refine.max_angle_deg, "DEG", {60.0, 180.0},
+               "maximum angle of the new triangles; 180: no limit");
+  const SizeHelp help{"no size is smaller, except where triangles around the part are",
+                      "no size is larger, except where triangles around the part are",
+                      "no element is smaller than --courant allows for this time step, except where triangles around "
+                      "the part are; 0: not used"};
+  declareSizes(table, usage->remesh.sizes, usage->sizing, help, [] { return SizeChoice::None; });
+  declareDepths(table, usage->remesh.depth,
+                "raster with the depths of new nodes; can be repeated, the first with a value at a node is used; "
+                "without one, depths are linear between nodes of MESH");
+  declareTargets(table, usage->finish.targets,
+                 "repair what the model would reject, in all of the mesh, and report each repair; can be repeated");
+  declareGridOutputs(table, usage->outputs, usage->format);
+  table.output({"--numbers", "Numbers in the mesh before"}, usage->numbers, {},
+               "write a table (CSV) with the number that each node and triangle had in MESH, nothing for new ones");
+  table.flag({"--overwrite", "Replace files"}, usage->overwrite, "replace files that exist");
+  table.section(Section::Run);
+  table.flag({"--quiet", "No summary"}, usage->quiet, "print no summary");
+  table.example("coastmesh remesh fort.14 -o finer.14 --bbox=-91,46.5,-90,47 --size 500 --assume-crs EPSG:4326",
+                "triangles of 500 m in a box");
+  table.example("coastmesh remesh hgrid.gr3 -o finer.gr3 --within bay.geojson --size-shore 500 --size-max 5000",
+                "a bay with a finer shore");
+  return {{root, std::move(table)}, [usage](Run& run) { return runRemesh(*usage, run); }};
+}
+
+}  // namespace coastmesh

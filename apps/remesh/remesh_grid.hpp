@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "apps/job/mesh_job_result.hpp"
+#include "core/item_loop.hpp"
+#include "core/run_control.hpp"
+#include "gis/cut/tidy_cut.hpp"
+#include "gis/grid/grid.hpp"
+#include "gis/model/depth.hpp"
+#include "gis/remesh/replace_patches.hpp"
+#include "gis/size/size_source.hpp"
+#include "parallel/mesh_regions.hpp"
+
+namespace coastmesh {
+
+// How a part of a grid is meshed anew.
+struct RemeshOptions {
+  SizeOptions sizes;   // besides those that the triangles around the part ask for; coasts are kept
+  MeshOptions mesh;    // its sizes are set from `sizes`
+  DepthOptions depth;  // of new nodes; those without a value in any raster keep that of the old triangles
+};
+
+// Angles and edges of some triangles of a grid.
+struct TriangleFigures {
+  std::size_t triangles = 0;
+  double min_angle_deg = 180.0;
+  double shortest_m = std::numeric_limits<double>::infinity();  // in a plane: in its units
+  double longest_m = 0.0;
+
+  void add(const TriangleFigures& other);
+};
+
+struct RemeshReport {
+  ReplaceReport replaced;
+  TidiedCut tidied;
+  std::size_t patches = 0;
+  std::size_t whole_edges = 0;  // of weirs, and of boundaries within the mesh: kept as they are
+  RimReach rim;                 // the widest, and the mean share by triangles
+  bool has_shore = true;        // false: sizes at the shore are requested, but no patch has one near
+  // New triangles that miss the bounds on angles, beside edges that stay: no corner of the outline excuses them.
+  std::size_t below_bounds = 0;
+  std::optional<BoundViolationPlace> worst_below{};  // that with the smallest angle, in the grid's CRS
+  TriangleFigures inside, outside;
+  DepthReport depth;
+};
+
+// Replaces the triangles with a flag in `taken`, one for each, without those that models would reject at the edge of
+// the part (`tidyCut`), by triangles of the requested sizes. All others stay bit for bit: see `replacePatches`. Sizes
+// join those of the triangles around by the gradation. Throws InputError: edges of more than two triangles in the part,
+// a part that cannot be meshed, too many vertices; Cancelled. REQUIRES: at least one flag is set.
+RemeshReport remeshGrid(Grid& grid, std::vector<std::uint8_t> taken, const RemeshOptions& options,
+                        const RunControl& control = {}, const ItemLoop& loop = inOrder);
+
+}  // namespace coastmesh

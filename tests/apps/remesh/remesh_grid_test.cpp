@@ -1,0 +1,319 @@
+#include "apps/remesh/remesh_grid.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "gis/error.hpp"
+#include "parallel/recorder.hpp"
+#include "parallel/workers.hpp"
+#include "tests/apps/remesh/remeshed.hpp"
+#include "tests/gis/grid_samples.hpp"
+
+namespace coastmesh {
+namespace {
+
+using namespace coastmesh::testing;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+// A square lattice with boundaries, and depths that are linear.
+Grid sea(
+    int cells, const std::function<bool(int, int)>& wanted = [](int, int) { return true; }) {
+  const TriMesh mesh = lattice(cells, cells, wanted);
+  Grid grid;
+  grid.nodes = mesh.points;
+  for (const Triangle& t : mesh.triangles) grid.triangles.push_back(t.v);
+  for (const Point& p : grid.nodes) grid.z.push_back(-10.0 - 0.25 * p.x + 0.125 * p.y);
+  grid.boundaries = findBoundaries(mesh);
+  return grid;
+}
+
+// The mean length of edges between new nodes, and nodes at most `reach` from a place.
+double meanEdgeNear(const Grid& grid, const Point& place, double reach) {
+  double sum = 0.0, count = 0.0;
+  for (const GridCorners& v : grid.triangles) {
+    for (unsigned i = 0; i < 3; ++i) {
+      const Point a = grid.nodes[v[i]], b = grid.nodes[v[(i + 1) % 3]];
+      if (distance(midpoint(a, b), place) > reach) continue;
+      sum += distance(a, b);
+      count += 1.0;
+    }
+  }
+  return sum / count;
+}
+
+double leastAngle(const Grid& grid, const RemeshReport& report) {
+  double least = 180.0;
+  for (std::size_t t = 0; t < grid.triangles.size(); ++t) {
+    if (report.replaced.triangles[t] != kNone) continue;
+    const GridCorners& v = grid.triangles[t];
+    least = std::min(least, leastAngleDeg(grid.nodes[v[0]], grid.nodes[v[1]], grid.nodes[v[2]]));
+  }
+  return least;
+}
+
+TEST(RemeshGrid, MakesAPartFiner) {
+  const Grid before = sea(40);
+  Grid after = before;
+  const Flags taken = middlesInBox(before, 10.0, 10.0, 30.0, 30.0);
+  const RemeshReport report = remeshGrid(after, taken, ofSize(0.25));
+  expectRemeshed(before, taken, after, report);
+  EXPECT_EQ(report.patches, 1u);
+  EXPECT_EQ(report.replaced.triangles_removed, 798u);  // at two corners one sticks out with two sides
+  EXPECT_EQ(report.tidied.teeth, 2u);
+  EXPECT_GE(leastAngle(after, report), 30.0);
+  EXPECT_EQ(report.below_bounds, 0u);
+  EXPECT_NEAR(meanEdgeNear(after, {20.0, 20.0}, 4.0), 0.25, 0.03);
+  // In between, sizes fall at the rate of the gradation.
+  EXPECT_NEAR(report.rim.width_m, (1.138 - 0.25) / 0.3, 0.05);
+  EXPECT_NEAR(meanEdgeNear(after, {20.0, 11.5}, 0.5), 1.138 - 0.3 * 1.5, 0.15);
+  for (std::size_t n = 0; n < after.nodes.size(); ++n) {
+    const Point& p = after.nodes[n];
+    EXPECT_NEAR(after.z[n], -10.0 - 0.25 * p.x + 0.125 * p.y, 1e-12);
+  }
+}
+
+TEST(RemeshGrid, MakesAPartCoarser) {
+  const Grid before = sea(60);
+  Grid after = before;
+  const Flags taken = middlesInBox(before, 10.0, 10.0, 50.0, 50.0);
+  const RemeshReport report = remeshGrid(after, taken, ofSize(5.0));
+  expectRemeshed(before, taken, after, report);
+  EXPECT_LT(after.triangles.size(), before.triangles.size() - 2000);
+  EXPECT_EQ(report.below_bounds, 0u);
+  EXPECT_NEAR(meanEdgeNear(after, {30.0, 30.0}, 8.0), 5.0, 0.7);
+}
+
+TEST(RemeshGrid, BoundariesKeepTheirNodesAndTypes) {
+  // The part has a piece of the shore, of the open boundary, and of the island.
+  const Grid before = sampleGrid(Crs{}, {100.0, 200.0}, 10.0, 12);
+  Grid after = before;
+  const Flags taken = middlesInBox(before, 0.0, 180.0, 175.0, 262.0);
+  const RemeshReport report = remeshGrid(after, taken, ofSize(2.0));
+  expectRemeshed(before, taken, after, report);
+  EXPECT_GT(report.replaced.boundary_nodes, 20u);
+  EXPECT_GT(after.boundaries[0].nodes.size(), before.boundaries[0].nodes.size() + 10);
+}
+
+TEST(RemeshGrid, AllOfAGrid) {
+  const Grid before = sampleGrid(Crs{}, {100.0, 200.0}, 10.0, 6);
+  Grid after = before;
+  const Flags taken(before.triangles.size(), 1);
+  const RemeshReport report = remeshGrid(after, taken, ofSize(3.0));
+  expectRemeshed(before, taken, after, report);
+  EXPECT_EQ(report.patches, 2u);
+  EXPECT_EQ(report.outside.triangles, 0u);
+  EXPECT_EQ(report.rim.share, 0.0);
+}
+
+TEST(RemeshGrid, PartsRoundAnIslandAndWithHoles) {
+  const Grid before = sea(40, [](int i, int j) { return !(i >= 18 && i < 22 && j >= 18 && j < 22); });
+  for (const int hole : {0, 1, 2}) {
+    Grid after = before;
+    Flags taken = middlesInBox(before, 8.0, 8.0, 32.0, 32.0);
+    // A ring round the island that does not touch it; holes of triangles that stay.
+    const auto leaveOut = [&](double west, double south, double east, double north) {
+      const Flags left = middlesInBox(before, west, south, east, north);
+      for (std::size_t t = 0; t < taken.size(); ++t)
+        if (left[t] != 0) taken[t] = 0;
+    };
+    if (hole == 1) leaveOut(15.0, 15.0, 25.0, 25.0);
+    if (hole == 2) {
+      leaveOut(10.0, 10.0, 13.0, 13.0);
+      leaveOut(13.0, 13.0, 16.0, 16.0);  // touches the first in a node
+      leaveOut(26.0, 20.0, 27.0, 21.0);
+    }
+    const RemeshReport report = remeshGrid(after, taken, ofSize(0.5));
+    expectRemeshed(before, taken, after, report);
+    EXPECT_EQ(report.below_bounds, 0u) << hole;
+    EXPECT_EQ(report.replaced.boundary_nodes > 0, hole != 1);
+  }
+}
+
+TEST(RemeshGrid, WeirsStayAsTheyAre) {
+  // A wall of two shores, four nodes long, and a line.
+  Grid before = sea(20);
+  Boundary wall{BoundaryRole::Land, false, {}, 24};
+  std::vector<std::uint32_t> inner;
+  for (std::uint32_t i = 8; i <= 12; ++i) wall.nodes.push_back(10 * 21 + i);
+  // Triangles above the wall get nodes of their own along it.
+  for (std::size_t k = 0; k < wall.nodes.size(); ++k) {
+    const std::uint32_t node = wall.nodes[k];
+    const bool is_end = k == 0 || k + 1 == wall.nodes.size();
+    if (is_end) {
+      wall.back_nodes.push_back(node);
+      continue;
+    }
+    const auto across = static_cast<std::uint32_t>(before.nodes.size());
+    before.nodes.push_back(before.nodes[node] + Point{0.0, 0.125});
+    before.z.push_back(before.z[node]);
+    for (GridCorners& v : before.triangles) {
+      const double y = (before.nodes[v[0]].y + before.nodes[v[1]].y + before.nodes[v[2]].y) / 3.0;
+      if (y < 10.0) continue;
+      std::ranges::replace(v, node, across);
+    }
+    wall.back_nodes.push_back(across);
+  }
+  std::ranges::reverse(wall.nodes);  // the mesh is to the left of the lower shore
+  std::ranges::reverse(wall.back_nodes);
+  for (std::size_t k = 0; k < wall.nodes.size(); ++k) wall.weir.insert(wall.weir.end(), {2.0 + double(k), 1.0, 1.0});
+  before.boundaries.push_back(wall);
+  GridLine line{LineKind::Constraint, "pipe", false, {}};
+  for (std::uint32_t i = 5; i <= 15; ++i) line.nodes.push_back(5 * 21 + i);
+  before.lines.push_back(line);
+  requireConsistent(before);
+  for (const double size : {0.3, 3.0}) {
+    Grid after = before;
+    const Flags taken = middlesInBox(before, 3.0, 3.0, 17.0, 17.0);
+    const RemeshReport report = remeshGrid(after, taken, ofSize(size));
+    expectRemeshed(before, taken, after, report);
+    EXPECT_EQ(report.whole_edges, 8u);
+    EXPECT_EQ(after.boundaries.back().nodes.size(), wall.nodes.size());
+    EXPECT_EQ(report.replaced.line_nodes > 0, size < 1.0);
+  }
+}
+
+TEST(RemeshGrid, SizesFollowFromShoresOutsideThePart) {
+  const Grid before = sea(40);
+  Grid after = before;
+  const Flags taken = middlesInBox(before, 5.0, 5.0, 35.0, 35.0);
+  RemeshOptions options;
+  options.sizes.shore_m = 0.2;
+  options.sizes.shore_rate = 0.05;
+  options.sizes.most_m = 4.0;
+  const RemeshReport report = remeshGrid(after, taken, options);
+  expectRemeshed(before, taken, after, report);
+  EXPECT_TRUE(report.has_shore);
+  EXPECT_NEAR(meanEdgeNear(after, {20.0, 12.0}, 1.5), 0.2 + 0.05 * 12.0, 0.12);
+}
+
+TEST(RemeshGrid, ShoresOfSmallEdgesAreApproached) {
+  // At a shore of edges of length 1, with 5 asked for.
+  const Grid before = sea(30);
+  Grid after = before;
+  const Flags taken = middlesInBox(before, 0.0, 0.0, 30.0, 15.0);
+  const RemeshReport report = remeshGrid(after, taken, ofSize(5.0));
+  expectRemeshed(before, taken, after, report);
+  EXPECT_EQ(report.below_bounds, 0u);
+}
+
+TEST(RemeshGrid, IsTheSameOnAnyNumberOfThreads) {
+  const Grid before = sampleGrid(parseCrs("EPSG:4326"), {12.3, 45.6}, 0.01, 12);
+  Grid one = before, many = before;
+  Flags taken(before.triangles.size(), 0);
+  for (std::size_t t = 0; t < taken.size(); ++t) taken[t] = t % 50 < 42 ? 1 : 0;
+  remeshGrid(one, taken, ofSize(150.0));
+  withThreads({4}, [&] {
+    Recorder recorder;
+    remeshGrid(many, taken, ofSize(150.0), {}, recorder.loop("remesh"));
+  });
+  EXPECT_EQ(one.nodes, many.nodes);
+  EXPECT_EQ(one.triangles, many.triangles);
+  EXPECT_EQ(one.z, many.z);
+}
+
+TEST(RemeshGrid, DegreesAndOtherValues) {
+  for (const double west : {12.3, 179.9, -180.05}) {
+    Grid before = inParts(sampleGrid(parseCrs("EPSG:4326"), {west, 45.6}, 0.01, 12));
+    if (west == 179.9)  // longitudes that jump
+      for (Point& p : before.nodes)
+        if (p.x > 180.0) p.x -= 360.0;
+    for (std::uint32_t t = 0; t < before.triangles.size(); ++t) before.piece_of.push_back(t % 5);
+    for (const Point& p : before.nodes) before.size_m.push_back(100.0 * p.y);
+    Grid after = before;
+    Flags taken(before.triangles.size(), 0);
+    for (std::size_t t = 0; t < taken.size() / 2; ++t) taken[t] = 1;
+    const RemeshReport report = remeshGrid(after, taken, ofSize(200.0));
+    requireConsistent(after);
+    EXPECT_TRUE(report.replaced.partition_dropped);
+    EXPECT_THAT(after.part_of, IsEmpty());
+    EXPECT_THAT(after.node_part_of, IsEmpty());
+    ASSERT_EQ(after.z.size(), after.nodes.size());
+    double least = 1e9, greatest = -1e9, least_before = 1e9, greatest_before = -1e9;
+    for (const Point& p : before.nodes)
+      least_before = std::min(least_before, p.x), greatest_before = std::max(greatest_before, p.x);
+    for (std::size_t n = 0; n < after.nodes.size(); ++n) {
+      least = std::min(least, after.nodes[n].x), greatest = std::max(greatest, after.nodes[n].x);
+      EXPECT_TRUE(std::isfinite(after.z[n]));
+      EXPECT_TRUE(std::isfinite(after.size_m[n]));
+      if (report.replaced.nodes[n] != kNone) {
+        EXPECT_EQ(after.nodes[n], before.nodes[report.replaced.nodes[n]]);
+      }
+    }
+    if (west != 179.9) {
+      EXPECT_GE(least, least_before);
+      EXPECT_LE(greatest, greatest_before);
+    } else {
+      EXPECT_GE(least, -180.0);
+      EXPECT_LE(greatest, 180.0);
+    }
+    double area = 0.0;
+    for (const double a : after.area_m2) {
+      EXPECT_GT(a, 0.0);
+      area += a;
+    }
+    for (const double a : before.area_m2) area -= a;
+    EXPECT_NEAR(area, 0.0, 1e-6 * 1e9);
+    for (std::size_t t = 0; t < after.triangles.size(); ++t)
+      if (report.replaced.triangles[t] == kNone) {
+        EXPECT_GT(after.min_angle_deg[t], 15.0);
+        EXPECT_EQ(after.piece_of[t], 5u);
+      }
+    EXPECT_NEAR(report.inside.min_angle_deg, *std::ranges::min_element(after.min_angle_deg), 30.0);
+  }
+}
+
+TEST(RemeshGrid, RandomParts) {
+  std::mt19937_64 random(7);
+  const auto uniform = [&](double from, double to) { return std::uniform_real_distribution<double>(from, to)(random); };
+  for (int run = 0; run < 60; ++run) {
+    const Grid before = sampleGrid(Crs{}, {100.0, 200.0}, 10.0, 10);
+    Flags taken(before.triangles.size(), 0);
+    const int boxes = 1 + run % 4;
+    for (int k = 0; k < boxes; ++k) {
+      const double west = uniform(90.0, 300.0), south = uniform(190.0, 290.0);
+      const Flags box = middlesInBox(before, west, south, west + uniform(20.0, 120.0), south + uniform(20.0, 80.0));
+      for (std::size_t t = 0; t < taken.size(); ++t) taken[t] = taken[t] ^ box[t];
+    }
+    // Ragged edges, and single triangles.
+    for (std::uint8_t& flag : taken)
+      if (random() % 20 == 0) flag ^= 1;
+    if (std::ranges::count(taken, 1) == 0) continue;
+    Grid after = before;
+    const double size = std::exp(uniform(std::log(2.0), std::log(40.0)));
+    SCOPED_TRACE(::testing::Message() << "run " << run << ", size " << size);
+    const RemeshReport report = remeshGrid(after, taken, ofSize(size));
+    expectRemeshed(before, taken, after, report);
+    EXPECT_GT(leastAngle(after, report), 10.0);
+  }
+}
+
+TEST(RemeshGrid, RefusesWhatCannotBeMeshed) {
+  Grid grid = sea(10);
+  grid.triangles.push_back(grid.triangles[100]);
+  const Flags taken(grid.triangles.size(), 1);
+  try {
+    remeshGrid(grid, taken, ofSize(0.5));
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("check finds such edges"));
+  }
+  grid = sea(10);
+  std::swap(grid.triangles[0][1], grid.triangles[0][2]);
+  EXPECT_THROW(remeshGrid(grid, Flags(grid.triangles.size(), 1), ofSize(0.5)), InputError);
+  grid = sea(10);
+  for (GridCorners& v : grid.triangles) std::swap(v[1], v[2]);
+  try {
+    remeshGrid(grid, Flags(grid.triangles.size(), 1), ofSize(0.5));
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("clockwise"));
+  }
+}
+
+}  // namespace
+}  // namespace coastmesh

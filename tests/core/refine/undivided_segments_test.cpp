@@ -1,0 +1,85 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "core/optimise/optimise.hpp"
+#include "core/refine/check.hpp"
+#include "core/refine/refine.hpp"
+#include "core/triangulate/delaunay.hpp"
+
+namespace coastmesh {
+namespace {
+
+// A ragged ring of `corners` points around a square hole of four, in which every second side, and the hole, stay whole.
+Pslg raggedRing(unsigned corners, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> radius(9.0, 10.0);
+  Pslg pslg;
+  for (unsigned i = 0; i < corners; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / corners, r = radius(random);
+    pslg.points.push_back({r * std::cos(angle), r * std::sin(angle)});
+  }
+  for (unsigned i = 0; i < corners; ++i)
+    pslg.segments.push_back({i, (i + 1) % corners, 0, 0, kOutside, i % 2 == 0 ? Divide::Never : Divide::Freely});
+  const std::array<Point, 4> hole{Point{-1.0, -1.0}, {-1.0, 1.0}, {1.0, 1.0}, {1.0, -1.0}};
+  for (unsigned i = 0; i < 4; ++i) {
+    pslg.points.push_back(hole[i]);
+    pslg.segments.push_back({corners + i, corners + (i + 1) % 4, 0, 0, kOutside, Divide::Never});
+  }
+  return pslg;
+}
+
+std::size_t dividedEdges(const TriMesh& mesh, const Pslg& pslg, Divide divide) {
+  std::size_t count = 0;
+  for (const Triangle& t : mesh.triangles)
+    for (unsigned i = 0; i < 3; ++i) {
+      if (t.seg[i] >= pslg.segments.size() || pslg.segments[t.seg[i]].divide != divide) continue;
+      if (t.v[next3(i)] >= pslg.points.size() || t.v[prev3(i)] >= pslg.points.size()) ++count;
+    }
+  return count;
+}
+
+TEST(UndividedSegments, StayEdgesThroughAllStages) {
+  std::mt19937_64 random(11);
+  for (const double length : {0.2, 1.0, 5.0}) {
+    for (const unsigned corners : {40u, 60u, 100u}) {
+      const Pslg pslg = raggedRing(corners, random);
+      const ConstantSize size(length);
+      for (const SizeFunction* const wanted :
+           {static_cast<const SizeFunction*>(nullptr), static_cast<const SizeFunction*>(&size)}) {
+        RefineOptions options;
+        options.size = wanted;
+        if (wanted == nullptr) options.size_max = length;
+        TriMesh mesh = constrainedDelaunay(pslg);
+        refine(mesh, pslg, options);
+        coarsen(mesh, pslg, options);
+        optimise(mesh, pslg, options, 3);
+        EXPECT_EQ(dividedEdges(mesh, pslg, Divide::Never), 0u);
+        if (length == 0.2) {
+          EXPECT_GT(dividedEdges(mesh, pslg, Divide::Freely), 0u);
+        }
+        EXPECT_TRUE(checkMesh(mesh, &pslg, {}).empty());
+      }
+    }
+  }
+}
+
+TEST(UndividedSegments, OfAnElementsLengthLeaveAnglesAsLarge) {
+  std::mt19937_64 random(12);
+  const Pslg pslg = raggedRing(30, random);
+  const ConstantSize size(2.0);
+  RefineOptions options;
+  options.size = &size;
+  TriMesh mesh = constrainedDelaunay(pslg);
+  refine(mesh, pslg, options);
+  coarsen(mesh, pslg, options);
+  optimise(mesh, pslg, options, 3);
+  CheckOptions bounds;
+  bounds.min_angle_deg = 30.0;
+  EXPECT_TRUE(checkMesh(mesh, &pslg, bounds).empty());
+}
+
+}  // namespace
+}  // namespace coastmesh
