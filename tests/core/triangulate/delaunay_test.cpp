@@ -70,7 +70,7 @@ TEST_P(DelaunayOf, SegmentsAreEdgesOnBothSides) {
     }
   }
   for (SegmentId s = 0; s < pslg.segments.size(); ++s) {
-    const auto& [a, b, tag, left, right] = pslg.segments[s];
+    const auto& [a, b, tag, left, right, divide] = pslg.segments[s];
     EXPECT_GE(seen[s], 1);
     EXPECT_TRUE(left < 0 || right < 0 || seen[s] == 2) << "segment " << s;
   }
