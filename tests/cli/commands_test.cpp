@@ -50,8 +50,8 @@ TEST_F(Commands, EveryOptionOfTheJsonUsageIsInTheHelp) {
       for (const std::string name : option["names"]) EXPECT_NE(help.output.find(name), std::string::npos) << name;
     }
   }
-  EXPECT_EQ(verbs,
-            (std::set<std::string>{"mesh", "check", "info", "plot", "convert", "cut", "clean", "partition", "gather"}));
+  EXPECT_EQ(verbs, (std::set<std::string>{"mesh", "check", "info", "plot", "convert", "cut", "clean", "partition",
+                                          "gather", "remesh"}));
 }
 
 // GDAL's error would not help.
