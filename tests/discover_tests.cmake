@@ -2,11 +2,8 @@
 #
 # Each suite is a process of its own: starting one loads GDAL, which takes longer than most tests do. The output of a suite
 # that fails names the test.
-set(COASTMESH_TEST_FLAGS "" CACHE STRING "Flags for the sources of tests, behind all others")
 function(coastmesh_discover_tests target)
   cmake_parse_arguments(discover "" "" PROPERTIES ${ARGN})
-  separate_arguments(flags NATIVE_COMMAND ${COASTMESH_TEST_FLAGS})
-  target_compile_options(${target} PRIVATE ${flags})
   set(suites ${CMAKE_CURRENT_BINARY_DIR}/${target}_suites.cmake)
   set(script ${PROJECT_SOURCE_DIR}/tests/list_suites.cmake)
   set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS ${script})
