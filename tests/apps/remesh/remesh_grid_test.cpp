@@ -292,7 +292,9 @@ TEST(RemeshGrid, RandomParts) {
     expectRemeshed(before, taken, after, report);
     // Edges that stay may leave no room for larger angles; such triangles are counted.
     EXPECT_GT(leastAngle(after, report), 2.0);
-    if (leastAngle(after, report) < 25.0) EXPECT_GT(report.below_bounds, 0u);
+    if (leastAngle(after, report) < 25.0) {
+      EXPECT_GT(report.below_bounds, 0u);
+    }
   }
 }
 
