@@ -46,10 +46,7 @@ int runConvert(const ConvertUsage& usage, Run& run) {
   for (const std::string& warning : outputs.lossWarnings(grid, LossesOf::Grid)) run.warn(warning);
   withThreads({}, [&] {
     Recorder recorder;
-    for (std::size_t i = 0; i < outputs.grids(); ++i) {
-      interrupt.check();
-      outputs.writeGrid(i, grid, recorder.loop("write", control));
-    }
+    outputs.writeGrids(grid, recorder.loop("write", control));
   });
   outputs.commit();
   if (!usage.quiet) std::fputs(finishSummary(usage.finish, report).c_str(), stdout);

@@ -7,12 +7,8 @@
 #include "apps/cli/run_outputs.hpp"
 #include "apps/job/finish_grid.hpp"
 #include "apps/report/report_sections.hpp"
-#include "apps/usage/grid_usage.hpp"
-#include "apps/usage/input_usage.hpp"
-#include "apps/usage/target_usage.hpp"
-#include "gis/coast/box_of_frame.hpp"
+#include "apps/usage/part_usage.hpp"
 #include "gis/cut/cut_grid.hpp"
-#include "gis/cut/cut_region.hpp"
 #include "gis/cut/number_table.hpp"
 #include "gis/error.hpp"
 #include "gis/for_count.hpp"
@@ -26,30 +22,11 @@ namespace {
 
 struct CutUsage {
   MeshFile mesh;
-  CutRegion region;
+  PartUsage part;
   CutOptions cut;
-  std::vector<std::string> outputs;
-  std::string format;
-  std::string numbers;
-  FinishOptions finish;
-  bool overwrite = false;
-  bool quiet = false;
 };
 
-void requirePossible(const CutUsage& usage) {
-  if (!usage.region.any())
-    throw OptionError("nothing says which part of the mesh to cut out: give --bbox, --within or --outside");
-  if (!usage.numbers.empty() && !usage.finish.targets.empty())
-    throw OptionError(
-        "--numbers: repairs for --target add, move and remove nodes, so that numbers are no longer those of the mesh; "
-        "leave --target out, and repair with convert --target if check finds anything");
-}
-
-[[noreturn]] void refuseEmpty(const CutUsage& usage, const Grid& grid) {
-  throw InputError("no triangle of '" + usage.mesh.path +
-                   "' has its middle in the part to cut out; the mesh extends, as W,S,E,N, over " +
-                   inWords(boxAround(grid.nodes, inOrder)) + (grid.crs.isPlane() ? "" : " (" + nameOf(grid.crs) + ")"));
-}
+const std::string kPurpose = "to cut out";
 
 std::vector<std::string> warningsOf(const CutReport& report) {
   std::vector<std::string> all;
@@ -84,25 +61,23 @@ std::string textOf(const CutReport& report, const CutUsage& usage) {
 }
 
 int runCut(const CutUsage& usage, Run& run) {
-  requirePossible(usage);
-  Interrupt& interrupt = run.interrupt;
-  RunOutputs outputs(usage.overwrite, run.inputs, interrupt);
-  outputs.addGrids(usage.outputs, usage.format);
-  StagedFiles* const numbers = usage.numbers.empty() ? nullptr : &outputs.addFile(usage.numbers);
+  const PartUsage& part = usage.part;
+  requirePart(part, kPurpose);
+  RunOutputs outputs(part.overwrite, run.inputs, run.interrupt);
+  outputs.addGrids(part.outputs, part.format);
+  StagedFiles* const numbers = part.numbers.empty() ? nullptr : &outputs.addFile(part.numbers);
   Grid grid = readMeshFile(usage.mesh, run);
   findMissingBoundaries(grid);
-  const RunControl control{[&interrupt] { return interrupt.requested(); }, {}};
+  const RunControl control{[&run] { return run.interrupt.requested(); }, {}};
   CutReport report;
   FinishReport finish;
   std::vector<std::string> warnings;
   withThreads({}, [&] {
     Recorder recorder;
     const ItemLoop loop = recorder.loop("cut", control);
-    std::vector<std::uint8_t> taken = trianglesIn(usage.region, grid, warnings, loop);
-    if (std::ranges::find(taken, 1) == taken.end()) refuseEmpty(usage, grid);
-    report = cutGrid(grid, std::move(taken), usage.cut, loop);
-    finish = finishGrid(grid, usage.finish, control, loop);
-    if (usage.finish.targets.empty()) warnings.push_back(windingWarning(grid, loop));
+    report = cutGrid(grid, requireTriangles(part, grid, usage.mesh.path, kPurpose, warnings, loop), usage.cut, loop);
+    finish = finishGrid(grid, part.finish, control, loop);
+    if (part.finish.targets.empty()) warnings.push_back(windingWarning(grid, loop));
   });
   for (const auto& some : {warnings, warningsOf(report), finish.warnings(), outputs.numberWarnings(grid),
                            outputs.lossWarnings(grid, LossesOf::Grid)})
@@ -110,17 +85,14 @@ int runCut(const CutUsage& usage, Run& run) {
       if (!warning.empty()) run.warn(warning);
   withThreads({}, [&] {
     Recorder recorder;
-    for (std::size_t i = 0; i < outputs.grids(); ++i) {
-      interrupt.check();
-      outputs.writeGrid(i, grid, recorder.loop("write", control));
-    }
+    outputs.writeGrids(grid, recorder.loop("write", control));
     if (numbers != nullptr)
       numbers->make([&](const std::string& path) {
         writeNumberTable(report.nodes, report.triangles, path, recorder.loop("write", control));
       });
   });
   outputs.commit();
-  if (!usage.quiet) std::fputs((textOf(report, usage) + finishSummary(usage.finish, finish)).c_str(), stdout);
+  if (!part.quiet) std::fputs((textOf(report, usage) + finishSummary(part.finish, finish)).c_str(), stdout);
   return finish.repairs.left.empty() ? kExitDone : kExitShort;
 }
 
@@ -130,17 +102,12 @@ Command declareCut(CLI::App& root) {
   auto usage = std::make_shared<CutUsage>();
   OptionTable table = commandOptions("cut", "Cut out a part of a mesh");
   declareMeshFile(table, "MESH", "mesh to read", usage->mesh);
-  CutRegion& region = usage->region;
-  table.section(Section::Domain);
-  table.numbers(
-      {"--bbox", "Bounding box"}, "W,S,E,N", false,
-      [&region](const std::vector<double>& sides) { return storeBox(sides, region.box); },
-      "keep only triangles whose middle is in this box, in the mesh's CRS; in degrees, a box with E less than W "
-      "crosses the antimeridian");
-  table.texts({"--within", "Within polygons"}, region.within, kVectorFile, false,
-              "keep only triangles whose middle is in a polygon of this file, in any CRS; can be repeated");
-  table.texts({"--outside", "Outside polygons"}, region.outside, kVectorFile, false,
-              "leave out triangles whose middle is in a polygon of this file; can be repeated");
+  const PartHelp help{
+      "keep", "leave out", "repair what the model would reject, and report each repair; can be repeated",
+      "Numbers in the whole mesh",
+      "write a table (CSV) with the number that each node and triangle had in MESH, to cut out other files of the "
+      "model"};
+  declarePart(table, usage->part, help);
   table.choice(
       {"--keep-water", "Waters to keep"}, "all", {"largest", "all"},
       [&cut = usage->cut](const std::string& chosen) { cut.largest_water = chosen == "largest"; },
@@ -152,15 +119,7 @@ Command declareCut(CLI::App& root) {
         cut.cut_role = chosen == "land" ? BoundaryRole::Land : BoundaryRole::Open;
       },
       "type of the boundaries along the cut; all others keep theirs");
-  declareTargets(table, usage->finish.targets,
-                 "repair what the model would reject, and report each repair; can be repeated");
-  declareGridOutputs(table, usage->outputs, usage->format);
-  table.output({"--numbers", "Numbers in the whole mesh"}, usage->numbers, {},
-               "write a table (CSV) with the number that each node and triangle had in MESH, to cut out other files of "
-               "the model");
-  table.flag({"--overwrite", "Replace files"}, usage->overwrite, "replace files that exist");
-  table.section(Section::Run);
-  table.flag({"--quiet", "No summary"}, usage->quiet, "print no summary");
+  declarePartOutputs(table, usage->part, help);
   table.example("coastmesh cut fort.14 -o bay.14 --bbox=-91,46.5,-90,47 --assume-crs EPSG:4326",
                 "the part of a grid in a box");
   table.example("coastmesh cut hgrid.gr3 -o bay.gr3 --within bay.geojson --numbers numbers.csv",

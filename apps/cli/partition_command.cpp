@@ -47,10 +47,7 @@ int runPartition(const PartitionUsage& usage, Run& run) {
     Recorder recorder;
     report = partitionGrid(grid, options, recorder.loop("partition", control));
     for (const std::string& warning : outputs.lossWarnings(grid, LossesOf::Input)) run.warn(warning);
-    for (std::size_t i = 0; i < outputs.grids(); ++i) {
-      interrupt.check();
-      outputs.writeGrid(i, grid, recorder.loop("write", control));
-    }
+    outputs.writeGrids(grid, recorder.loop("write", control));
   });
   outputs.writeReport(reportOf(report, run));
   outputs.commit();

@@ -11,12 +11,8 @@
 #include "apps/remesh/remesh_grid.hpp"
 #include "apps/report/report_sections.hpp"
 #include "apps/usage/finish_usage.hpp"
-#include "apps/usage/grid_usage.hpp"
-#include "apps/usage/input_usage.hpp"
+#include "apps/usage/part_usage.hpp"
 #include "apps/usage/sizing_usage.hpp"
-#include "apps/usage/target_usage.hpp"
-#include "gis/coast/box_of_frame.hpp"
-#include "gis/cut/cut_region.hpp"
 #include "gis/cut/number_table.hpp"
 #include "gis/error.hpp"
 #include "gis/for_count.hpp"
@@ -30,33 +26,18 @@ namespace {
 
 struct RemeshUsage {
   MeshFile mesh;
-  CutRegion region;
+  PartUsage part;
   RemeshOptions remesh;
   SizingUsage sizing;
-  std::vector<std::string> outputs;
-  std::string format;
-  std::string numbers;
-  FinishOptions finish;
-  bool overwrite = false;
-  bool quiet = false;
 };
 
+const std::string kPurpose = "to mesh anew";
+
 void requirePossible(const RemeshUsage& usage) {
-  if (!usage.region.any())
-    throw OptionError("nothing says which part of the mesh to mesh anew: give --bbox, --within or --outside");
+  requirePart(usage.part, kPurpose);
   const SizeOptions& sizes = usage.remesh.sizes;
   if (!sizes.any() && !std::isfinite(sizes.most_m))
     throw OptionError("nothing says how large the new triangles should be: give --size, or others");
-  if (!usage.numbers.empty() && !usage.finish.targets.empty())
-    throw OptionError(
-        "--numbers: repairs for --target add, move and remove nodes, so that numbers are no longer those of the mesh; "
-        "leave --target out, and repair with convert --target if check finds anything");
-}
-
-[[noreturn]] void refuseEmpty(const RemeshUsage& usage, const Grid& grid) {
-  throw InputError("no triangle of '" + usage.mesh.path +
-                   "' has its middle in the part to mesh anew; the mesh extends, as W,S,E,N, over " +
-                   inWords(boxAround(grid.nodes, inOrder)) + (grid.crs.isPlane() ? "" : " (" + nameOf(grid.crs) + ")"));
 }
 
 std::string lengthText(double length, const Grid& grid) {
@@ -130,24 +111,23 @@ int runRemesh(RemeshUsage& usage, Run& run) {
   RemeshOptions& options = usage.remesh;
   settleSizing(usage.sizing, options.depth, SizeChoice::None, options.sizes);
   for (const std::string& note : notesOnOverriddenSizes(usage.sizing, options.sizes)) run.warn(note);
-  Interrupt& interrupt = run.interrupt;
-  RunOutputs outputs(usage.overwrite, run.inputs, interrupt);
-  outputs.addGrids(usage.outputs, usage.format);
-  StagedFiles* const numbers = usage.numbers.empty() ? nullptr : &outputs.addFile(usage.numbers);
+  const PartUsage& part = usage.part;
+  RunOutputs outputs(part.overwrite, run.inputs, run.interrupt);
+  outputs.addGrids(part.outputs, part.format);
+  StagedFiles* const numbers = part.numbers.empty() ? nullptr : &outputs.addFile(part.numbers);
   Grid grid = readMeshFile(usage.mesh, run);
   findMissingBoundaries(grid);
-  const RunControl control{[&interrupt] { return interrupt.requested(); }, {}};
+  const RunControl control{[&run] { return run.interrupt.requested(); }, {}};
   RemeshReport report;
   FinishReport finish;
   std::vector<std::string> warnings;
   withThreads({}, [&] {
     Recorder recorder;
     const ItemLoop loop = recorder.loop("remesh", control);
-    std::vector<std::uint8_t> taken = trianglesIn(usage.region, grid, warnings, loop);
-    if (std::ranges::find(taken, 1) == taken.end()) refuseEmpty(usage, grid);
-    report = remeshGrid(grid, std::move(taken), options, control, loop);
-    finish = finishGrid(grid, usage.finish, control, loop);
-    if (usage.finish.targets.empty()) warnings.push_back(windingWarning(grid, loop));
+    report = remeshGrid(grid, requireTriangles(part, grid, usage.mesh.path, kPurpose, warnings, loop), options, control,
+                        loop);
+    finish = finishGrid(grid, part.finish, control, loop);
+    if (part.finish.targets.empty()) warnings.push_back(windingWarning(grid, loop));
   });
   for (const auto& some : {warnings, warningsOf(report, usage, grid), finish.warnings(), outputs.numberWarnings(grid),
                            outputs.lossWarnings(grid, LossesOf::Grid)})
@@ -155,17 +135,14 @@ int runRemesh(RemeshUsage& usage, Run& run) {
       if (!warning.empty()) run.warn(warning);
   withThreads({}, [&] {
     Recorder recorder;
-    for (std::size_t i = 0; i < outputs.grids(); ++i) {
-      interrupt.check();
-      outputs.writeGrid(i, grid, recorder.loop("write", control));
-    }
+    outputs.writeGrids(grid, recorder.loop("write", control));
     if (numbers != nullptr)
       numbers->make([&](const std::string& path) {
         writeNumberTable(report.replaced.nodes, report.replaced.triangles, path, recorder.loop("write", control));
       });
   });
   outputs.commit();
-  if (!usage.quiet) std::fputs((textOf(report, usage, grid) + finishSummary(usage.finish, finish)).c_str(), stdout);
+  if (!part.quiet) std::fputs((textOf(report, usage, grid) + finishSummary(part.finish, finish)).c_str(), stdout);
   return finish.repairs.left.empty() ? kExitDone : kExitShort;
 }
 
@@ -175,17 +152,12 @@ Command declareRemesh(CLI::App& root) {
   auto usage = std::make_shared<RemeshUsage>();
   OptionTable table = commandOptions("remesh", "Mesh a part of a mesh anew, with other sizes");
   declareMeshFile(table, "MESH", "mesh to read", usage->mesh);
-  CutRegion& region = usage->region;
-  table.section(Section::Domain);
-  table.numbers(
-      {"--bbox", "Bounding box"}, "W,S,E,N", false,
-      [&region](const std::vector<double>& sides) { return storeBox(sides, region.box); },
-      "replace only triangles whose middle is in this box, in the mesh's CRS; in degrees, a box with E less than W "
-      "crosses the antimeridian");
-  table.texts({"--within", "Within polygons"}, region.within, kVectorFile, false,
-              "replace only triangles whose middle is in a polygon of this file, in any CRS; can be repeated");
-  table.texts({"--outside", "Outside polygons"}, region.outside, kVectorFile, false,
-              "keep triangles whose middle is in a polygon of this file; can be repeated");
+  const PartHelp part{
+      "replace", "keep",
+      "repair what the model would reject, in all of the mesh, and report each repair; can be repeated",
+      "Numbers in the mesh before",
+      "write a table (CSV) with the number that each node and triangle had in MESH, nothing for new ones"};
+  declarePart(table, usage->part, part);
   RefineOptions& refine = usage->remesh.mesh.refine;
   table.section(Section::Triangles);
   table.number({"--min-angle", "Minimum angle"}, refine.min_angle_deg, "DEG", {0.0, 45.0},
@@ -200,14 +172,7 @@ Command declareRemesh(CLI::App& root) {
   declareDepths(table, usage->remesh.depth,
                 "raster with the depths of new nodes; can be repeated, the first with a value at a node is used; "
                 "without one, depths are linear between nodes of MESH");
-  declareTargets(table, usage->finish.targets,
-                 "repair what the model would reject, in all of the mesh, and report each repair; can be repeated");
-  declareGridOutputs(table, usage->outputs, usage->format);
-  table.output({"--numbers", "Numbers in the mesh before"}, usage->numbers, {},
-               "write a table (CSV) with the number that each node and triangle had in MESH, nothing for new ones");
-  table.flag({"--overwrite", "Replace files"}, usage->overwrite, "replace files that exist");
-  table.section(Section::Run);
-  table.flag({"--quiet", "No summary"}, usage->quiet, "print no summary");
+  declarePartOutputs(table, usage->part, part);
   table.example("coastmesh remesh fort.14 -o finer.14 --bbox=-91,46.5,-90,47 --size 500 --assume-crs EPSG:4326",
                 "triangles of 500 m in a box");
   table.example("coastmesh remesh hgrid.gr3 -o finer.gr3 --within bay.geojson --size-shore 500 --size-max 5000",

@@ -224,6 +224,13 @@ void RunOutputs::addReport(const std::string& path) {
   }
 }
 
+void RunOutputs::writeGrids(const Grid& grid, const ItemLoop& loop) {
+  for (StagedOutput& output : grids_) {
+    interrupt_.check();
+    output.write(grid, loop);
+  }
+}
+
 void RunOutputs::writeReport(const std::string& text) {
   if (report_ != nullptr) report_->write(text);
   if (report_to_stdout_) report_text_ = text;

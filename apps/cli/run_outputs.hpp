@@ -50,6 +50,8 @@ class RunOutputs {
   const std::vector<std::filesystem::path>& unfinished() const { return guarded_; }
   std::size_t grids() const { return grids_.size(); }
   void writeGrid(std::size_t index, const Grid& grid, const ItemLoop& loop) { grids_[index].write(grid, loop); }
+  // One grid into all mesh files. Throws Cancelled if the run is interrupted between two of them.
+  void writeGrids(const Grid& grid, const ItemLoop& loop);
   void writeReport(const std::string& text);
   // A warning, to be given before the mesh is made, if nodes may stay without a depth and an output cannot be written
   // then; else empty.

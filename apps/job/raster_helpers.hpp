@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/run_control.hpp"
-#include "gis/size/raster_readers.hpp"
+#include "gis/size/read_frames.hpp"
 #include "parallel/deal.hpp"
 
 namespace coastmesh {

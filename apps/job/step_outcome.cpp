@@ -60,6 +60,8 @@ class NearPlaces {
   bool operator()(const Point& p) const {
     return std::hypot(along_ * (p.x - middle_.x), up_ * (p.y - middle_.y)) <= distance_m_;
   }
+  // How far such places can be above or below, in the grid's units.
+  double reachUp() const { return distance_m_ / up_; }
 
  private:
   Point middle_;
@@ -72,13 +74,17 @@ std::string ofRepairsText(const Grid& grid, const std::vector<ShortEdge>& below_
   constexpr double kNear = 2.0;  // smallest sizes
   std::vector<const Repair*> splits;
   for (const Repair& repair : repairs)
-    if (repair.what.find("split") != std::string::npos) splits.push_back(&repair);
+    if (repair.splits_edge) splits.push_back(&repair);
+  const auto upOf = [](const Repair* repair) { return repair->place.y; };
+  std::ranges::stable_sort(splits, {}, upOf);
   std::size_t edges = 0;
   const Repair* first = nullptr;
   for (const ShortEdge& edge : below_least) {
     const NearPlaces isNear(grid, edge.place, kNear * least_m);
-    const auto split = std::ranges::find_if(splits, [&](const Repair* repair) { return isNear(repair->place); });
-    if (split == splits.end()) continue;
+    const auto low = std::ranges::lower_bound(splits, edge.place.y - isNear.reachUp(), {}, upOf);
+    const auto high = std::ranges::upper_bound(splits, edge.place.y + isNear.reachUp(), {}, upOf);
+    const auto split = std::find_if(low, high, [&](const Repair* repair) { return isNear(repair->place); });
+    if (split == high) continue;
     ++edges;
     if (first == nullptr) first = *split;
   }

@@ -45,8 +45,7 @@ std::string judgeBoxInPlane(const Box& box, const Crs& input, const Crs& working
   if (!(distance(west, east) * metresPerUnit(working) > kTornM)) return {};
   return "--crs: " + nameOf(working) +
          " is cut at the antimeridian, which --bbox crosses, so that the water is divided there: leave out --crs, or "
-         "give "
-         "a plane with its middle near, such as EPSG:3832";
+         "give a plane with its middle near, such as EPSG:3832";
 }
 
 }  // namespace coastmesh

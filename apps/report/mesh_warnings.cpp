@@ -18,8 +18,7 @@ std::string adviceForSwan(const MeshJobResult& result) {
   };
   if (!result.crs.geographic || std::ranges::none_of(result.finish.repairs.repairs, isOfShortDegrees)) return {};
   return "; SWAN measures angles in the degrees of its file, where good triangles of high latitudes are flat: an input "
-         "in "
-         "a projected CRS (ogr2ogr -t_srs) needs no such repairs";
+         "in a projected CRS (ogr2ogr -t_srs) needs no such repairs";
 }
 
 }  // namespace

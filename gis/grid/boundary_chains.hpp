@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -13,6 +14,9 @@
 namespace coastmesh {
 
 using NodePair = std::array<std::uint32_t, 2>;
+
+// The key of an edge in either direction: its lesser node first.
+inline NodePair edgeKey(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
 
 // The boundary loops of the mesh: the counter-clockwise loop around each connected piece is land, the others are
 // islands.

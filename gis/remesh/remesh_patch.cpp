@@ -4,7 +4,6 @@
 #include <map>
 #include <span>
 #include <string>
-#include <unordered_map>
 #include <utility>
 
 #include "core/metric.hpp"
@@ -18,10 +17,6 @@
 namespace coastmesh {
 
 namespace {
-
-using NodeKey = std::uint64_t;
-
-NodeKey keyOf(std::uint32_t a, std::uint32_t b) { return NodeKey{std::max(a, b)} << 32 | std::min(a, b); }
 
 // Calls `use(from, to)` for each edge of a chain.
 void forEachEdge(std::span<const std::uint32_t> nodes, bool closed, const auto& use) {
@@ -47,7 +42,7 @@ class EdgeUses {
         for (const std::uint32_t node : *nodes) named_[node] = 1;
         forEachEdge(*nodes, boundary.closed, [&](std::uint32_t a, std::uint32_t b) {
           if (!isInside(a, b)) return;
-          EdgeUse& use = uses_[keyOf(a, b)];
+          EdgeUse& use = uses_[edgeKey(a, b)];
           use.is_boundary = true;
           use.is_open = use.is_open || boundary.role == BoundaryRole::Open;
           use.is_whole = use.is_whole || is_whole;
@@ -57,20 +52,20 @@ class EdgeUses {
     for (const GridLine& line : grid.lines) {
       for (const std::uint32_t node : line.nodes) named_[node] = 1;
       forEachEdge(line.nodes, line.closed, [&](std::uint32_t a, std::uint32_t b) {
-        if (isInside(a, b)) uses_[keyOf(a, b)].is_line = true;
+        if (isInside(a, b)) uses_[edgeKey(a, b)].is_line = true;
       });
     }
   }
 
   EdgeUse of(std::uint32_t a, std::uint32_t b) const {
-    const auto found = uses_.find(keyOf(a, b));
+    const auto found = uses_.find(edgeKey(a, b));
     return found == uses_.end() ? EdgeUse{} : found->second;
   }
   // True if a boundary or a line has the node.
   bool isNamed(std::uint32_t node) const { return named_[node] != 0; }
 
  private:
-  std::unordered_map<NodeKey, EdgeUse> uses_;
+  std::map<NodePair, EdgeUse> uses_;
   std::vector<std::uint8_t> named_;
 };
 

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
 #include <tuple>
-#include <unordered_map>
 #include <utility>
 
 #include "core/quality.hpp"
 #include "gis/crs/geodesy.hpp"
+#include "gis/grid/boundary_chains.hpp"
 #include "gis/remesh/new_nodes.hpp"
 
 namespace coastmesh {
@@ -64,20 +65,18 @@ struct NewItems {
   std::vector<double> min_angle_deg;
 };
 
-using EdgeKey = std::uint64_t;
-
 // The nodes that divide edges, in the new numbers, from the lesser of an edge's old ends to the greater.
 class Divisions {
  public:
   void add(const DividedEdge& edge, std::vector<std::uint32_t> nodes) {
     const auto [a, b] = edge.ends;
     if (a > b) std::ranges::reverse(nodes);
-    of_[keyOf(a, b)] = std::move(nodes);
+    of_[edgeKey(a, b)] = std::move(nodes);
   }
 
   // Appends the nodes between two old ones.
   void append(std::uint32_t a, std::uint32_t b, std::vector<std::uint32_t>& nodes) const {
-    const auto found = of_.find(keyOf(a, b));
+    const auto found = of_.find(edgeKey(a, b));
     if (found == of_.end()) return;
     const std::vector<std::uint32_t>& between = found->second;
     if (a < b)
@@ -87,9 +86,7 @@ class Divisions {
   }
 
  private:
-  static EdgeKey keyOf(std::uint32_t a, std::uint32_t b) { return EdgeKey{std::max(a, b)} << 32 | std::min(a, b); }
-
-  std::unordered_map<EdgeKey, std::vector<std::uint32_t>> of_;
+  std::map<NodePair, std::vector<std::uint32_t>> of_;
 };
 
 // A chain in the new numbers, with the nodes that divide its edges; `added` counts these.

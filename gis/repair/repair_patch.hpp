@@ -19,9 +19,6 @@ namespace coastmesh {
 
 // A few triangles of a grid, and candidate edits of them that may repair it for models.
 
-// The key of an edge in either direction: its lesser node first.
-inline NodePair edgeKey(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
-
 inline bool isShore(const BoundaryKind& kind) {
   return kind.role == BoundaryRole::Land || kind.role == BoundaryRole::Island;
 }

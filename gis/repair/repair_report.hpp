@@ -16,6 +16,7 @@ struct Repair {
   std::optional<Target> target;  // the model that rejects it; nullopt: the time step is missed, for any model
   Point place;                   // in the grid's CRS
   std::string what;              // "node duplicated and moved apart by 12.5 m"
+  bool splits_edge = false;      // a new node divides an edge: both parts are shorter
 };
 
 struct RepairReport {

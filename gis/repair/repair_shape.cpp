@@ -80,7 +80,7 @@ void applyEdit(RepairState& state, const GridPatch& patch, const PatchEdit& edit
 
 void applyRepair(RepairState& state, const GridPatch& patch, const PatchEdit& edit, const FoundDefect& found) {
   applyEdit(state, patch, edit);
-  addRepair(state, found, found.defect.place, std::string(textOf(edit.kind)));
+  addRepair(state, found, found.defect.place, std::string(textOf(edit.kind)), edit.kind == PatchEditKind::EdgeSplit);
 }
 
 // `made`: edits were searched for; `done`: one was applied.

@@ -108,8 +108,8 @@ bool RepairState::anyTaken(std::span<const std::uint32_t> triangles) const {
   return std::ranges::any_of(triangles, [this](std::uint32_t t) { return isTaken(t); });
 }
 
-void addRepair(RepairState& state, const FoundDefect& found, const Point& place, std::string what) {
-  state.report.repairs.push_back({found.defect.kind, found.target, place, std::move(what)});
+void addRepair(RepairState& state, const FoundDefect& found, const Point& place, std::string what, bool splits_edge) {
+  state.report.repairs.push_back({found.defect.kind, found.target, place, std::move(what), splits_edge});
 }
 
 void startRepairs(RepairState& state, const RepairMemory* memory) {

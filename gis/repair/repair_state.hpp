@@ -63,7 +63,8 @@ struct FoundDefect {
   TargetDefect defect;
 };
 
-void addRepair(RepairState& state, const FoundDefect& found, const Point& place, std::string what);
+void addRepair(RepairState& state, const FoundDefect& found, const Point& place, std::string what,
+               bool splits_edge = false);
 
 // Call before the first round.
 void startRepairs(RepairState& state, const RepairMemory* memory);

@@ -9,8 +9,8 @@
 #include "core/item_loop.hpp"
 #include "core/size/size_box.hpp"
 #include "gis/size/domain_mask.hpp"
-#include "gis/size/gap_fill.hpp"
 #include "gis/size/size_field.hpp"
+#include "gis/size/size_rule.hpp"
 
 namespace coastmesh {
 

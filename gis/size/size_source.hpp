@@ -15,7 +15,6 @@
 #include "gis/follow/follow_options.hpp"
 #include "gis/follow/shore_guides.hpp"
 #include "gis/raster/raster_band.hpp"
-#include "gis/size/gap_fill.hpp"
 #include "gis/size/size_depth.hpp"
 #include "gis/size/size_distance.hpp"
 #include "gis/size/size_features.hpp"

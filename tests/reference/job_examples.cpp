@@ -20,7 +20,6 @@
 #include "apps/job/mesh_job_result.hpp"
 #include "apps/job/step_outcome.hpp"
 #include "gis/format/grid_io.hpp"
-#include "gis/size/gap_fill.hpp"
 #include "gis/size/size_depth.hpp"
 #include "gis/size/size_distance.hpp"
 #include "gis/size/size_features.hpp"
@@ -128,15 +127,6 @@ TEST_F(JobExamples, SizeRule) {
                           inOrder);
   //! [gis/size/size_rule.hpp]
   EXPECT_NEAR(sizeAt(field, {200, 200}), 60.0, 0.1);
-}
-
-// gis/size/gap_fill.hpp: The depth assumed where no raster has one.
-TEST_F(JobExamples, GapFill) {
-  //! [gis/size/gap_fill.hpp]
-  SizeOptions options;
-  options.gaps = GapFill::Nearest;  // sizes in a gap are those of the nearest known depth
-  //! [gis/size/gap_fill.hpp]
-  EXPECT_NE(options.gaps, SizeOptions{}.gaps);
 }
 
 // gis/size/size_source.hpp: All requested sizes as one function on the plane.

@@ -65,16 +65,16 @@ TEST(StepOutcome, LargerSizesAreNoAdviceForSmallWaters) {
 TEST(StepOutcome, ShortEdgesOfRepairsNameThem) {
   SizeOptions sizes;
   sizes.size_m = sizes.least_m = 3.0;
-  const auto warning = [&](const char* what, const Point& place) {
-    const std::vector<Repair> repairs{{TargetDefectKind::OneNeighbour, Target::Fesom, place, what}};
+  const auto warning = [&](bool splits, const Point& place) {
+    const std::vector<Repair> repairs{{TargetDefectKind::OneNeighbour, Target::Fesom, place, "a repair", splits}};
     return measureOutcome(strip(30), sizes, inOrder, QualityGoal::Shape, 0, repairs).warnings.at(0);
   };
-  const std::string text = warning("edge split", {8.5, 0.5});
+  const std::string text = warning(true, {8.5, 0.5});
   EXPECT_NE(text.find(" of all are where repairs for a model split edges, the shortest at (8.5, 0.5) (one neighbour)"),
             std::string::npos)
       << text;
-  EXPECT_EQ(warning("edge flipped", {8.5, 0.5}).find("repairs"), std::string::npos);
-  EXPECT_EQ(warning("edge split", {8.5, 50.0}).find("repairs"), std::string::npos);
+  EXPECT_EQ(warning(false, {8.5, 0.5}).find("repairs"), std::string::npos);
+  EXPECT_EQ(warning(true, {8.5, 50.0}).find("repairs"), std::string::npos);
 }
 
 // The advice for a short edge between features is of no use between regions, nor is it for a mesh of one feature.
