@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/cli/lake_with_depths.hpp"
 #include "tests/cli/program.hpp"
 
 namespace coastmesh::test {
@@ -17,31 +18,10 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-class Cut : public ProgramTest {
+class Cut : public LakeWithDepths {
  protected:
-  // The lake as a mesh of some thousand triangles, from 0 m deep in the west to 2 m in the east.
-  std::string mesh(const std::string& name) const {
-    std::string raster = "ncols 40\nnrows 40\nxllcorner -87.52\nyllcorner 41.58\ncellsize 0.0015\n";
-    for (int row = 0; row < 40; ++row) {
-      for (int column = 0; column < 40; ++column) raster += std::to_string(-5.0 - 0.05 * column) + " ";
-      raster += "\n";
-    }
-    write("dem.asc", raster);
-    const ProgramRun run = runProgram({"mesh", lake(), "-o", file(name), "--size-max", "60", "--bathymetry",
-                                       file("dem.asc"), "--quiet", "--overwrite"});
-    EXPECT_EQ(run.code, 0) << run.errors;
-    return file(name);
-  }
-  // The west of the lake, and about half of the island.
-  static std::string box() { return "--bbox=-88,41,-87.4865,42"; }
+  std::string mesh(const std::string& name) const { return meshOf(name, "60"); }
 };
-
-std::vector<std::string> linesOf(const std::string& path) {
-  std::istringstream text(readText(path));
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(text, line);) lines.push_back(line);
-  return lines;
-}
 
 TEST_F(Cut, WorksOnEveryFormatAlike) {
   const std::string whole = mesh("whole.nc");

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/cli/lake_with_depths.hpp"
 #include "tests/cli/program.hpp"
 
 namespace coastmesh::test {
@@ -16,33 +17,10 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-class Remesh : public ProgramTest {
+class Remesh : public LakeWithDepths {
  protected:
-  std::string dem() const {
-    std::string raster = "ncols 40\nnrows 40\nxllcorner -87.52\nyllcorner 41.58\ncellsize 0.0015\n";
-    for (int row = 0; row < 40; ++row) {
-      for (int column = 0; column < 40; ++column) raster += std::to_string(-5.0 - 0.05 * column) + " ";
-      raster += "\n";
-    }
-    write("dem.asc", raster);
-    return file("dem.asc");
-  }
-  // The lake as a mesh with depths.
-  std::string mesh(const std::string& name) const {
-    const ProgramRun run = runProgram(
-        {"mesh", lake(), "-o", file(name), "--size-max", "120", "--bathymetry", dem(), "--quiet", "--overwrite"});
-    EXPECT_EQ(run.code, 0) << run.errors;
-    return file(name);
-  }
-  static std::string box() { return "--bbox=-88,41,-87.4865,42"; }
+  std::string mesh(const std::string& name) const { return meshOf(name, "120"); }
 };
-
-std::vector<std::string> linesOf(const std::string& path) {
-  std::istringstream text(readText(path));
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(text, line);) lines.push_back(line);
-  return lines;
-}
 
 TEST_F(Remesh, KeepsTheRestByteForByte) {
   const std::string whole = mesh("whole.14");
