@@ -11,12 +11,12 @@
 #include <string>
 #include <string_view>
 
-#include "apps/cli/exit_codes.hpp"
-#include "apps/cli/interrupt.hpp"
-#include "apps/cli/keeper.hpp"
-#include "apps/cli/last_resort.hpp"
-#include "apps/cli/memory_lacked.hpp"
 #include "apps/cli/program.hpp"
+#include "apps/process/exit_codes.hpp"
+#include "apps/process/interrupt.hpp"
+#include "apps/process/keeper.hpp"
+#include "apps/process/last_resort.hpp"
+#include "apps/process/memory_lacked.hpp"
 #include "apps/usage/command_line.hpp"
 #include "cluster/cluster.hpp"
 #include "cluster/ranks_started.hpp"

@@ -3,7 +3,7 @@
 // heap profiler or fault shim that is loaded before it) and records failures. So does pthread_create, after whose
 // failure oneTBB may crash, and exit, for libraries that end the process after one. Only in the program: the libraries
 // and the Python module run in other programs' processes. Inactive if a sanitizer has its own allocator, and with C
-// libraries other than glibc: there only operator new is watched (apps/cli/last_resort).
+// libraries other than glibc: there only operator new is watched (apps/process/last_resort).
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define COASTMESH_OTHER_MALLOC
@@ -27,8 +27,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "apps/cli/last_resort.hpp"
-#include "apps/cli/memory_lacked.hpp"
+#include "apps/process/last_resort.hpp"
+#include "apps/process/memory_lacked.hpp"
 
 extern "C" {
 void* __libc_malloc(std::size_t size) noexcept;

@@ -5,11 +5,11 @@
 #include <tuple>
 
 #include "apps/cli/commands.hpp"
-#include "apps/cli/exit_codes.hpp"
 #include "apps/cli/mesh_file.hpp"
 #include "apps/cli/run_outputs.hpp"
 #include "apps/job/check_grid.hpp"
 #include "apps/job/places.hpp"
+#include "apps/process/exit_codes.hpp"
 #include "apps/report/report_sections.hpp"
 #include "apps/report/vector_output.hpp"
 #include "apps/usage/input_usage.hpp"

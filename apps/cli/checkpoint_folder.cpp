@@ -16,9 +16,9 @@
 #include <tuple>
 #include <utility>
 
-#include "apps/cli/memory_lacked.hpp"
 #include "apps/job/bytes.hpp"
 #include "apps/job/group_bytes.hpp"
+#include "apps/process/memory_lacked.hpp"
 #include "gis/error.hpp"
 #include "gis/file/remove_folder.hpp"
 #include "parallel/byte_hash.hpp"

@@ -9,10 +9,10 @@
 
 #include "apps/cli/cleaned_output.hpp"
 #include "apps/cli/commands.hpp"
-#include "apps/cli/exit_codes.hpp"
 #include "apps/cli/run_outputs.hpp"
 #include "apps/job/job_input.hpp"
 #include "apps/job/stopwatch.hpp"
+#include "apps/process/exit_codes.hpp"
 #include "apps/report/report_sections.hpp"
 #include "apps/report/vector_output.hpp"
 #include "apps/usage/input_usage.hpp"

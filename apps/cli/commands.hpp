@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/cli/interrupt.hpp"
+#include "apps/process/interrupt.hpp"
 #include "apps/usage/command_line.hpp"
 
 namespace coastmesh {
@@ -37,6 +37,7 @@ Command declareConvert(CLI::App& root);
 Command declareClean(CLI::App& root);
 Command declareCut(CLI::App& root);
 Command declareRemesh(CLI::App& root);
+Command declareMerge(CLI::App& root);
 Command declarePartition(CLI::App& root);
 Command declareGather(CLI::App& root);
 

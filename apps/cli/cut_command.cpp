@@ -2,10 +2,10 @@
 #include <memory>
 
 #include "apps/cli/commands.hpp"
-#include "apps/cli/exit_codes.hpp"
 #include "apps/cli/mesh_file.hpp"
 #include "apps/cli/run_outputs.hpp"
 #include "apps/job/finish_grid.hpp"
+#include "apps/process/exit_codes.hpp"
 #include "apps/report/report_sections.hpp"
 #include "apps/usage/part_usage.hpp"
 #include "gis/cut/cut_grid.hpp"

@@ -7,9 +7,9 @@
 #include <string_view>
 
 #include "apps/cli/commands.hpp"
-#include "apps/cli/exit_codes.hpp"
 #include "apps/cli/mesh_file.hpp"
 #include "apps/job/check_grid.hpp"
+#include "apps/process/exit_codes.hpp"
 #include "apps/report/file_info.hpp"
 #include "apps/usage/input_usage.hpp"
 #include "gis/error.hpp"

@@ -2,10 +2,10 @@
 #include <memory>
 
 #include "apps/cli/commands.hpp"
-#include "apps/cli/exit_codes.hpp"
 #include "apps/cli/mesh_file.hpp"
 #include "apps/cli/partition_outputs.hpp"
 #include "apps/cli/run_outputs.hpp"
+#include "apps/process/exit_codes.hpp"
 #include "apps/report/partition_report.hpp"
 #include "apps/usage/grid_usage.hpp"
 #include "gis/grid/boundary_chains.hpp"

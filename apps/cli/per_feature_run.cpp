@@ -13,9 +13,7 @@
 #include <string>
 #include <thread>
 
-#include "apps/cli/exit_codes.hpp"
 #include "apps/cli/partition_outputs.hpp"
-#include "apps/cli/progress.hpp"
 #include "apps/cli/run_outputs.hpp"
 #include "apps/cli/shard_file.hpp"
 #include "apps/job/available_memory.hpp"
@@ -25,6 +23,8 @@
 #include "apps/job/memory_share.hpp"
 #include "apps/job/mesh_job.hpp"
 #include "apps/job/stopwatch.hpp"
+#include "apps/process/exit_codes.hpp"
+#include "apps/process/progress.hpp"
 #include "apps/report/mesh_warnings.hpp"
 #include "apps/report/per_feature_report.hpp"
 #include "gis/coast/feature_bounds.hpp"

@@ -5,12 +5,12 @@
 #include <memory>
 
 #include "apps/cli/commands.hpp"
-#include "apps/cli/exit_codes.hpp"
 #include "apps/cli/mesh_file.hpp"
 #include "apps/cli/run_outputs.hpp"
 #include "apps/plot/plot_globe.hpp"
 #include "apps/plot/plot_mesh.hpp"
 #include "apps/plot/plot_page.hpp"
+#include "apps/process/exit_codes.hpp"
 
 namespace coastmesh {
 

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "apps/cli/commands.hpp"
-#include "apps/cli/last_resort.hpp"
-#include "apps/cli/memory_lacked.hpp"
 #include "apps/cli/run_outputs.hpp"
 #include "apps/job/raster_helpers.hpp"
+#include "apps/process/last_resort.hpp"
+#include "apps/process/memory_lacked.hpp"
 #include "apps/report/report_sections.hpp"
 #include "apps/usage/usage_pages.hpp"
 #include "cluster/serve.hpp"
@@ -91,7 +91,7 @@ int runProgram(int argc, char** argv, Interrupt& interrupt, Cluster* cluster) {
       ->type_name("FORM")
       ->trigger_on_parse();
   for (const auto declare : {declareMesh, declareCheck, declareInfo, declarePlot, declareConvert, declareCut,
-                             declareRemesh, declareClean, declarePartition, declareGather}) {
+                             declareRemesh, declareMerge, declareClean, declarePartition, declareGather}) {
     commands.push_back(declare(app));
   }
   if (argc < 2) {

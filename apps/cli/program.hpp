@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/cli/interrupt.hpp"
+#include "apps/process/interrupt.hpp"
 
 namespace coastmesh {
 

@@ -3,12 +3,13 @@
 #include <memory>
 
 #include "apps/cli/commands.hpp"
-#include "apps/cli/exit_codes.hpp"
 #include "apps/cli/mesh_file.hpp"
 #include "apps/cli/run_outputs.hpp"
 #include "apps/job/finish_grid.hpp"
 #include "apps/job/places.hpp"
+#include "apps/process/exit_codes.hpp"
 #include "apps/remesh/remesh_grid.hpp"
+#include "apps/report/remesh_texts.hpp"
 #include "apps/report/report_sections.hpp"
 #include "apps/usage/finish_usage.hpp"
 #include "apps/usage/part_usage.hpp"
@@ -40,13 +41,6 @@ void requirePossible(const RemeshUsage& usage) {
     throw OptionError("nothing says how large the new triangles should be: give --size, or others");
 }
 
-std::string lengthText(double length, const Grid& grid) {
-  constexpr double kWhole = 1000.0;  // without decimals from here on
-  const std::string number =
-      length >= kWhole ? grouped(static_cast<std::uint64_t>(std::llround(length))) : amount("%.3g", length);
-  return number + (grid.crs.isPlane() ? "" : " m");
-}
-
 std::vector<std::string> warningsOf(const RemeshReport& report, const RemeshUsage& usage, const Grid& grid) {
   constexpr double kMostly = 0.5;
   std::vector<std::string> all;
@@ -59,11 +53,7 @@ std::vector<std::string> warningsOf(const RemeshReport& report, const RemeshUsag
     all.emplace_back("--size-shore has no effect: the mesh has no shore near the part that is meshed anew");
   if (report.replaced.partition_dropped)
     all.emplace_back("the assignment to processes is of the mesh before, and left out; partition makes a new one");
-  if (report.worst_below)
-    all.push_back(
-        grouped(report.below_bounds) + forCount(report.below_bounds, " new triangle misses", " new triangles miss") +
-        " the bounds on angles, beside edges that have to stay; the smallest angle is " +
-        amount("%.1f", report.worst_below->min_angle_deg) + " degrees, at " + pointText(report.worst_below->place));
+  all.push_back(belowBoundsWarning(report));
   if (!usage.remesh.depth.files.empty()) {
     all.insert(all.end(), report.depth.warnings.begin(), report.depth.warnings.end());
     if (report.depth.unknown > 0)
@@ -71,12 +61,6 @@ std::vector<std::string> warningsOf(const RemeshReport& report, const RemeshUsag
                     " no depth, as no raster and no node around has one");
   }
   return all;
-}
-
-std::string figuresText(const TriangleFigures& figures, const Grid& grid) {
-  return grouped(figures.triangles) + forCount(figures.triangles, " triangle", " triangles") + ", edges from " +
-         lengthText(figures.shortest_m, grid) + " to " + lengthText(figures.longest_m, grid) + ", angles from " +
-         amount("%.1f", figures.min_angle_deg) + " degrees\n";
 }
 
 std::string textOf(const RemeshReport& report, const RemeshUsage& usage, const Grid& grid) {

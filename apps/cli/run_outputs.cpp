@@ -8,7 +8,7 @@
 #include <map>
 #include <set>
 
-#include "apps/cli/memory_lacked.hpp"
+#include "apps/process/memory_lacked.hpp"
 #include "gis/error.hpp"
 #include "gis/read/virtual_source.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/cli/interrupt.hpp"
+#include "apps/process/interrupt.hpp"
 #include "apps/usage/option_table.hpp"
 #include "gis/file/staged_files.hpp"
 #include "gis/format/grid_io.hpp"

@@ -214,7 +214,7 @@ RemeshReport remeshGrid(Grid& grid, std::vector<std::uint8_t> taken, const Remes
   std::vector<MeshedPatch> meshed;
   {
     const LinkedGrid linked = linkGrid(grid, loop);
-    report.tidied = tidyCut(linked.mesh, taken, loop);
+    if (options.tidy) report.tidied = tidyCut(linked.mesh, taken, loop);
     requireLinks(grid, linked.conflicts, taken);
     patches = patchesOf(grid, linked.mesh, taken, loop);
     const SizeInputs inputs = readSizeInputs(options.sizes, grid.crs);

@@ -23,6 +23,7 @@ struct RemeshOptions {
   SizeOptions sizes;   // besides those that the triangles around the part ask for; coasts are kept
   MeshOptions mesh;    // its sizes are set from `sizes`
   DepthOptions depth;  // of new nodes; those without a value in any raster keep that of the old triangles
+  bool tidy = true;    // false: all triangles of the part are replaced
 };
 
 // Angles and edges of some triangles of a grid.
@@ -50,9 +51,10 @@ struct RemeshReport {
 };
 
 // Replaces the triangles with a flag in `taken`, one for each, without those that models would reject at the edge of
-// the part (`tidyCut`), by triangles of the requested sizes. All others stay bit for bit: see `replacePatches`. Sizes
-// join those of the triangles around by the gradation. Throws InputError: edges of more than two triangles in the part,
-// a part that cannot be meshed, too many vertices; Cancelled. REQUIRES: at least one flag is set.
+// the part (`tidyCut`, if wanted), by triangles of the requested sizes. All others stay bit for bit: see
+// `replacePatches`. Sizes join those of the triangles around by the gradation. Throws InputError: edges of more than
+// two triangles in the part, a part that cannot be meshed, too many vertices; Cancelled. REQUIRES: at least one flag is
+// set.
 RemeshReport remeshGrid(Grid& grid, std::vector<std::uint8_t> taken, const RemeshOptions& options,
                         const RunControl& control = {}, const ItemLoop& loop = inOrder);
 

@@ -38,6 +38,10 @@ void declarePartOutputs(OptionTable& table, PartUsage& usage, const PartHelp& he
 void requirePart(const PartUsage& usage, const std::string& purpose) {
   if (!usage.region.any())
     throw OptionError("nothing says which part of the mesh " + purpose + ": give --bbox, --within or --outside");
+  requireNumbers(usage);
+}
+
+void requireNumbers(const PartUsage& usage) {
   if (!usage.numbers.empty() && !usage.finish.targets.empty())
     throw OptionError(
         "--numbers: repairs for --target add, move and remove nodes, so that numbers are no longer those of the mesh; "

@@ -12,7 +12,7 @@
 
 namespace coastmesh {
 
-// What commands that change a part of a mesh have in common.
+// What commands that change a part of a mesh have in common; `merge` has no region.
 struct PartUsage {
   CutRegion region;
   FinishOptions finish;
@@ -35,8 +35,10 @@ void declarePart(OptionTable& table, PartUsage& usage, const PartHelp& help);
 // Declares --target, -o, --format, --numbers, --overwrite and --quiet.
 void declarePartOutputs(OptionTable& table, PartUsage& usage, const PartHelp& help);
 
-// `purpose`: "to cut out". Throws OptionError if no option chooses the part, and for --numbers together with repairs.
+// `purpose`: "to cut out". Throws OptionError if no option chooses the part, and like `requireNumbers`.
 void requirePart(const PartUsage& usage, const std::string& purpose);
+// Throws OptionError for --numbers together with repairs.
+void requireNumbers(const PartUsage& usage);
 // `trianglesIn` the part. Throws InputError, also if there are none, with the path and the extent of the mesh.
 std::vector<std::uint8_t> requireTriangles(const PartUsage& usage, const Grid& grid, const std::string& path,
                                            const std::string& purpose, std::vector<std::string>& warnings,

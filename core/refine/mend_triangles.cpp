@@ -78,9 +78,25 @@ bool isBehind(const Frame& at_x, const Point& x, const Point& a, const Point& b)
   return dot(xa, xb) < 0.0 && cross(xa, xb) <= 0.0;
 }
 
-// The subsegment of a cavity's boundary that x lies behind, or encroaches upon, with the widest angle; kNone if there
-// is none.
-EdgeRef subsegmentBeside(const RefineRun& run, const Point& x, const Patch& cavity) {
+// The cosine of the smallest angle of triangle abx; x is the frame's origin.
+double cosOfLeastAngle(const Frame& at_x, const Point& a, const Point& b) {
+  const Point xa = at_x.relative(a), xb = at_x.relative(b), ab = xb - xa;
+  const double la = std::sqrt(squaredLength(xa)), lb = std::sqrt(squaredLength(xb)), l = std::sqrt(squaredLength(ab));
+  return std::max({dot(xa, xb) / (la * lb), -dot(xa, ab) / (la * l), dot(xb, ab) / (lb * l)});
+}
+
+// The cosine of the smallest angle that a vertex inserted for t may make with a segment that nothing divides: t's own
+// smallest one, at most 20°. No further vertex would mend a triangle there.
+double cosBesideKept(const RefineRun& run, TriId t) {
+  constexpr double kCosLeast = 0.9396926207859084;  // of 20°
+  const auto& v = run.mesh.triangle(t).v;
+  const Frame frame(run.bound.surface, run.mesh.point(v[0]));
+  return std::max(kCosLeast, cosOfLeastAngle(frame, run.mesh.point(v[1]), run.mesh.point(v[2])));
+}
+
+// The subsegment of a cavity's boundary that x, inserted for t, lies behind, or encroaches upon, with the widest angle;
+// kNone if there is none.
+EdgeRef subsegmentBeside(const RefineRun& run, const Point& x, TriId t, const Patch& cavity) {
   const EditMesh& mesh = run.mesh;
   const Frame at_x(run.bound.surface, x);
   EdgeRef hit = kNone;
@@ -89,8 +105,11 @@ EdgeRef subsegmentBeside(const RefineRun& run, const Point& x, const Patch& cavi
     if (r.seg == kNone && r.beyond != kNone) continue;
     const Point &a = mesh.point(r.a), &b = mesh.point(r.b);
     const bool behind = isBehind(at_x, x, a, b);
-    const bool is_kept = r.seg != kNone && !mayDivide(run.pslg, r.seg);
-    if (!behind && (is_kept || !isEncroached(run.cos_lens, at_x, a, b))) continue;
+    if (!behind) {
+      const bool is_kept = r.seg != kNone && !mayDivide(run.pslg, r.seg);
+      if (is_kept && (r.seg == kFrozen || cosOfLeastAngle(at_x, a, b) <= cosBesideKept(run, t))) continue;
+      if (!is_kept && !isEncroached(run.cos_lens, at_x, a, b)) continue;
+    }
     const double angle = behind ? std::numbers::pi : angleAt(x, a, b);
     if (angle <= widest) continue;
     widest = angle;
@@ -126,7 +145,7 @@ bool insertPoint(RefineRun& run, TriId t, unsigned apex) {
     defer(run, t);
     return false;
   }
-  const EdgeRef hit = subsegmentBeside(run, candidate.place, patch);
+  const EdgeRef hit = subsegmentBeside(run, candidate.place, t, patch);
   if (hit != kNone) return splitFor(run, hit, t, apex);
   const double spacing = spacingAt(run, candidate.place, patch);
   if (!inside || std::min(candidate.squared_clearance, spacing * spacing) < run.squared_resolution) return false;

@@ -328,6 +328,10 @@ std::vector<std::uint32_t> removeUnusedNodes(Grid& grid) {
   return removeNodes(grid, unused);
 }
 
+void replaceNodes(Grid& grid, const std::vector<std::uint32_t>& instead) {
+  renumberNodes(grid, [&](std::uint32_t node) { return instead[node]; });
+}
+
 void orderNodes(Grid& grid, const std::vector<std::uint32_t>& order) {
   forEachArray(nodeArrays(grid), [&](auto& values) { reorder(values, order); });
   std::vector<std::uint32_t> index_of(order.size());

@@ -43,6 +43,9 @@ std::vector<std::uint32_t> removeTriangles(Grid& grid, const std::vector<bool>& 
 std::vector<std::uint32_t> removeNodes(Grid& grid, const std::vector<bool>& gone);
 std::vector<std::uint32_t> removeUnusedNodes(Grid& grid);
 
+// Triangles, boundaries and lines get node `instead[n]` in place of node n, which stays, unused if that is another.
+void replaceNodes(Grid& grid, const std::vector<std::uint32_t>& instead);
+
 // The pieces that remain of a boundary if only the edges are kept, by their position in it, for which `holds` is true.
 // Each node keeps its values; no piece of a loop is closed unless all of it remains.
 std::vector<Boundary> piecesOf(const Boundary& boundary, const std::function<bool(std::size_t edge)>& holds);

@@ -200,7 +200,7 @@ class GuideTest(unittest.TestCase):
         self.assertEqual(ran, 1)
         # The table's codes are those of the program.
         page = dict(re.findall(r"^\| (\d+) \| ([^|,]*)", read(os.path.join(SOURCES, "docs/stable.md")), re.M))
-        header = re.findall(r"^  kExit\w+ = (\d+),", read(os.path.join(SOURCES, "apps/cli/exit_codes.hpp")), re.M)
+        header = re.findall(r"^  kExit\w+ = (\d+),", read(os.path.join(SOURCES, "apps/process/exit_codes.hpp")), re.M)
         self.assertEqual(sorted(page), sorted(header))
 
     def test_reference(self):

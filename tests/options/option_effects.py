@@ -116,7 +116,7 @@ def write_inputs(folder):
     for name in ("dem", "part", "sizes"):
         put(name + ".prj", WGS84)
     put("angle.toml", "[mesh]\nsize-max = 150\n[check]\nmin-angle = 50\n[plot]\nsize = 300\n[info]\njson = true\n"
-        "[convert]\nformat = '2dm'\n[clean]\nsimplify = 300\n[partition]\nformat = 'gmsh'\n[gather]\nformat = '2dm'\n[cut]\nformat = '2dm'\n[remesh]\nformat = '2dm'\n")
+        "[convert]\nformat = '2dm'\n[clean]\nsimplify = 300\n[partition]\nformat = 'gmsh'\n[gather]\nformat = '2dm'\n[cut]\nformat = '2dm'\n[remesh]\nformat = '2dm'\n[merge]\nformat = '2dm'\n")
 
 
 def cases():
@@ -278,17 +278,22 @@ def cases():
     # The lake is small: sizes of the shore leave little room for others.
     remesh["--slope-filter"] = Case("900", extra=[*depths, "--size-min", "5", "--slope-elements", "60", "--grade", "1"])
     remesh["--courant"] = Case("0.5", extra=[*depths, "--size", "60", "--time-step", "2"])
+    merge = {**common, "--output": Case("more.2dm"), "--format": Case("2dm"), "--quiet": Case(),
+             "--min-angle": Case("15"), "--max-angle": Case("90"), "--grade": Case("0.02"), "--target": Case("fvcom"),
+             "--numbers": Case("numbers.csv"), "--assume-crs": Case("EPSG:4326", input="bare.2dm")}
+    for name in ("--bathymetry", "--depth-method", "--depth-sign", "--water-level", "--min-depth"):
+        merge[name] = Case(mesh[name].value, extra=mesh[name].extra)
     return {"mesh": mesh, "check": check, "convert": convert, "clean": clean, "plot": plot, "info": info,
-            "partition": partition, "gather": gather, "cut": cut, "remesh": remesh}
+            "partition": partition, "gather": gather, "cut": cut, "remesh": remesh, "merge": merge}
 
 
 INPUT = {"mesh": "lake.geojson", "clean": "lake.geojson", "check": "lake.nc", "convert": "lake.nc", "plot": "lake.nc",
-         "info": "lake.nc", "partition": "lake.nc", "gather": "lake.shard", "cut": "lake.nc", "remesh": "lake.nc"}
+         "info": "lake.nc", "partition": "lake.nc", "gather": "lake.shard", "cut": "lake.nc", "remesh": "lake.nc", "merge": "lake.nc"}
 OUTPUT = {"mesh": "out.nc", "clean": "out.gpkg", "convert": "out.nc", "plot": "out.svg", "partition": "out.nc", "gather": "out.nc",
-          "cut": "out.nc", "remesh": "out.nc"}
+          "cut": "out.nc", "remesh": "out.nc", "merge": "out.nc"}
 # What has to be given after the file.
 ARGUMENTS = {"partition": ["4"], "cut": ["--outside", "region.geojson"],
-             "remesh": ["--outside", "region.geojson", "--size-features", "points.geojson"]}
+             "remesh": ["--outside", "region.geojson", "--size-features", "points.geojson"], "merge": ["west.nc"]}
 
 
 class Runs:
@@ -393,6 +398,10 @@ def main():
             if made[0] != 0:
                 sys.exit(f"cannot make {name}: {made[1]}")
         (inputs / "bare.prj").unlink()
+        runs.run("mesh", "lake.geojson", ["--size", "100", "--output", str(inputs / "fine.nc")])
+        made = runs.run("cut", "fine.nc", ["--bbox", "-88,41,-87.4865,42", "--output", str(inputs / "west.nc")])
+        if made[0] != 0:
+            sys.exit(f"cannot make west.nc: {made[1]}")
         made = runs.run("clean", "lake.geojson", [*frame, "--output", str(inputs / "framed.gpkg")])
         if made[0] != 0:
             sys.exit(f"cannot make framed.gpkg: {made[1]}")

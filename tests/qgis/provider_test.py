@@ -108,7 +108,8 @@ class ProviderTest(unittest.TestCase):
     def test_every_verb_is_an_algorithm_and_every_option_of_theirs_a_parameter(self):
         provider = QgsApplication.processingRegistry().providerById("coastmesh")
         self.assertEqual(provider.warningMessage(), "")
-        self.assertEqual({a.name() for a in provider.algorithms()}, {"mesh", "clean", "check", "convert", "cut", "remesh"})
+        self.assertEqual({a.name() for a in provider.algorithms()},
+                         {"mesh", "clean", "check", "convert", "cut", "remesh", "merge"})
         mesh = provider.algorithm("mesh")
         angle = mesh.parameterDefinition("MIN_ANGLE")
         self.assertEqual((angle.defaultValue(), angle.minimum(), angle.maximum()), (33.0, 0.0, 45.0))
@@ -536,6 +537,22 @@ class ProviderTest(unittest.TestCase):
                                      SIZE=box.width() * 1000, OUTPUT=self.path("finer.gpkg"))
         self.assertGreater(QgsVectorLayer(results["TRIANGLES"], "", "ogr").featureCount(),
                            QgsVectorLayer(before["TRIANGLES"], "", "ogr").featureCount())
+
+    def test_a_finer_part_put_into_a_mesh(self):
+        self.mesh(memory_layer(LAKE))
+        box = QgsMeshLayer(self.path("lake.nc"), "lake", "mdal").extent()
+        self.run_algorithm("remesh", INPUT=self.path("lake.nc"), BBOX=box, SIZE=box.width() * 2000,
+                           OUTPUT=self.path("fine.nc"))
+        west = QgsRectangle(box.xMinimum(), box.yMinimum(), box.center().x(), box.yMaximum())
+        self.run_algorithm("cut", INPUT=self.path("fine.nc"), BBOX=west, OUTPUT=self.path("west.nc"))
+        parts = [QgsMeshLayer(self.path("west.nc"), "west", "mdal")]
+        QgsProject.instance().addMapLayers(parts)
+        results = self.run_algorithm("merge", INPUT=self.path("lake.nc"), INSERTED=parts,
+                                     OUTPUT=self.path("both.gpkg"))
+        west_only = self.run_algorithm("convert", INPUT=self.path("west.nc"), OUTPUT=self.path("west.gpkg"))
+        self.assertGreater(QgsVectorLayer(results["TRIANGLES"], "", "ogr").featureCount(),
+                           QgsVectorLayer(west_only["TRIANGLES"], "", "ogr").featureCount())
+        QgsProject.instance().clear()
 
     def test_a_mesh_in_a_crs_without_a_code(self):
         self.mesh(memory_layer(LAKE))

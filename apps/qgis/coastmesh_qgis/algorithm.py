@@ -38,6 +38,7 @@ LAYERS = {
     "convert": MESH_LAYERS,
     "cut": MESH_LAYERS,
     "remesh": MESH_LAYERS,
+    "merge": MESH_LAYERS,
     "clean": [("EDITS", "edits", "Edits"), ("PSLG", "pslg", "Plane graph")],
 }
 SHOWN_LAYERS = ("BOUNDARIES", "TRIANGLES", "EDITS", "PSLG")  # nodes are too many to show
@@ -98,6 +99,11 @@ class CoastmeshAlgorithm(QgsProcessingAlgorithm):
             mesh = QgsProcessingParameterMapLayer("INPUT", "Mesh: a layer, or any mesh file", None, False, kinds)
             mesh.setHelp("a mesh layer, a layer of triangles, or the path of a file in any format that coastmesh reads")
             self.addParameter(mesh)
+            if self.name() == "merge":
+                inserted = QgsProcessingParameterMultipleLayers("INSERTED", "Meshes to put in", QgsProcessing.TypeMesh)
+                inserted.setHelp("in this order, in place of the triangles that they cover; each joins the mesh along "
+                                 "its open boundaries, or all around if it has none")
+                self.addParameter(inserted)
         else:
             kinds = [QgsProcessing.TypeVectorPolygon, QgsProcessing.TypeVectorLine]
             self.addParameter(QgsProcessingParameterFeatureSource("INPUT", "Polygons or closed lines", kinds))
@@ -142,6 +148,9 @@ class CoastmeshAlgorithm(QgsProcessingAlgorithm):
 
     def _outputs_of_remesh(self):
         self._add_mesh_file("Mesh with a new part")
+
+    def _outputs_of_merge(self):
+        self._add_mesh_file("Merged mesh")
 
     def _add_mesh_file(self, title):
         self._add_file("OUTPUT", title, self._filters(first="ugrid"))
@@ -224,13 +233,17 @@ class CoastmeshAlgorithm(QgsProcessingAlgorithm):
         if self.verb.reads_mesh:
             # Extents and points are in the CRS of what the mesh was made from.
             made_from = self.parameterAsLayerList(parameters, "MADE_FROM", context) if self.name() == "check" else []
+            inserted = []
+            if self.name() == "merge":
+                inserted = [sources.path_of_mesh(each)
+                            for each in self.parameterAsLayerList(parameters, "INSERTED", context) or []]
             path = self._mesh_file(parameters)
             if path:
-                return [path], made_from[0].crs() if made_from else QgsCoordinateReferenceSystem()
+                return [path, *inserted], made_from[0].crs() if made_from else QgsCoordinateReferenceSystem()
             layer = self.parameterAsLayer(parameters, "INPUT", context)
             if layer is None:
                 raise QgsProcessingException(f"'{parameters.get('INPUT')}' is neither a mesh layer nor a mesh file")
-            arguments = [sources.path_of_mesh(layer)]
+            arguments = [sources.path_of_mesh(layer), *inserted]
             if layer.crs().isValid():
                 arguments.append(f"--assume-crs={crs_text(layer.crs())}")
             return arguments, made_from[0].crs() if made_from else layer.crs()
@@ -309,7 +322,7 @@ class CoastmeshAlgorithm(QgsProcessingAlgorithm):
         mesh = outputs.get("OUTPUT", "")
         if mesh.lower().endswith(MESH_ENDINGS):
             self._load_layer(context, mesh, "Mesh", "OUTPUT", QgsProcessingUtils.LayerHint.Mesh)
-        elif self.name() == "mesh" or self.name() in ("convert", "cut", "remesh") and "TRIANGLES" not in results:
+        elif self.name() == "mesh" or self.name() in ("convert", "cut", "remesh", "merge") and "TRIANGLES" not in results:
             feedback.pushInfo(f"QGIS opens {' and '.join(MESH_ENDINGS)} as mesh layers; '{mesh}' was only written.")
         for name, _, title in reversed(LAYERS.get(self.name(), [])):
             if name in SHOWN_LAYERS and name in results:

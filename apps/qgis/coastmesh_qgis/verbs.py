@@ -20,6 +20,7 @@ VERBS = {
     "convert": Verb("Convert a mesh", reads_mesh=True, tags=["export", "grid", "ugrid", "adcirc", "gmsh", "2dm"]),
     "cut": Verb("Cut out a part of a mesh", reads_mesh=True, tags=["clip", "extract", "subset", "grid"]),
     "remesh": Verb("Mesh a part of a mesh anew", reads_mesh=True, tags=["refine", "coarsen", "resolution", "grid"]),
+    "merge": Verb("Put meshes into another one", reads_mesh=True, tags=["combine", "join", "insert", "nest", "grid"]),
 }
 
 # Options that the provider sets, and options that QGIS covers itself: layers and filters of features.

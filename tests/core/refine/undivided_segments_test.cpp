@@ -1,11 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
 
 #include "core/optimise/optimise.hpp"
+#include "core/quality.hpp"
 #include "core/refine/check.hpp"
 #include "core/refine/refine.hpp"
 #include "core/triangulate/delaunay.hpp"
@@ -79,6 +81,41 @@ TEST(UndividedSegments, OfAnElementsLengthLeaveAnglesAsLarge) {
   CheckOptions bounds;
   bounds.min_angle_deg = 30.0;
   EXPECT_TRUE(checkMesh(mesh, &pslg, bounds).empty());
+}
+
+// A strip between long edges that stay whole and a shore of short ones.
+Pslg strip(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  Pslg pslg;
+  constexpr unsigned kLong = 6, kShort = 40;
+  for (unsigned i = 0; i <= kLong; ++i) pslg.points.push_back({4.0 * i, 0.3 * share(random)});
+  for (unsigned i = 0; i <= kShort; ++i)
+    pslg.points.push_back({4.0 * kLong * (kShort - i) / kShort, 2.5 + 1.5 * share(random)});
+  const auto n = static_cast<unsigned>(pslg.points.size());
+  for (unsigned i = 0; i < n; ++i)
+    pslg.segments.push_back({i, (i + 1) % n, 0, 0, kOutside, i < kLong ? Divide::Never : Divide::Freely});
+  return pslg;
+}
+
+TEST(UndividedSegments, NoVertexIsPutSoNearThatNoGoodTriangleFits) {
+  std::mt19937_64 random(13);
+  for (int run = 0; run < 30; ++run) {
+    const Pslg pslg = strip(random);
+    const ConstantSize size(1.0);
+    for (const SizeFunction* const wanted :
+         {static_cast<const SizeFunction*>(nullptr), static_cast<const SizeFunction*>(&size)}) {
+      RefineOptions options;
+      options.size = wanted;
+      TriMesh mesh = constrainedDelaunay(pslg);
+      refine(mesh, pslg, options);
+      double least = 180.0;
+      for (const Triangle& t : mesh.triangles)
+        for (const SegmentId s : t.seg)
+          if (s < pslg.segments.size() && !mayDivide(pslg, s))
+            least = std::min(least, leastAngleDeg(mesh.points[t.v[0]], mesh.points[t.v[1]], mesh.points[t.v[2]]));
+      EXPECT_GT(least, 5.0);
+    }
+  }
 }
 
 }  // namespace

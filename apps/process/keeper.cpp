@@ -1,4 +1,4 @@
-#include "apps/cli/keeper.hpp"
+#include "apps/process/keeper.hpp"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -19,8 +19,8 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/cli/exit_codes.hpp"
-#include "apps/cli/interrupt.hpp"
+#include "apps/process/exit_codes.hpp"
+#include "apps/process/interrupt.hpp"
 #include "gis/file/remove_folder.hpp"
 
 namespace coastmesh {

@@ -1,4 +1,4 @@
-#include "apps/cli/progress.hpp"
+#include "apps/process/progress.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "apps/cli/memory_lacked.hpp"
+#include "apps/process/memory_lacked.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -10,8 +10,8 @@
 #include <new>
 #include <string>
 
-#include "apps/cli/interrupt.hpp"
 #include "apps/cli/run_outputs.hpp"
+#include "apps/process/interrupt.hpp"
 
 namespace coastmesh {
 

@@ -1,4 +1,4 @@
-#include "apps/cli/progress.hpp"
+#include "apps/process/progress.hpp"
 
 #include <poll.h>
 #include <sys/ioctl.h>

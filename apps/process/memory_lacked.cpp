@@ -1,4 +1,4 @@
-#include "apps/cli/memory_lacked.hpp"
+#include "apps/process/memory_lacked.hpp"
 
 #include <atomic>
 #include <new>

@@ -1,4 +1,4 @@
-#include "apps/cli/interrupt.hpp"
+#include "apps/process/interrupt.hpp"
 
 #include <pthread.h>
 #include <signal.h>
@@ -7,7 +7,7 @@
 #include <chrono>
 #include <utility>
 
-#include "apps/cli/exit_codes.hpp"
+#include "apps/process/exit_codes.hpp"
 #include "core/run_control.hpp"
 #include "gis/file/remove_folder.hpp"
 

@@ -1,4 +1,4 @@
-#include "apps/cli/last_resort.hpp"
+#include "apps/process/last_resort.hpp"
 
 #include <cpl_error.h>
 #include <signal.h>
@@ -15,8 +15,8 @@
 #include <system_error>
 #include <utility>
 
-#include "apps/cli/exit_codes.hpp"
-#include "apps/cli/memory_lacked.hpp"
+#include "apps/process/exit_codes.hpp"
+#include "apps/process/memory_lacked.hpp"
 
 namespace coastmesh {
 

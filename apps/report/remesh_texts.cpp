@@ -1,0 +1,32 @@
+#include "apps/report/remesh_texts.hpp"
+
+#include <cmath>
+#include <cstdint>
+
+#include "apps/job/places.hpp"
+#include "apps/report/report_sections.hpp"
+#include "gis/for_count.hpp"
+
+namespace coastmesh {
+
+std::string lengthText(double length, const Grid& grid) {
+  constexpr double kWhole = 1000.0;  // without decimals from here on
+  const std::string number =
+      length >= kWhole ? grouped(static_cast<std::uint64_t>(std::llround(length))) : amount("%.3g", length);
+  return number + (grid.crs.isPlane() ? "" : " m");
+}
+
+std::string figuresText(const TriangleFigures& figures, const Grid& grid) {
+  return grouped(figures.triangles) + forCount(figures.triangles, " triangle", " triangles") + ", edges from " +
+         lengthText(figures.shortest_m, grid) + " to " + lengthText(figures.longest_m, grid) + ", angles from " +
+         amount("%.1f", figures.min_angle_deg) + " degrees\n";
+}
+
+std::string belowBoundsWarning(const RemeshReport& report) {
+  if (!report.worst_below) return {};
+  return grouped(report.below_bounds) + forCount(report.below_bounds, " new triangle misses", " new triangles miss") +
+         " the bounds on angles, beside edges that have to stay; the smallest angle is " +
+         amount("%.1f", report.worst_below->min_angle_deg) + " degrees, at " + pointText(report.worst_below->place);
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "apps/remesh/remesh_grid.hpp"
+#include "gis/grid/grid.hpp"
+
+namespace coastmesh {
+
+// "1 234 m"; without a unit in a plane.
+std::string lengthText(double length, const Grid& grid);
+
+// "120 triangles, edges from 90 m to 1 200 m, angles from 31.2 degrees\n"
+std::string figuresText(const TriangleFigures& figures, const Grid& grid);
+
+// A warning of new triangles that miss the bounds on angles; empty if there are none.
+std::string belowBoundsWarning(const RemeshReport& report);
+
+}  // namespace coastmesh

@@ -1,0 +1,238 @@
+#include "gis/merge/gap_faces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/metric.hpp"
+#include "core/predicates.hpp"
+#include "gis/geometry/box_tree.hpp"
+#include "gis/geometry/chain_index.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// A node of the first mesh is left out if it is nearer to an edge of the outline than this share of the edge's length.
+constexpr double kNear = 0.45;
+
+class GapFiller {
+ public:
+  GapFiller(const TriMesh& mesh, std::span<const std::uint32_t> same, std::span<const Cover> cover,
+            const Outline& outline, const ItemLoop& loop)
+      : mesh_(mesh),
+        same_(same),
+        cover_(cover),
+        outline_(outline),
+        loop_(loop),
+        shift_(static_cast<std::uint32_t>(mesh.points.size())) {}
+
+  GapFaces fill() {
+    for (TriId t = 0; t < mesh_.triangles.size(); ++t)
+      if (cover_[t] == Cover::Met) met_.push_back(t);
+    GapFaces faces;
+    if (met_.empty()) return faces;
+    markNodes();
+    gatherPoints();
+    gatherEdges(faces.shore);
+    const TriMesh filled = triangulate();
+    indexMet();
+    std::vector<std::uint8_t> wanted(filled.triangles.size(), 0);
+    forEachByStretches(loop_, wanted.size(), [&](std::size_t t) {
+      if (isWanted(filled, static_cast<TriId>(t))) wanted[t] = 1;
+    });
+    for (TriId t = 0; t < wanted.size(); ++t) {
+      if (wanted[t] == 0) continue;
+      auto& corners = faces.triangles.emplace_back();
+      for (unsigned i = 0; i < 3; ++i) corners[i] = nodes_[filled.triangles[t].v[i]];
+    }
+    return faces;
+  }
+
+ private:
+  std::uint32_t numberOf(VertexId v) const { return same_[v] == kNone ? v : shift_ + same_[v]; }
+  const Point& place(std::uint32_t number) const {
+    return number < shift_ ? mesh_.points[number] : outline_.place(number - shift_);
+  }
+
+  void markNodes() {
+    for (const Outline::Edge& edge : outline_.edges()) {
+      outline_nodes_.push_back(shift_ + edge.a);
+      if (edge.joins) joining_.insert(joining_.end(), {shift_ + edge.a, shift_ + edge.b});
+      outline_keys_.push_back(edgeKey(shift_ + edge.a, shift_ + edge.b));
+      if (!edge.joins) walls_.push_back(outline_keys_.back());
+    }
+    for (auto* const list : {&outline_nodes_, &joining_}) {
+      std::ranges::sort(*list);
+      const auto repeated = std::ranges::unique(*list);
+      list->erase(repeated.begin(), repeated.end());
+    }
+    std::ranges::sort(outline_keys_);
+    std::ranges::sort(walls_);
+  }
+
+  bool isClear(const Point& p) const {
+    bool clear = true;
+    // No edge that is near enough to matter is longer than this from the place.
+    const Box& all = outline_.box();
+    const double reach = kNear * std::max(all.xmax - all.xmin, all.ymax - all.ymin);
+    outline_.visit(Box::of(p, p).grownBy(std::min(reach, longest_ * kNear)), [&](std::uint32_t e) {
+      const Point &a = outline_.place(outline_.edges()[e].a), &b = outline_.place(outline_.edges()[e].b);
+      if (squaredDistanceToSegment(p, a, b) < kNear * kNear * squaredDistance(a, b)) clear = false;
+    });
+    return clear;
+  }
+
+  void gatherPoints() {
+    for (const Outline::Edge& edge : outline_.edges())
+      longest_ = std::max(longest_, distance(outline_.place(edge.a), outline_.place(edge.b)));
+    std::vector<std::uint8_t> is_fixed(shift_, 0);
+    for (TriId t = 0; t < mesh_.triangles.size(); ++t)
+      if (cover_[t] == Cover::Free)
+        for (const VertexId v : mesh_.triangles[t].v) is_fixed[v] = 1;
+    std::vector<VertexId> candidates;
+    for (const TriId t : met_)
+      for (const VertexId v : mesh_.triangles[t].v)
+        if (same_[v] == kNone) candidates.push_back(v);
+    std::ranges::sort(candidates);
+    const auto repeated = std::ranges::unique(candidates);
+    candidates.erase(repeated.begin(), repeated.end());
+    std::vector<std::uint8_t> taken(candidates.size(), 0);
+    forEachByStretches(loop_, candidates.size(), [&](std::size_t i) {
+      const Point& p = mesh_.points[candidates[i]];
+      taken[i] = is_fixed[candidates[i]] != 0 || (!outline_.surrounds(p) && isClear(p)) ? 1 : 0;
+    });
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+      if (taken[i] != 0) nodes_.push_back(candidates[i]);
+    nodes_.insert(nodes_.end(), outline_nodes_.begin(), outline_nodes_.end());  // their numbers are larger
+  }
+
+  bool hasPoint(std::uint32_t number) const { return std::ranges::binary_search(nodes_, number); }
+
+  // True if the edge of the first mesh has a point in common with the outline that is not a node of both.
+  bool crossesOutline(std::uint32_t from, std::uint32_t to) const {
+    const Point &p = place(from), &q = place(to);
+    bool crosses = false;
+    outline_.visit(Box::of(p, q), [&](std::uint32_t e) {
+      const std::uint32_t a = shift_ + outline_.edges()[e].a, b = shift_ + outline_.edges()[e].b;
+      const bool at_from = from == a || from == b, at_to = to == a || to == b;
+      if (at_from || at_to) {
+        // Through a common node the outline passes along the edge, or not.
+        const std::uint32_t common = at_from ? from : to, other = at_from ? to : from, end = common == a ? b : a;
+        const Point middle = place(common);
+        if (orient2d(middle, place(other), place(end)) == 0 && dot(place(other) - middle, place(end) - middle) > 0.0)
+          crosses = true;
+        return;
+      }
+      if (segmentsMeet(p, q, place(a), place(b))) crosses = true;
+    });
+    return crosses;
+  }
+
+  void gatherEdges(std::vector<NodePair>& shore) {
+    std::vector<NodePair> keys = outline_keys_;
+    for (const TriId t : met_) {
+      for (unsigned i = 0; i < 3; ++i) {
+        const EdgeRef e = edgeRef(t, i), across = mesh_.twin(e);
+        if (across != kNone && cover_[triOf(across)] != Cover::Free) continue;
+        const std::uint32_t from = numberOf(mesh_.origin(e)), to = numberOf(mesh_.target(e));
+        const NodePair key = edgeKey(from, to);
+        if (std::ranges::binary_search(outline_keys_, key)) continue;
+        if (across == kNone) {
+          if (!hasPoint(from) || !hasPoint(to) || crossesOutline(from, to)) continue;
+          shore.push_back(key);
+        }
+        keys.push_back(key);
+      }
+    }
+    std::ranges::sort(shore);
+    std::ranges::sort(keys);
+    const auto repeated = std::ranges::unique(keys);
+    keys.erase(repeated.begin(), repeated.end());
+    edges_ = std::move(keys);
+  }
+
+  TriMesh triangulate() const {
+    Pslg pslg;
+    Box box;
+    for (const std::uint32_t number : nodes_) {
+      pslg.points.push_back(place(number));
+      box.add(pslg.points.back());
+    }
+    const auto vertexOf = [&](std::uint32_t number) {
+      return static_cast<VertexId>(std::ranges::lower_bound(nodes_, number) - nodes_.begin());
+    };
+    for (const NodePair& edge : edges_) pslg.segments.push_back({vertexOf(edge[0]), vertexOf(edge[1])});
+    // A frame, so that all places are enclosed.
+    box = box.grownBy(std::max({box.xmax - box.xmin, box.ymax - box.ymin}));
+    const auto first = static_cast<VertexId>(pslg.points.size());
+    for (const Point& corner :
+         {Point{box.xmin, box.ymin}, Point{box.xmax, box.ymin}, Point{box.xmax, box.ymax}, Point{box.xmin, box.ymax}})
+      pslg.points.push_back(corner);
+    for (VertexId i = 0; i < 4; ++i) pslg.segments.push_back({first + i, first + (i + 1) % 4});
+    try {
+      return constrainedDelaunay(pslg, {}, loop_);
+    } catch (const BadPslg& error) {
+      throw cannotJoin(error);
+    }
+  }
+
+  void indexMet() {
+    std::vector<Box> boxes;
+    for (const TriId t : met_) {
+      Box& box = boxes.emplace_back();
+      for (const VertexId v : mesh_.triangles[t].v) box.add(mesh_.points[v]);
+    }
+    met_tree_ = BoxTree(boxes, BoxTree::Order::Hilbert, loop_);
+  }
+
+  bool isWater(const Point& p) const {
+    bool found = false;
+    met_tree_.visit(Box::of(p, p), [&](std::uint32_t i) {
+      const auto& v = mesh_.triangles[met_[i]].v;
+      const Point &a = mesh_.points[v[0]], &b = mesh_.points[v[1]], &c = mesh_.points[v[2]];
+      found = found || (orient2d(a, b, p) >= 0 && orient2d(b, c, p) >= 0 && orient2d(c, a, p) >= 0);
+    });
+    return found;
+  }
+
+  bool isWanted(const TriMesh& filled, TriId t) const {
+    const auto& v = filled.triangles[t].v;
+    if (std::ranges::any_of(v, [&](VertexId corner) { return corner >= nodes_.size(); })) return false;
+    for (unsigned i = 0; i < 3; ++i) {
+      const std::uint32_t node = nodes_[v[i]];
+      if (node >= shift_ && !std::ranges::binary_search(joining_, node)) return false;
+      if (std::ranges::binary_search(walls_, edgeKey(node, nodes_[v[next3(i)]]))) return false;
+    }
+    const Point middle = centroid(filled.points[v[0]], filled.points[v[1]], filled.points[v[2]]);
+    return !outline_.surrounds(middle) && isWater(middle);
+  }
+
+  const TriMesh& mesh_;
+  std::span<const std::uint32_t> same_;
+  std::span<const Cover> cover_;
+  const Outline& outline_;
+  const ItemLoop& loop_;
+  std::uint32_t shift_;
+  double longest_ = 0.0;  // edge of the outline
+  std::vector<TriId> met_;
+  std::vector<std::uint32_t> outline_nodes_, joining_;  // numbers, sorted; with an edge that joins
+  std::vector<NodePair> outline_keys_, walls_;          // sorted; walls do not join
+  std::vector<std::uint32_t> nodes_;                    // the number of each point, ascending
+  std::vector<NodePair> edges_;
+  BoxTree met_tree_;
+};
+
+}  // namespace
+
+InputError cannotJoin(const BadPslg& error) {
+  return InputError("the meshes cannot be joined at (" + std::to_string(error.defect.place.x) + ", " +
+                    std::to_string(error.defect.place.y) + "): " + error.what() + "; check finds such places");
+}
+
+GapFaces fillGap(const TriMesh& mesh, std::span<const std::uint32_t> same, std::span<const Cover> cover,
+                 const Outline& outline, const ItemLoop& loop) {
+  return GapFiller(mesh, same, cover, outline, loop).fill();
+}
+
+}  // namespace coastmesh
