@@ -194,8 +194,8 @@ Command declareMerge(CLI::App& root) {
                       "first INSERT, and "
                       "its number there; nothing for new ones"};
   declarePartOutputs(table, usage->part, help);
-  table.example("coastmesh merge sea.14 harbour.14 -o both.14 --assume-crs EPSG:4326", "a fine grid in a coarse one");
-  table.example("coastmesh merge hgrid.gr3 north.gr3 south.gr3 -o all.gr3 --target schism", "two grids in one");
+  table.example("coastmesh merge fort.14 bay.14 -o both.14 --assume-crs EPSG:4326", "a fine grid in a coarse one");
+  table.example("coastmesh merge hgrid.gr3 bay.gr3 -o both.gr3 --target schism", "the same, repaired for a model");
   return {{root, std::move(table)}, [usage](Run& run) { return runMerge(*usage, run); }};
 }
 

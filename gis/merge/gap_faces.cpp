@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "core/metric.hpp"
@@ -19,19 +20,23 @@ constexpr double kNear = 0.45;
 class GapFiller {
  public:
   GapFiller(const TriMesh& mesh, std::span<const std::uint32_t> same, std::span<const Cover> cover,
-            const Outline& outline, const ItemLoop& loop)
+            std::span<const std::vector<VertexId>> holes, const Outline& outline, const ItemLoop& loop)
       : mesh_(mesh),
         same_(same),
         cover_(cover),
         outline_(outline),
         loop_(loop),
-        shift_(static_cast<std::uint32_t>(mesh.points.size())) {}
+        shift_(static_cast<std::uint32_t>(mesh.points.size())) {
+    for (const std::vector<VertexId>& ring : holes)
+      for (std::size_t i = 0; i < ring.size(); ++i) hole_edges_.push_back({ring[i], ring[(i + 1) % ring.size()]});
+    std::ranges::sort(hole_edges_);
+  }
 
   GapFaces fill() {
     for (TriId t = 0; t < mesh_.triangles.size(); ++t)
       if (cover_[t] == Cover::Met) met_.push_back(t);
     GapFaces faces;
-    if (met_.empty()) return faces;
+    if (met_.empty() && hole_edges_.empty()) return faces;
     markNodes();
     gatherPoints();
     gatherEdges(faces.shore);
@@ -94,6 +99,8 @@ class GapFiller {
     for (const TriId t : met_)
       for (const VertexId v : mesh_.triangles[t].v)
         if (same_[v] == kNone) candidates.push_back(v);
+    for (const NodePair& edge : hole_edges_)
+      if (same_[edge[0]] == kNone) candidates.push_back(edge[0]);
     std::ranges::sort(candidates);
     const auto repeated = std::ranges::unique(candidates);
     candidates.erase(repeated.begin(), repeated.end());
@@ -145,6 +152,14 @@ class GapFiller {
         keys.push_back(key);
       }
     }
+    for (TriId t = 0; t < mesh_.triangles.size() && !hole_edges_.empty(); ++t) {
+      for (unsigned i = 0; i < 3; ++i) {
+        const EdgeRef e = edgeRef(t, i);
+        if (cover_[t] != Cover::Free || mesh_.twin(e) != kNone || !isOfHole(e)) continue;
+        const NodePair key = edgeKey(numberOf(mesh_.origin(e)), numberOf(mesh_.target(e)));
+        if (!std::ranges::binary_search(outline_keys_, key)) keys.push_back(key);
+      }
+    }
     std::ranges::sort(shore);
     std::ranges::sort(keys);
     const auto repeated = std::ranges::unique(keys);
@@ -177,6 +192,10 @@ class GapFiller {
     }
   }
 
+  bool isOfHole(EdgeRef e) const {
+    return std::ranges::binary_search(hole_edges_, NodePair{mesh_.origin(e), mesh_.target(e)});
+  }
+
   void indexMet() {
     std::vector<Box> boxes;
     for (const TriId t : met_) {
@@ -184,10 +203,22 @@ class GapFiller {
       for (const VertexId v : mesh_.triangles[t].v) box.add(mesh_.points[v]);
     }
     met_tree_ = BoxTree(boxes, BoxTree::Order::Hilbert, loop_);
+    boxes.clear();
+    for (const auto& [a, b] : hole_edges_) boxes.push_back(Box::of(mesh_.points[a], mesh_.points[b]));
+    hole_tree_ = BoxTree(boxes, BoxTree::Order::Hilbert, loop_);
+  }
+
+  bool isInHole(const Point& p) const {
+    bool inside = false;
+    hole_tree_.visit({p.x, p.y, std::numeric_limits<double>::infinity(), p.y}, [&](std::uint32_t i) {
+      const Point &a = mesh_.points[hole_edges_[i][0]], &b = mesh_.points[hole_edges_[i][1]];
+      if ((a.y <= p.y) != (b.y <= p.y) && (orient2d(a, b, p) > 0) == (a.y <= p.y)) inside = !inside;
+    });
+    return inside;
   }
 
   bool isWater(const Point& p) const {
-    bool found = false;
+    bool found = isInHole(p);
     met_tree_.visit(Box::of(p, p), [&](std::uint32_t i) {
       const auto& v = mesh_.triangles[met_[i]].v;
       const Point &a = mesh_.points[v[0]], &b = mesh_.points[v[1]], &c = mesh_.points[v[2]];
@@ -220,7 +251,8 @@ class GapFiller {
   std::vector<NodePair> outline_keys_, walls_;          // sorted; walls do not join
   std::vector<std::uint32_t> nodes_;                    // the number of each point, ascending
   std::vector<NodePair> edges_;
-  BoxTree met_tree_;
+  std::vector<NodePair> hole_edges_;  // in their direction, sorted
+  BoxTree met_tree_, hole_tree_;
 };
 
 }  // namespace
@@ -231,8 +263,8 @@ InputError cannotJoin(const BadPslg& error) {
 }
 
 GapFaces fillGap(const TriMesh& mesh, std::span<const std::uint32_t> same, std::span<const Cover> cover,
-                 const Outline& outline, const ItemLoop& loop) {
-  return GapFiller(mesh, same, cover, outline, loop).fill();
+                 std::span<const std::vector<VertexId>> holes, const Outline& outline, const ItemLoop& loop) {
+  return GapFiller(mesh, same, cover, holes, outline, loop).fill();
 }
 
 }  // namespace coastmesh

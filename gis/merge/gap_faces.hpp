@@ -22,13 +22,13 @@ struct GapFaces {
   std::vector<NodePair> shore;                          // sorted keys of edges of the first mesh's boundary
 };
 
-// Fills the gap between the outline of an inserted mesh and the `Free` triangles of the other, where that has water,
-// without new nodes: the constrained Delaunay triangulation of the outline and of the nodes around it. Nodes of the
+// Fills the gap between the outline of an inserted mesh and the `Free` triangles of the other, where that has water, or
+// one of `holes` (loops of its boundary) that is open all around, without new nodes: the constrained Delaunay triangulation of the outline and of the nodes around it. Nodes of the
 // other mesh that are too close to the outline, and not corners of `Free` triangles, are left out. Triangles that touch
 // edges of the outline that do not join, or nodes between two of these, are too, so that these stay boundary.
 // REQUIRES: the arguments are those and the result of `coverOf`. Throws InputError if edges cross one another.
 GapFaces fillGap(const TriMesh& mesh, std::span<const std::uint32_t> same, std::span<const Cover> cover,
-                 const Outline& outline, const ItemLoop& loop = inOrder);
+                 std::span<const std::vector<VertexId>> holes, const Outline& outline, const ItemLoop& loop = inOrder);
 
 // For a gap that cannot be triangulated.
 InputError cannotJoin(const BadPslg& error);

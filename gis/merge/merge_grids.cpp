@@ -14,6 +14,7 @@
 #include "gis/cut/cut_boundaries.hpp"
 #include "gis/error.hpp"
 #include "gis/geometry/box_tree.hpp"
+#include "gis/geometry/ring_area.hpp"
 #include "gis/grid/boundary_kinds.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/linked_grid.hpp"
@@ -89,6 +90,24 @@ void requireTurns(const TriMesh& mesh, const Box& box, const std::string& name) 
                      placeText(mesh.points[mesh.triangles[t].v[0]]) +
                      " is clockwise, flat or jumps at the antimeridian: convert with --target turns clockwise ones");
   }
+}
+
+// The loops of the grid's boundary around holes that are open all around, near the outline.
+std::vector<std::vector<VertexId>> openHoles(const TriMesh& mesh, const EdgeKinds& kinds, const Outline& outline,
+                                             const ItemLoop& loop) {
+  std::vector<std::vector<VertexId>> holes = boundaryLoops(mesh, loop);
+  std::erase_if(holes, [&](const std::vector<VertexId>& ring) {
+    std::vector<Point> places;
+    Box box;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const BoundaryKind* const kind = kinds.find(ring[i], ring[(i + 1) % ring.size()]);
+      if (kind == nullptr || kind->role != BoundaryRole::Open) return true;
+      places.push_back(mesh.points[ring[i]]);
+      box.add(places.back());
+    }
+    return signedAreaOf(places) >= 0.0 || !box.meets(outline.box());
+  });
+  return holes;
 }
 
 // The triangles of both meshes, without those that the outline covers, and of the gap between them. Nodes are numbered
@@ -260,8 +279,8 @@ MergeReport mergeGrids(Grid& grid, Grid&& inserted, const ItemLoop& loop) {
     if (cover[t] == Cover::Free && isTurned(mesh, t)) cover[t] = Cover::Met;  // by a node that moved
   if (std::ranges::find(cover, Cover::Free) == cover.end())
     throw InputError("the mesh that is put in covers all of the other one");
-  GapFaces gap = fillGap(mesh, same, cover, outline, loop);
   const EdgeKinds kinds(grid), other_kinds(inserted);
+  GapFaces gap = fillGap(mesh, same, cover, openHoles(mesh, kinds, outline, loop), outline, loop);
   Whole whole = assemble(mesh, other, same, cover, gap, loop);
   const auto isOpen = [](const EdgeKinds& of, const TriMesh& whose, EdgeRef e) {
     const BoundaryKind* const kind = of.find(whose.origin(e), whose.target(e));

@@ -81,12 +81,12 @@ class GapTidier {
     });
   }
 
-  // A triangle between an edge of the inserted mesh and a node of a shore, both of which stay.
+  // A triangle between an edge of the inserted mesh and a node of a shore close to it, both of which stay.
   bool isFlat(TriId t) const {
     for (unsigned i = 0; i < 3; ++i) {
       const EdgeRef across = mesh_.twin(edgeRef(t, i));
       if (across == kNone || !isInserted(triOf(across)) || !isOnBoundary(mesh_.triangles[t].v[i])) continue;
-      if (std::min({angleOf(t, 0), angleOf(t, 1), angleOf(t, 2)}) < kFlatDeg) return true;
+      if (angleOf(t, i) > 90.0 && std::min(angleOf(t, next3(i)), angleOf(t, prev3(i))) < kFlatDeg) return true;
     }
     return false;
   }

@@ -279,7 +279,7 @@ def cases():
     remesh["--slope-filter"] = Case("900", extra=[*depths, "--size-min", "5", "--slope-elements", "60", "--grade", "1"])
     remesh["--courant"] = Case("0.5", extra=[*depths, "--size", "60", "--time-step", "2"])
     merge = {**common, "--output": Case("more.2dm"), "--format": Case("2dm"), "--quiet": Case(),
-             "--min-angle": Case("15"), "--max-angle": Case("90"), "--grade": Case("0.02"), "--target": Case("fvcom"),
+             "--min-angle": Case("15"), "--max-angle": Case("90"), "--grade": Case("0.02"), "--target": Case("mpas"),
              "--numbers": Case("numbers.csv"), "--assume-crs": Case("EPSG:4326", input="bare.2dm")}
     for name in ("--bathymetry", "--depth-method", "--depth-sign", "--water-level", "--min-depth"):
         merge[name] = Case(mesh[name].value, extra=mesh[name].extra)

@@ -197,6 +197,27 @@ TEST(MergeGrids, WaterInAnOpenHoleIsTheGrids) {
   EXPECT_NEAR(areaOf(grid), 400.0, 1e-9);
 }
 
+TEST(MergeGrids, AnOpenHoleOfTheGridIsFilled) {
+  const auto inHole = [](int x, int y) { return x >= 6 && x < 14 && y >= 5 && y < 12; };
+  const auto withHole = [&](BoundaryRole role) {
+    Grid grid = gridOf({20, 20, 1.0, {}, 0.0, [&](int x, int y) { return !inHole(x, y); }});
+    EXPECT_EQ(grid.boundaries.size(), 2u);
+    grid.boundaries[1].role = role;
+    return grid;
+  };
+  // Smaller than the hole, and across its edge.
+  for (const Point& corner : {Point{8.1, 6.7}, Point{4.2, 6.7}}) {
+    Grid grid = withHole(BoundaryRole::Open);
+    const MergeReport report = mergeAndCheck(grid, gridOf({7, 6, 0.6, corner, 0.1}, BoundaryRole::Open));
+    EXPECT_NEAR(areaOf(grid), 400.0, 1e-9);
+    EXPECT_EQ(report.joined, 26u);
+    EXPECT_EQ(grid.boundaries.size(), 1u);
+  }
+  // An island stays one.
+  Grid island = withHole(BoundaryRole::Island);
+  EXPECT_THROW(mergeGrids(island, gridOf({7, 6, 0.6, {8.1, 6.7}, 0.1}, BoundaryRole::Open)), InputError);
+}
+
 TEST(MergeGrids, WithoutOpenBoundariesItJoinsAllAround) {
   Grid grid = basin();
   const MergeReport report = mergeAndCheck(grid, gridOf({16, 12, 0.3, {7.3, 6.4}, 0.2}));
