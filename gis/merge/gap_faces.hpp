@@ -23,9 +23,10 @@ struct GapFaces {
 };
 
 // Fills the gap between the outline of an inserted mesh and the `Free` triangles of the other, where that has water, or
-// one of `holes` (loops of its boundary) that is open all around, without new nodes: the constrained Delaunay triangulation of the outline and of the nodes around it. Nodes of the
-// other mesh that are too close to the outline, and not corners of `Free` triangles, are left out. Triangles that touch
-// edges of the outline that do not join, or nodes between two of these, are too, so that these stay boundary.
+// one of `holes` (loops of its boundary) that is open all around. No node is added: the triangles are those of the
+// constrained Delaunay triangulation of the outline and of the nodes around it. Nodes of the other mesh that are too
+// close to the outline, and not corners of `Free` triangles, are left out. So are triangles that touch edges of the
+// outline that do not join, or nodes between two of these, so that these stay boundary.
 // REQUIRES: the arguments are those and the result of `coverOf`. Throws InputError if edges cross one another.
 GapFaces fillGap(const TriMesh& mesh, std::span<const std::uint32_t> same, std::span<const Cover> cover,
                  std::span<const std::vector<VertexId>> holes, const Outline& outline, const ItemLoop& loop = inOrder);
