@@ -1,0 +1,238 @@
+#include "gis/merge/joined_meshes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "core/predicates.hpp"
+#include "core/union_find.hpp"
+#include "gis/error.hpp"
+#include "gis/geometry/ring_area.hpp"
+#include "gis/grid/boundary_kinds.hpp"
+#include "gis/grid/linked_grid.hpp"
+#include "gis/merge/covered_triangles.hpp"
+#include "gis/merge/enclosed_gaps.hpp"
+#include "gis/merge/gap_faces.hpp"
+#include "gis/merge/outline.hpp"
+#include "gis/merge/same_nodes.hpp"
+#include "gis/merge/tidy_gap.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+std::string placeText(const Point& p) { return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")"; }
+
+bool isTurned(const TriMesh& mesh, TriId t) {
+  const auto& v = mesh.triangles[t].v;
+  return orient2d(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]) <= 0;
+}
+
+// Throws InputError for a triangle in the box that is not counter-clockwise. `name`: "the mesh".
+void requireTurns(const TriMesh& mesh, const Box& box, const std::string& name) {
+  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
+    if (!isTurned(mesh, t)) continue;
+    Box own;
+    for (const VertexId v : mesh.triangles[t].v) own.add(mesh.points[v]);
+    if (!own.meets(box)) continue;
+    throw InputError("triangle " + std::to_string(t + 1) + " of " + name + " at " +
+                     placeText(mesh.points[mesh.triangles[t].v[0]]) +
+                     " is clockwise, flat or jumps at the antimeridian: convert with --target turns clockwise ones");
+  }
+}
+
+// The loops of the grid's boundary around holes that are open all around, near the outline.
+std::vector<std::vector<VertexId>> openHoles(const TriMesh& mesh, const EdgeKinds& kinds, const Outline& outline,
+                                             const ItemLoop& loop) {
+  std::vector<std::vector<VertexId>> holes = boundaryLoops(mesh, loop);
+  std::erase_if(holes, [&](const std::vector<VertexId>& ring) {
+    std::vector<Point> places;
+    Box box;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const BoundaryKind* const kind = kinds.find(ring[i], ring[(i + 1) % ring.size()]);
+      if (kind == nullptr || kind->role != BoundaryRole::Open) return true;
+      places.push_back(mesh.points[ring[i]]);
+      box.add(places.back());
+    }
+    return signedAreaOf(places) >= 0.0 || !box.meets(outline.box());
+  });
+  return holes;
+}
+
+// Nodes of triangles that are kept and of others, or of the outline, in the whole's numbers.
+std::vector<VertexId> changedNodes(const TriMesh& mesh, std::span<const std::uint32_t> same,
+                                   std::span<const Cover> cover) {
+  std::vector<std::uint8_t> of_kept(same.size(), 0), of_covered(same.size(), 0);
+  for (TriId t = 0; t < cover.size(); ++t)
+    for (const VertexId v : mesh.triangles[t].v) (cover[t] == Cover::Free ? of_kept : of_covered)[v] = 1;
+  std::vector<VertexId> changed;
+  for (VertexId v = 0; v < same.size(); ++v)
+    if (of_kept[v] != 0 && (of_covered[v] != 0 || same[v] != kNone))
+      changed.push_back(same[v] == kNone ? v : static_cast<VertexId>(same.size()) + same[v]);
+  return changed;
+}
+
+bool isOpen(const EdgeKinds& kinds, const TriMesh& mesh, EdgeRef e) {
+  const BoundaryKind* const kind = kinds.find(mesh.origin(e), mesh.target(e));
+  return kind != nullptr && kind->role == BoundaryRole::Open;
+}
+
+class MeshJoiner {
+ public:
+  MeshJoiner(const Grid& grid, const Grid& inserted, const ItemLoop& loop)
+      : grid_(grid),
+        loop_(loop),
+        inserted_(linkGrid(inserted, loop).mesh),
+        kinds_(grid),
+        inserted_kinds_(inserted),
+        outline_(inserted, inserted_, loop) {
+    joined_.mesh = linkGrid(grid, loop).mesh;
+    joined_.has_open = outline_.hasOpen();
+  }
+
+  JoinedMeshes join() {
+    requireTurns(inserted_, outline_.box(), "the mesh that is put in");
+    requireTurns(joined_.mesh, outline_.box(), "the mesh");
+    moveSame();
+    findCover();
+    fillGaps();
+    const Gap gap{joined_.first_inserted, joined_.first_gap, std::move(gap_.shore),
+                  changedNodes(joined_.mesh, joined_.same, cover_), grid_.crs};
+    joined_.taken.assign(joined_.whole.triangles.size(), 1);
+    tidyGap(joined_.whole, gap, joined_.taken);
+    const auto last_kept = joined_.taken.begin() + joined_.first_inserted;
+    joined_.covered = cover_.size() - static_cast<std::size_t>(std::count(joined_.taken.begin(), last_kept, 1));
+    leaveOutCutOff();
+    countJoined();
+    requireBoth();
+    return std::move(joined_);
+  }
+
+ private:
+  void moveSame() {
+    joined_.same = sameNodes(grid_, outline_, loop_);
+    for (std::uint32_t v = 0; v < joined_.same.size(); ++v)
+      if (joined_.same[v] != kNone) joined_.mesh.points[v] = outline_.place(joined_.same[v]);
+  }
+
+  void findCover() {
+    cover_ = coverOf(joined_.mesh, joined_.same, outline_, loop_);
+    for (TriId t = 0; t < cover_.size(); ++t)
+      if (cover_[t] == Cover::Free && isTurned(joined_.mesh, t)) cover_[t] = Cover::Met;  // by a node that moved
+    if (std::ranges::find(cover_, Cover::Free) == cover_.end())
+      throw InputError("the mesh that is put in covers all of the other one");
+  }
+
+  void fillGaps() {
+    gap_ =
+        fillGap(joined_.mesh, joined_.same, cover_, openHoles(joined_.mesh, kinds_, outline_, loop_), outline_, loop_);
+    assemble();
+    const auto enclosed = fillEnclosed(
+        joined_.whole, [this](EdgeRef e) { return endKindOf(e); }, loop_);
+    if (enclosed.empty()) return;
+    gap_.triangles.insert(gap_.triangles.end(), enclosed.begin(), enclosed.end());
+    assemble();
+  }
+
+  EndKind endKindOf(EdgeRef e) const {
+    const TriId t = triOf(e);
+    if (t >= joined_.first_gap) return EndKind::Shore;
+    if (t < joined_.first_inserted)
+      return isOpen(kinds_, joined_.mesh, edgeRef(joined_.kept[t], indexOf(e))) ? EndKind::OpenOfOne : EndKind::Shore;
+    return isOpen(inserted_kinds_, inserted_, e - edgeRef(joined_.first_inserted, 0)) ? EndKind::OpenOfOther
+                                                                                      : EndKind::Shore;
+  }
+
+  void assemble() {
+    const auto shift = static_cast<std::uint32_t>(joined_.mesh.points.size());
+    BulkList<Point> points(joined_.mesh.points);
+    points.insert(points.end(), inserted_.points.begin(), inserted_.points.end());
+    std::vector<std::array<VertexId, 3>> corners;
+    joined_.kept.clear();
+    for (TriId t = 0; t < cover_.size(); ++t) {
+      if (cover_[t] != Cover::Free) continue;
+      joined_.kept.push_back(t);
+      for (VertexId& v : corners.emplace_back(joined_.mesh.triangles[t].v))
+        if (joined_.same[v] != kNone) v = shift + joined_.same[v];
+    }
+    joined_.first_inserted = static_cast<TriId>(corners.size());
+    for (const Triangle& t : inserted_.triangles) corners.push_back({shift + t.v[0], shift + t.v[1], shift + t.v[2]});
+    joined_.first_gap = static_cast<TriId>(corners.size());
+    corners.insert(corners.end(), gap_.triangles.begin(), gap_.triangles.end());
+    std::vector<EdgeConflict> conflicts;
+    joined_.whole = linkTriangles(std::move(points), corners, conflicts, loop_);
+    // Conflicts within either mesh are not of this.
+    const auto isOfBoth = [&](VertexId v) {
+      return v >= shift && std::ranges::find(joined_.same, v - shift) != joined_.same.end();
+    };
+    for (const EdgeConflict& edge : conflicts)
+      if (isOfBoth(edge.a) && isOfBoth(edge.b))
+        throw InputError("the meshes overlap beside the edge at " + placeText(joined_.whole.points[edge.a]) +
+                         ", which both have");
+  }
+
+  // Leaves out waters of the grid that were connected with the rest only through covered triangles: neither with the
+  // inserted mesh nor, by an open boundary of their own, with the sea.
+  void leaveOutCutOff() {
+    const TriMesh& whole = joined_.whole;
+    std::vector<std::uint8_t>& taken = joined_.taken;
+    UnionFind waters(taken.size());
+    for (TriId t = 0; t < taken.size(); ++t)
+      for (const EdgeRef across : whole.triangles[t].adj)
+        if (taken[t] != 0 && across != kNone && taken[triOf(across)] != 0) waters.unite(t, triOf(across));
+    std::vector<std::uint8_t> is_cut(taken.size(), 0), stays(taken.size(), 0);  // by water
+    for (TriId i = 0; i < joined_.first_inserted; ++i) {
+      for (unsigned k = 0; k < 3; ++k) {
+        const EdgeRef e = edgeRef(joined_.kept[i], k), across = joined_.mesh.twin(e);
+        if (across != kNone && cover_[triOf(across)] != Cover::Free) is_cut[waters.find(i)] = 1;
+        if (across == kNone && isOpen(kinds_, joined_.mesh, e)) stays[waters.find(i)] = 1;
+      }
+    }
+    for (TriId t = joined_.first_inserted; t < joined_.first_gap; ++t) stays[waters.find(t)] = 1;
+    for (TriId t = 0; t < taken.size(); ++t) {
+      const std::uint32_t water = waters.find(t);
+      if (taken[t] == 0 || stays[water] != 0 || (is_cut[water] == 0 && t < joined_.first_inserted)) continue;
+      taken[t] = 0;
+      if (t < joined_.first_inserted) ++joined_.cut_off;
+    }
+  }
+
+  void countJoined() {
+    for (TriId t = 0; t < inserted_.triangles.size(); ++t) {
+      for (unsigned i = 0; i < 3; ++i) {
+        if (inserted_.twin(edgeRef(t, i)) != kNone) continue;
+        const EdgeRef across = joined_.whole.twin(edgeRef(joined_.first_inserted + t, i));
+        if (across != kNone && joined_.isTaken(triOf(across))) ++joined_.joined;
+      }
+    }
+  }
+
+  void requireBoth() const {
+    if (joined_.joined == 0)
+      throw InputError(joined_.has_open
+                           ? "no open boundary of the mesh that is put in has water of the other one beside it"
+                           : "the mesh that is put in has no water of the other one beside it");
+    if (std::find(joined_.taken.begin(), joined_.taken.begin() + joined_.first_inserted, 1) ==
+        joined_.taken.begin() + joined_.first_inserted)
+      throw InputError("the mesh that is put in covers all of the other one's water that is connected with it");
+  }
+
+  const Grid& grid_;
+  const ItemLoop& loop_;
+  const TriMesh inserted_;
+  const EdgeKinds kinds_, inserted_kinds_;
+  const Outline outline_;
+  JoinedMeshes joined_;
+  std::vector<Cover> cover_;
+  GapFaces gap_;
+};
+
+}  // namespace
+
+JoinedMeshes joinMeshes(const Grid& grid, const Grid& inserted, const ItemLoop& loop) {
+  return MeshJoiner(grid, inserted, loop).join();
+}
+
+}  // namespace coastmesh
