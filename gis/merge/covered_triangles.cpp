@@ -40,7 +40,21 @@ bool entersAt(const Corners& t, unsigned i, const Point& q) {
 class Tester {
  public:
   Tester(const TriMesh& mesh, std::span<const std::uint32_t> same, const Outline& outline)
-      : mesh_(mesh), same_(same), outline_(outline) {}
+      : mesh_(mesh), same_(same), outline_(outline), is_shore_(mesh.points.size(), 0) {
+    for (TriId t = 0; t < mesh.triangles.size(); ++t)
+      for (unsigned i = 0; i < 3; ++i)
+        if (const EdgeRef e = edgeRef(t, i); mesh.twin(e) == kNone)
+          is_shore_[mesh.origin(e)] = is_shore_[mesh.target(e)] = 1;
+    std::vector<std::uint32_t> shared;
+    for (const std::uint32_t node : same)
+      if (node != kNone) shared.push_back(node);
+    std::ranges::sort(shared);
+    const auto isShared = [&](std::uint32_t node) { return std::ranges::binary_search(shared, node); };
+    for (const Outline::Edge& edge : outline.edges()) {
+      stays_.push_back(edge.joins && !isShared(edge.a) && !isShared(edge.b) ? 1 : 0);
+      if (stays_.back() != 0) longest_ = std::max(longest_, distance(outline.place(edge.a), outline.place(edge.b)));
+    }
+  }
 
   bool isMet(TriId t) const {
     Corners corners;
@@ -56,6 +70,7 @@ class Tester {
     bool met = false;
     outline_.visit(box.grownBy(kNear * std::sqrt(corners.shortest)),
                    [&](std::uint32_t e) { met = met || isMetBy(corners, outline_.edges()[e]); });
+    for (const VertexId v : mesh_.triangles[t].v) met = met || (is_shore_[v] != 0 && isBesideEdge(v));
     return met;
   }
 
@@ -92,9 +107,24 @@ class Tester {
     return false;
   }
 
+  // True for a node of a shore, which would stay, that is close to an edge that stays too, for its length: of a coarser
+  // mesh. Edges at which the meshes continue one another do not count.
+  bool isBesideEdge(VertexId v) const {
+    const Point& p = mesh_.points[v];
+    bool is_beside = false;
+    outline_.visit(Box::of(p, p).grownBy(kNear * longest_), [&](std::uint32_t e) {
+      const Point &a = outline_.place(outline_.edges()[e].a), &b = outline_.place(outline_.edges()[e].b);
+      if (stays_[e] != 0 && squaredDistanceToSegment(p, a, b) < kNear * kNear * squaredDistance(a, b)) is_beside = true;
+    });
+    return is_beside;
+  }
+
   const TriMesh& mesh_;
   std::span<const std::uint32_t> same_;
   const Outline& outline_;
+  std::vector<std::uint8_t> is_shore_;  // for each node
+  std::vector<std::uint8_t> stays_;     // for each edge of the outline: it joins, and no node of the mesh is its end
+  double longest_ = 0.0;                // of these
 };
 
 // The edges of the outline between nodes of the mesh, sorted.
