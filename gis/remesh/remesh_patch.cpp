@@ -193,7 +193,7 @@ class PatchMaker {
       if (is_shared) {
         const Point beyond = projection.forward(grid_.nodes[mesh_.apex(mesh_.twin(edge))]);
         length_m = (length_m + lengthOf(b, beyond) + lengthOf(beyond, a)) / 3.0;
-        ++patch.shared_edges;
+        patch.shared.push_back(static_cast<SegmentId>(patch.domain.pslg.segments.size() - 1));
       }
       patch.rim.push_back({a, b, length_m, 0.0});
     }

@@ -270,6 +270,7 @@ TEST(RemeshGrid, DegreesAndOtherValues) {
 TEST(RemeshGrid, RandomParts) {
   std::mt19937_64 random(7);
   const auto uniform = [&](double from, double to) { return std::uniform_real_distribution<double>(from, to)(random); };
+  int grown = 0;
   for (int run = 0; run < 60; ++run) {
     const Grid before = sampleGrid(Crs{}, {100.0, 200.0}, 10.0, 10);
     Flags taken(before.triangles.size(), 0);
@@ -282,22 +283,38 @@ TEST(RemeshGrid, RandomParts) {
       for (std::size_t t = 0; t < taken.size(); ++t) taken[t] = taken[t] ^ box[t];
     }
     // In every other run ragged edges, and single triangles.
-    const bool is_ragged = run % 2 == 1;
     for (std::uint8_t& flag : taken)
-      if (is_ragged && random() % 20 == 0) flag ^= 1;
+      if (run % 2 == 1 && random() % 20 == 0) flag ^= 1;
     if (std::ranges::count(taken, 1) == 0) continue;
     Grid after = before;
     const double size = std::exp(uniform(std::log(2.0), std::log(40.0)));
     SCOPED_TRACE(::testing::Message() << "run " << run << ", size " << size);
     const RemeshReport report = remeshGrid(after, taken, ofSize(size));
     expectRemeshed(before, taken, after, report);
-    // Edges that stay on all sides, as of single triangles, may leave no room for large angles.
-    const double least = leastAngle(after, report);
-    if (report.below_bounds > 0) {
-      EXPECT_LT(least, ofSize(size).mesh.refine.min_angle_deg);
-    }
-    EXPECT_GT(least, is_ragged ? 2.0 : 25.0);
+    // Triangles that stay would leave no room for that in some of these parts.
+    EXPECT_GT(leastAngle(after, report), 32.9);
+    EXPECT_EQ(report.below_bounds, 0u);
+    grown += report.taken_in > 0 ? 1 : 0;
   }
+  EXPECT_GT(grown, 20);
+}
+
+TEST(RemeshGrid, SingleTrianglesWithinThePartGoToo) {
+  const Grid before = sea(20);
+  Grid after = before;
+  Flags taken = middlesInBox(before, 5.0, 5.0, 15.0, 15.0);
+  const auto at = [&](double x, double y) {
+    for (std::size_t t = 0; t < taken.size(); ++t)
+      if (middlesInBox(before, x, y, x + 0.5, y + 0.5)[t] != 0) return t;
+    return taken.size();
+  };
+  taken[at(8.5, 8.0)] = 0;
+  // Of two that stay together none goes.
+  taken[at(12.5, 12.0)] = taken[at(12.0, 12.5)] = 0;
+  const RemeshReport report = remeshGrid(after, taken, ofSize(0.5));
+  expectRemeshed(before, taken, after, report);
+  EXPECT_EQ(report.taken_in, 1u);
+  EXPECT_EQ(report.below_bounds, 0u);
 }
 
 TEST(RemeshGrid, RefusesWhatCannotBeMeshed) {
