@@ -5,12 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "gis/error.hpp"
+#include "gis/grid/ground_orientation.hpp"
 #include "parallel/recorder.hpp"
 #include "parallel/workers.hpp"
 #include "tests/apps/remesh/remeshed.hpp"
+#include "tests/gis/globe_samples.hpp"
 #include "tests/gis/grid_samples.hpp"
 
 namespace coastmesh {
@@ -317,7 +322,49 @@ TEST(RemeshGrid, SingleTrianglesWithinThePartGoToo) {
   EXPECT_EQ(report.below_bounds, 0u);
 }
 
+// Parts of which what is left out has to be beyond the plane: around a pole, in several places, or land alone.
+TEST(RemeshGrid, MoreThanAHemisphere) {
+  const auto noneLeftOut = [](const SpaceVector&) { return true; };
+  const auto seasAndLands = [](const SpaceVector& p) { return !(p[0] > 0.8 || p[2] < -0.9 || p[0] + p[1] < -1.3); };
+  const auto all = [](const Point&) { return true; };
+  const auto south = [](const Point& p) { return p.y < 70.0; };
+  const auto north = [](const Point& p) { return p.y > -5.0; };
+  const auto between = [](const Point& p) { return std::abs(p.y) < 60.0; };
+  const auto restOf = [](const Point& p) { return std::abs(p.x - 100.0) > 25.0 || std::abs(p.y) > 30.0; };
+  const std::vector<std::pair<Grid, std::function<bool(const Point&)>>> parts{
+      {octahedralGlobe(4, noneLeftOut), south},   {octahedralGlobe(4, noneLeftOut), north},
+      {octahedralGlobe(4, noneLeftOut), between}, {octahedralGlobe(4, noneLeftOut), restOf},
+      {octahedralGlobe(4, seasAndLands), all},    {octahedralGlobe(4, seasAndLands), between}};
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    SCOPED_TRACE(k);
+    const auto& [before, isTaken] = parts[k];
+    Grid after = before;
+    Flags taken;
+    for (std::uint32_t t = 0; t < before.triangles.size(); ++t) taken.push_back(isTaken(middleOf(before, t)) ? 1 : 0);
+    const RemeshReport report = remeshGrid(after, taken, ofSize(400e3));
+    requireConsistent(after);
+    EXPECT_GT(report.replaced.triangles_added, 900u);
+    for (const auto& [edge, count] : edgeCounts(after)) EXPECT_EQ(count, 1) << edge[0] << " " << edge[1];
+    double area = 0.0;
+    for (const double a : triangleAreas(after.nodes, after.triangles, after.crs)) {
+      EXPECT_GT(a, 0.0);
+      area += a;
+    }
+    for (const double a : triangleAreas(before.nodes, before.triangles, before.crs)) area -= a;
+    // Edges of shores are divided in the plane.
+    EXPECT_LT(std::abs(area), 5e-4 * 5e14);
+    EXPECT_EQ(after.boundaries.size(), before.boundaries.size());
+  }
+}
+
 TEST(RemeshGrid, RefusesWhatCannotBeMeshed) {
+  Grid globe = octahedralGlobe(3, [](const SpaceVector&) { return true; });
+  try {
+    remeshGrid(globe, Flags(globe.triangles.size(), 1), ofSize(1e6));
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("a whole globe"));
+  }
   Grid grid = sea(10);
   grid.triangles.push_back(grid.triangles[100]);
   const Flags taken(grid.triangles.size(), 1);
