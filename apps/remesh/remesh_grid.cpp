@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -69,28 +70,31 @@ MeshedPart meshPart(const Grid& grid, const LinkedGrid& linked, const std::vecto
   return part;
 }
 
-// Takes in the triangles around places where those that stay cost the bounds on angles, as long as that helps.
+// Takes in the triangles around places where those that stay cost the bounds on angles, a few times. Returns the part
+// that misses them least.
 MeshedPart meshGrowing(const Grid& grid, const LinkedGrid& linked, std::vector<std::uint8_t> taken,
                        const std::vector<std::uint8_t>& reach, const PatchMesher& mesher, const ItemLoop& loop) {
   constexpr int kMostTimes = 4;
-  MeshedPart best = meshPart(grid, linked, taken, mesher, {}, loop);
+  MeshedPart last = meshPart(grid, linked, taken, mesher, {}, loop);
+  std::optional<MeshedPart> best;  // if better than the last
   for (int times = 0; times < kMostTimes; ++times) {
     std::vector<std::uint8_t> at_nodes(grid.nodes.size(), 0);
-    for (const auto& patch : best.meshed)
+    for (const auto& patch : last.meshed)
       for (const std::uint32_t node : patch->at_rim.nodes) at_nodes[node] = 1;
     std::size_t taken_in = takeInAt(linked.mesh, at_nodes, reach, taken, loop);
     taken_in += takeInSingle(linked.mesh, reach, taken, loop);
     if (taken_in == 0) break;
     try {
-      MeshedPart larger = meshPart(grid, linked, taken, mesher, best, loop);
-      if (!(larger.missed() < best.missed())) break;
-      larger.taken_in = best.taken_in + taken_in;
-      best = std::move(larger);
+      MeshedPart larger = meshPart(grid, linked, taken, mesher, last, loop);
+      larger.taken_in = last.taken_in + taken_in;
+      if (larger.missed() >= last.missed() && !best) best = std::move(last);
+      last = std::move(larger);
+      if (best && last.missed() < best->missed()) best.reset();
     } catch (const InputError&) {
       break;  // of triangles that were not asked for
     }
   }
-  return best;
+  return best ? std::move(*best) : std::move(last);
 }
 
 // Figures of the triangles for which `isWanted(t)`.

@@ -78,9 +78,20 @@ bool isBehind(const Frame& at_x, const Point& x, const Point& a, const Point& b)
   return dot(xa, xb) < 0.0 && cross(xa, xb) <= 0.0;
 }
 
+double leastAngle(const Point& a, const Point& b, const Point& c) {
+  return std::min({angleAt(a, b, c), angleAt(b, c, a), angleAt(c, a, b)});
+}
+
+// True if the triangle that x makes with an edge that must not be divided would have a smaller angle than t, for which
+// x is to be inserted: that edge's triangle could hardly be mended again.
+bool spoilsEdge(const RefineRun& run, const Point& x, const Point& a, const Point& b, TriId t) {
+  const EditMesh& mesh = run.mesh;
+  return leastAngle(a, b, x) < leastAngle(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
+}
+
 // The subsegment of a cavity's boundary that x lies behind, or encroaches upon, with the widest angle; kNone if there
-// is none.
-EdgeRef subsegmentBeside(const RefineRun& run, const Point& x, const Patch& cavity) {
+// is none. One that must not be divided counts if x would spoil it.
+EdgeRef subsegmentBeside(const RefineRun& run, const Point& x, const Patch& cavity, TriId t) {
   const EditMesh& mesh = run.mesh;
   const Frame at_x(run.bound.surface, x);
   EdgeRef hit = kNone;
@@ -90,7 +101,8 @@ EdgeRef subsegmentBeside(const RefineRun& run, const Point& x, const Patch& cavi
     const Point &a = mesh.point(r.a), &b = mesh.point(r.b);
     const bool behind = isBehind(at_x, x, a, b);
     const bool is_kept = r.seg != kNone && !mayDivide(run.pslg, r.seg);
-    if (!behind && (is_kept || !isEncroached(run.cos_lens, at_x, a, b))) continue;
+    if (!behind && !isEncroached(run.cos_lens, at_x, a, b)) continue;
+    if (!behind && is_kept && (r.seg == kFrozen || !spoilsEdge(run, x, a, b, t))) continue;
     const double angle = behind ? std::numbers::pi : angleAt(x, a, b);
     if (angle <= widest) continue;
     widest = angle;
@@ -126,7 +138,7 @@ bool insertPoint(RefineRun& run, TriId t, unsigned apex) {
     defer(run, t);
     return false;
   }
-  const EdgeRef hit = subsegmentBeside(run, candidate.place, patch);
+  const EdgeRef hit = subsegmentBeside(run, candidate.place, patch, t);
   if (hit != kNone) return splitFor(run, hit, t, apex);
   const double spacing = spacingAt(run, candidate.place, patch);
   if (!inside || std::min(candidate.squared_clearance, spacing * spacing) < run.squared_resolution) return false;
