@@ -84,6 +84,9 @@ std::string textOf(const RemeshReport& report, const RemeshUsage& usage, const G
     text += "kept at the edge of the part: " + grouped(teeth) + forCount(teeth, " triangle", " triangles") +
             " with two sides along it or without a neighbour, " + grouped(loose) +
             " that only a node connects to the others\n";
+  if (report.taken_in > 0)
+    text += "replaced beside the part: " + grouped(report.taken_in) +
+            forCount(report.taken_in, " triangle", " triangles") + ", within it or for the sake of angles\n";
   if (!usage.remesh.depth.files.empty())
     text += "new nodes without a value in any raster, which keep the depth of the mesh before: " +
             grouped(report.depth.kept) + "\n";
@@ -137,7 +140,7 @@ Command declareRemesh(CLI::App& root) {
   OptionTable table = commandOptions("remesh", "Mesh a part of a mesh anew, with other sizes");
   declareMeshFile(table, "MESH", "mesh to read", usage->mesh);
   const PartHelp part{
-      "replace", "keep",
+      "replace", "keep, except for a few at the edge of the part that angles need,",
       "repair what the model would reject, in all of the mesh, and report each repair; can be repeated",
       "Numbers in the mesh before",
       "write a table (CSV) with the number that each node and triangle had in MESH, nothing for new ones"};

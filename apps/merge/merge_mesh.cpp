@@ -28,14 +28,14 @@ MergedMesh mergeMesh(Grid& grid, Grid&& inserted, const MergeOptions& options, c
     result.triangles = result.merged.triangles;
     return result;
   }
-  result.replaced = band.triangles - result.merged.gap;
   RemeshOptions remesh;
   remesh.sizes.most_m = band.largest;
   remesh.sizes.gradation = options.gradation;
   remesh.mesh = options.mesh;
   remesh.depth = options.depth;
-  remesh.tidy = false;  // all of the gap has to be filled anew
+  for (const MergeSource& source : result.merged.triangles) remesh.stay.push_back(source.mesh == 1 ? 1 : 0);
   result.band = remeshGrid(grid, std::move(band.taken), remesh, control, loop);
+  result.replaced = result.band->replaced.triangles_removed - result.merged.gap;
   result.nodes = sourcesAfter(result.merged.nodes, result.band->replaced.nodes);
   result.triangles = sourcesAfter(result.merged.triangles, result.band->replaced.triangles);
   return result;

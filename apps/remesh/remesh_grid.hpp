@@ -7,24 +7,15 @@
 #include <vector>
 
 #include "apps/job/mesh_job_result.hpp"
+#include "apps/remesh/remesh_options.hpp"
 #include "core/item_loop.hpp"
 #include "core/run_control.hpp"
 #include "gis/cut/tidy_cut.hpp"
 #include "gis/grid/grid.hpp"
 #include "gis/model/depth.hpp"
 #include "gis/remesh/replace_patches.hpp"
-#include "gis/size/size_source.hpp"
-#include "parallel/mesh_regions.hpp"
 
 namespace coastmesh {
-
-// How a part of a grid is meshed anew.
-struct RemeshOptions {
-  SizeOptions sizes;   // besides those that the triangles around the part ask for; coasts are kept
-  MeshOptions mesh;    // its sizes are set from `sizes`
-  DepthOptions depth;  // of new nodes; those without a value in any raster keep that of the old triangles
-  bool tidy = true;    // false: all triangles of the part are replaced
-};
 
 // Angles and edges of some triangles of a grid.
 struct TriangleFigures {
@@ -39,6 +30,7 @@ struct TriangleFigures {
 struct RemeshReport {
   ReplaceReport replaced;
   TidiedCut tidied;
+  std::size_t taken_in = 0;  // triangles replaced although they had no flag, or were left out by `tidyCut`
   std::size_t patches = 0;
   std::size_t whole_edges = 0;  // of weirs, and of boundaries within the mesh: kept as they are
   RimReach rim;                 // the widest, and the mean share by triangles
@@ -50,11 +42,12 @@ struct RemeshReport {
   DepthReport depth;
 };
 
-// Replaces the triangles with a flag in `taken`, one for each, without those that models would reject at the edge of
-// the part (`tidyCut`, if wanted), by triangles of the requested sizes. All others stay bit for bit: see
-// `replacePatches`. Sizes join those of the triangles around by the gradation. Throws InputError: edges of more than
-// two triangles in the part, a part that cannot be meshed, too many vertices; Cancelled. REQUIRES: at least one flag is
-// set.
+// Replaces the triangles with a flag in `taken`, one for each, by triangles of the requested sizes: without those that
+// models would reject at the edge of the part (`tidyCut`, unless it is said which triangles stay), but with single ones
+// that would stay within it, and with those that would cost new triangles the bounds on angles, as far as they have a
+// node of one with a flag. All others stay bit for bit: see `replacePatches`. Sizes join those of the triangles around
+// by the gradation. Throws InputError: edges of more than two triangles in the part, a part that cannot be meshed, too
+// many vertices; Cancelled. REQUIRES: at least one flag is set.
 RemeshReport remeshGrid(Grid& grid, std::vector<std::uint8_t> taken, const RemeshOptions& options,
                         const RunControl& control = {}, const ItemLoop& loop = inOrder);
 

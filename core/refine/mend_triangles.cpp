@@ -85,13 +85,15 @@ double cosOfLeastAngle(const Frame& at_x, const Point& a, const Point& b) {
   return std::max({dot(xa, xb) / (la * lb), -dot(xa, ab) / (la * l), dot(xb, ab) / (lb * l)});
 }
 
-// The cosine of the smallest angle that a vertex inserted for t may make with a segment that nothing divides: t's own
-// smallest one, at most 20°. No further vertex would mend a triangle there.
-double cosBesideKept(const RefineRun& run, TriId t) {
-  constexpr double kCosLeast = 0.9396926207859084;  // of 20°
+// True if x, to be inserted for t, would make a triangle with an edge that nothing divides whose smallest angle is less
+// than t's own, and either less than 20° or at an encroached edge: no further vertex would mend it.
+bool spoilsEdge(const RefineRun& run, const Frame& at_x, const Point& a, const Point& b, TriId t) {
+  constexpr double kCosSharp = 0.9396926207859084;
+  const double least = cosOfLeastAngle(at_x, a, b);
+  if (least <= kCosSharp && !isEncroached(run.cos_lens, at_x, a, b)) return false;
   const auto& v = run.mesh.triangle(t).v;
-  const Frame frame(run.bound.surface, run.mesh.point(v[0]));
-  return std::max(kCosLeast, cosOfLeastAngle(frame, run.mesh.point(v[1]), run.mesh.point(v[2])));
+  const Frame at_corner(run.bound.surface, run.mesh.point(v[0]));
+  return least > cosOfLeastAngle(at_corner, run.mesh.point(v[1]), run.mesh.point(v[2]));
 }
 
 // The subsegment of a cavity's boundary that x, inserted for t, lies behind, or encroaches upon, with the widest angle;
@@ -107,7 +109,7 @@ EdgeRef subsegmentBeside(const RefineRun& run, const Point& x, TriId t, const Pa
     const bool behind = isBehind(at_x, x, a, b);
     if (!behind) {
       const bool is_kept = r.seg != kNone && !mayDivide(run.pslg, r.seg);
-      if (is_kept && (r.seg == kFrozen || cosOfLeastAngle(at_x, a, b) <= cosBesideKept(run, t))) continue;
+      if (is_kept && (r.seg == kFrozen || !spoilsEdge(run, at_x, a, b, t))) continue;
       if (!is_kept && !isEncroached(run.cos_lens, at_x, a, b)) continue;
     }
     const double angle = behind ? std::numbers::pi : angleAt(x, a, b);

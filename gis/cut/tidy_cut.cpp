@@ -1,6 +1,7 @@
 #include "gis/cut/tidy_cut.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace coastmesh {
@@ -140,17 +141,35 @@ std::size_t leaveOutTeeth(const TriMesh& mesh, std::vector<std::uint8_t>& taken,
   return teeth.size();
 }
 
+// Those without a neighbour, of which leaving out teeth may leave some.
+std::size_t leaveOutAlone(const TriMesh& mesh, std::vector<std::uint8_t>& taken, const ItemLoop& loop) {
+  const auto left_out = overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
+    std::size_t count = 0;
+    for (auto t = static_cast<TriId>(first); t < last; ++t) {
+      if (taken[t] == 0) continue;
+      const Sides sides = sidesOf(mesh, taken, t);
+      if (sides.cut == 0 || sides.neighbours > 0) continue;
+      taken[t] = 0;  // no neighbour looks at it
+      ++count;
+    }
+    return count;
+  });
+  return std::accumulate(left_out.begin(), left_out.end(), std::size_t{0});
+}
+
 }  // namespace
 
 TidiedCut tidyCut(const TriMesh& mesh, std::vector<std::uint8_t>& taken, const ItemLoop& loop) {
   TidiedCut tidied;
   tidied.loose = leaveOutLoose(mesh, taken, loop);
   std::vector<std::uint8_t> without = taken;
-  const std::size_t teeth = leaveOutTeeth(mesh, without, loop);
+  std::size_t teeth = leaveOutTeeth(mesh, without, loop);
+  const std::size_t loose = leaveOutLoose(mesh, without, loop);
+  teeth += leaveOutAlone(mesh, without, loop);
   if (teeth == 0 || std::ranges::find(without, 1) == without.end()) return tidied;
   taken = std::move(without);
   tidied.teeth = teeth;
-  tidied.loose += leaveOutLoose(mesh, taken, loop);
+  tidied.loose += loose;
   return tidied;
 }
 

@@ -27,8 +27,9 @@ std::string placeText(const Point& place, const Projection& projection) {
 }
 
 std::string lengthText(double length_m, const Projection& projection) {
-  if (projection.isIdentity()) return formatted("%.3g", length_m);
-  return length_m < 1000.0 ? formatted("%.0f m", length_m) : formatted("%.3g km", 1e-3 * length_m);
+  if (projection.isIdentity()) return formatted(length_m < 1e3 ? "%.3g" : "%.0f", length_m);
+  if (length_m < 1e3) return formatted("%.0f m", length_m);
+  return formatted(length_m < 1e6 ? "%.3g km" : "%.0f km", 1e-3 * length_m);
 }
 
 std::string wayText(const WaterWay& way, const Projection& projection) {

@@ -121,7 +121,7 @@ double leftOut(const FollowedWaters& waters, const FollowOptions& options) {
 }  // namespace
 
 std::string areaInWords(double area_m2, bool in_plane) {
-  if (in_plane) return formatted("%.3g", area_m2);
+  if (in_plane) return formatted(area_m2 < 1000.0 ? "%.3g" : "%.0f", area_m2);
   const double area_km2 = 1e-6 * area_m2;
   return formatted(area_km2 < 1000.0 ? "%.3g km²" : "%.0f km²", area_km2);
 }

@@ -157,11 +157,12 @@ Cap leastCap(const Extent& extent, const std::vector<Direction>& directions) {
   return best;
 }
 
-// The area left out of the domain: on land, or in no group.
+// The area left out of the domain: on land, or in no group; on land alone if all groups are.
 class LeftOut {
  public:
   explicit LeftOut(const std::vector<RingGroup>& groups) {
     for (const RingGroup& group : groups) {
+      if (group.rings.empty()) continue;
       ChainIndex& index = (group.is_land ? land_ : water_).emplace_back(ChainIndex::Kind::Rings);
       for (const Ring* ring : group.rings) index.add(*ring);
       index.build();
@@ -171,7 +172,9 @@ class LeftOut {
   bool holds(const Point& p) const {
     const auto isIn = [&](const ChainIndex& index) { return index.locate(p) == Location::Inside; };
     const auto touches = [&](const ChainIndex& index) { return index.locate(p) != Location::Outside; };
-    return std::ranges::any_of(land_, isIn) || std::ranges::none_of(water_, touches);
+    if (std::ranges::any_of(land_, isIn)) return true;
+    const bool is_around_land = water_.empty() && !land_.empty();
+    return !is_around_land && std::ranges::none_of(water_, touches);
   }
 
  private:

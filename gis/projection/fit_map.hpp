@@ -27,9 +27,9 @@ struct RingGroup {
 // Chooses by the extent of the places (any longitudes): transverse Mercator for north-south extents, Lambert's conic
 // for east-west extents, polar stereographic around a pole, oblique stereographic for the rest and for everything
 // larger than a cap of 30 degrees. Extents larger than a hemisphere are projected from the centre of the largest
-// area that is left out: on land, or in no group. Throws InputError if there is none. Stereographic whenever a
-// surface is requested, which the automatic choice does beyond that cap. REQUIRES: `places` is not empty, latitudes
-// within ±90.
+// area that is left out: on land, or in no group unless all are land. Throws InputError if there is none. Stereographic
+// whenever a surface is requested, which the automatic choice does beyond that cap. REQUIRES: `places` is not empty,
+// latitudes within ±90.
 FittedMap fitMap(const std::vector<LonLat>& places, const std::vector<RingGroup>& groups, const Ellipsoid& ellipsoid,
                  SurfaceKind kind = SurfaceKind::Plane);
 

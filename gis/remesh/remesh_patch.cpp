@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <span>
 #include <string>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "gis/error.hpp"
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/grid/ground_orientation.hpp"
+#include "gis/projection/area_outline.hpp"
 
 namespace coastmesh {
 
@@ -98,7 +100,7 @@ class PatchMaker {
     for (const std::uint32_t t : patch.triangles)
       for (unsigned i = 0; i < 3; ++i) addEdge(edgeRef(t, i), kept);
     numberPoints(kept, patch);
-    project(patch);
+    project(kept, patch);
     addSegments(kept, patch);
     return patch;
   }
@@ -160,16 +162,33 @@ class PatchMaker {
       if (!on_segment[v]) patch.domain.asked.push_back(v);
   }
 
-  void project(RemeshPatch& patch) const {
+  Projection projectionOf(const std::vector<Kept>& kept, const std::vector<std::uint32_t>& triangles) const {
+    constexpr std::size_t kMostWithin = 4096;
+    std::vector<NodePair> edges;
+    for (const Kept& of_patch : kept)
+      if (of_patch.is_shared || mesh_.twin(of_patch.edge) == kNone)
+        edges.push_back({mesh_.origin(of_patch.edge), mesh_.target(of_patch.edge)});
+    if (edges.empty())
+      throw InputError("the part to be meshed anew is a whole globe, which no plane shows: leave some of it out");
+    std::vector<Ring> rings;
+    for (const Boundary& boundary : chainEdges(edges)) {
+      Ring& ring = rings.emplace_back();
+      for (const std::uint32_t node : boundary.nodes) ring.push_back(grid_.nodes[node]);
+    }
+    std::vector<Point> within;
+    for (std::size_t i = 0; i < triangles.size(); i += 1 + triangles.size() / kMostWithin)
+      within.push_back(grid_.nodes[grid_.triangles[triangles[i]][0]]);
+    const Coastline outline = areaWithin(grid_.crs, std::move(rings), std::move(within), "the part to be meshed anew");
+    std::vector<std::size_t> all(outline.features.size());
+    std::iota(all.begin(), all.end(), 0);
+    return Projection::fitted(outline, all, SurfaceKind::Auto);
+  }
+
+  void project(const std::vector<Kept>& kept, RemeshPatch& patch) const {
     Domain& domain = patch.domain;
     domain.input_points.reserve(patch.nodes.size());
     for (const std::uint32_t node : patch.nodes) domain.input_points.push_back(grid_.nodes[node]);
-    if (!grid_.crs.isPlane()) {
-      Coastline extent;
-      extent.crs = grid_.crs;
-      extent.features.emplace_back().lines.push_back(domain.input_points);
-      domain.projection = Projection::fitted(extent, {0}, SurfaceKind::Auto);
-    }
+    if (!grid_.crs.isPlane()) domain.projection = projectionOf(kept, patch.triangles);
     double scale = 1.0;
     for (const Point& p : domain.input_points) {
       domain.pslg.points.push_back(domain.projection.forward(p));
@@ -193,7 +212,7 @@ class PatchMaker {
       if (is_shared) {
         const Point beyond = projection.forward(grid_.nodes[mesh_.apex(mesh_.twin(edge))]);
         length_m = (length_m + lengthOf(b, beyond) + lengthOf(beyond, a)) / 3.0;
-        ++patch.shared_edges;
+        patch.shared.push_back(static_cast<SegmentId>(patch.domain.pslg.segments.size() - 1));
       }
       patch.rim.push_back({a, b, length_m, 0.0});
     }

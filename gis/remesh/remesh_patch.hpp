@@ -26,7 +26,7 @@ struct RemeshPatch {
   // The segments that nothing divides, with the mean edge of the triangle that stays beside them, or their own length;
   // without a rate.
   std::vector<SizedLine> rim;
-  std::size_t shared_edges = 0;  // with triangles that stay
+  std::vector<SegmentId> shared;  // the segments of edges shared with triangles that stay
 };
 
 // The parts of a grid whose triangles have a flag in `taken`; triangles are in one part if they share edges. `mesh` is

@@ -133,7 +133,7 @@ std::vector<std::uint32_t> movableCorners(const RepairState& state, std::span<co
   return movableNodes(state, std::vector<std::uint32_t>(nodes.begin(), nodes.end()));
 }
 
-// The triangles at a triangle's corners.
+// The triangles at a triangle's corners. REQUIRES: it is not taken, as it may have a node then that has no links yet.
 std::vector<std::uint32_t> roundOf(const RepairState& state, std::uint32_t t) {
   std::vector<std::uint32_t> round;
   for (const std::uint32_t node : state.grid.triangles[t])
@@ -335,7 +335,7 @@ bool isInCorner(const RepairState& state, std::uint32_t t) {
 
 void unfoldTriangle(RepairState& state, const FoundDefect& found) {
   const auto t = static_cast<std::uint32_t>(found.defect.triangle);
-  if (state.hopeless_triangles[t]) return;
+  if (state.hopeless_triangles[t] || state.isTaken(t)) return;
   const auto patch = untouchedPatch(state, roundOf(state, t));
   if (!patch) return;
   std::optional<PatchEdit> best;
@@ -350,7 +350,7 @@ void unfoldTriangle(RepairState& state, const FoundDefect& found) {
 
 void reshapeTriangle(RepairState& state, const FoundDefect& found) {
   const auto t = static_cast<std::uint32_t>(found.defect.triangle);
-  if (state.hopeless_triangles[t]) return;
+  if (state.hopeless_triangles[t] || state.isTaken(t)) return;
   const bool of_corner =
       found.defect.kind == TargetDefectKind::TwoOpenEdges || found.defect.kind == TargetDefectKind::OpenAndSolid;
   if (of_corner && isTooSharpToDivide(state, t)) {
@@ -393,6 +393,7 @@ void lengthenEdges(RepairState& state, const FoundDefect& found) {
 }
 
 bool relaxTriangle(RepairState& state, std::uint32_t t) {
+  if (state.isTaken(t)) return false;
   const auto patch = untouchedPatch(state, roundOf(state, t));
   if (!patch) return false;
   const std::optional<PatchEdit> chosen =

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <set>
 #include <sstream>
@@ -108,6 +109,39 @@ TEST_F(Remesh, DepthsOfNewNodesFromARaster) {
     }
   }
   EXPECT_GT(added, 100u);
+}
+
+TEST_F(Remesh, SaysWhatItReplacesBesideThePart) {
+  // A polygon round the middle of one triangle within the part.
+  const std::string whole = mesh("whole.14");
+  const std::vector<std::string> lines = linesOf(whole);
+  std::size_t triangles = 0, nodes = 0, number = 0, corners = 0, corner = 0;
+  std::istringstream(lines[1]) >> triangles >> nodes;
+  double nearest = 1e9, middle_x = 0.0, middle_y = 0.0;
+  for (std::size_t t = 0; t < triangles; ++t) {
+    std::istringstream row(lines[2 + nodes + t]);
+    row >> number >> corners;
+    double x = 0.0, y = 0.0, node_x = 0.0, node_y = 0.0;
+    while (row >> corner) {
+      std::istringstream(lines[1 + corner]) >> number >> node_x >> node_y;
+      x += node_x / 3.0;
+      y += node_y / 3.0;
+    }
+    if (std::hypot(x + 87.492, y - 41.614) > nearest) continue;
+    nearest = std::hypot(x + 87.492, y - 41.614);
+    middle_x = x;
+    middle_y = y;
+  }
+  const auto place = [&](double east, double north) {
+    return "[" + std::to_string(middle_x + east) + "," + std::to_string(middle_y + north) + "]";
+  };
+  const double d = 2e-5;
+  write("one.geojson", R"({"type":"Polygon","coordinates":[[)" + place(-d, -d) + "," + place(d, -d) + "," +
+                           place(0.0, d) + "," + place(-d, -d) + "]]}");
+  const ProgramRun run = runProgram({"remesh", whole, box(), "--outside", file("one.geojson"), "--size", "40",
+                                     "--assume-crs", "EPSG:4326", "-o", file("part.14")});
+  ASSERT_EQ(run.code, 0) << run.errors;
+  EXPECT_THAT(run.output, HasSubstr("replaced beside the part: 1 triangle, within it or for the sake of angles\n"));
 }
 
 TEST_F(Remesh, SaysHowFarTheTransitionReaches) {

@@ -5,12 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "gis/error.hpp"
+#include "gis/grid/ground_orientation.hpp"
 #include "parallel/recorder.hpp"
 #include "parallel/workers.hpp"
 #include "tests/apps/remesh/remeshed.hpp"
+#include "tests/gis/globe_samples.hpp"
 #include "tests/gis/grid_samples.hpp"
 
 namespace coastmesh {
@@ -270,6 +275,7 @@ TEST(RemeshGrid, DegreesAndOtherValues) {
 TEST(RemeshGrid, RandomParts) {
   std::mt19937_64 random(7);
   const auto uniform = [&](double from, double to) { return std::uniform_real_distribution<double>(from, to)(random); };
+  int grown = 0;
   for (int run = 0; run < 60; ++run) {
     const Grid before = sampleGrid(Crs{}, {100.0, 200.0}, 10.0, 10);
     Flags taken(before.triangles.size(), 0);
@@ -282,25 +288,83 @@ TEST(RemeshGrid, RandomParts) {
       for (std::size_t t = 0; t < taken.size(); ++t) taken[t] = taken[t] ^ box[t];
     }
     // In every other run ragged edges, and single triangles.
-    const bool is_ragged = run % 2 == 1;
     for (std::uint8_t& flag : taken)
-      if (is_ragged && random() % 20 == 0) flag ^= 1;
+      if (run % 2 == 1 && random() % 20 == 0) flag ^= 1;
     if (std::ranges::count(taken, 1) == 0) continue;
     Grid after = before;
     const double size = std::exp(uniform(std::log(2.0), std::log(40.0)));
     SCOPED_TRACE(::testing::Message() << "run " << run << ", size " << size);
     const RemeshReport report = remeshGrid(after, taken, ofSize(size));
     expectRemeshed(before, taken, after, report);
-    // Edges that stay on all sides, as of single triangles, may leave no room for large angles.
-    const double least = leastAngle(after, report);
-    if (report.below_bounds > 0) {
-      EXPECT_LT(least, ofSize(size).mesh.refine.min_angle_deg);
+    // Triangles that stay would leave no room for that in some of these parts.
+    EXPECT_GT(leastAngle(after, report), 32.9);
+    EXPECT_EQ(report.below_bounds, 0u);
+    grown += report.taken_in > 0 ? 1 : 0;
+  }
+  EXPECT_GT(grown, 20);
+}
+
+TEST(RemeshGrid, SingleTrianglesWithinThePartGoToo) {
+  const Grid before = sea(20);
+  Grid after = before;
+  Flags taken = middlesInBox(before, 5.0, 5.0, 15.0, 15.0);
+  const auto at = [&](double x, double y) {
+    for (std::size_t t = 0; t < taken.size(); ++t)
+      if (middlesInBox(before, x, y, x + 0.5, y + 0.5)[t] != 0) return t;
+    return taken.size();
+  };
+  taken[at(8.5, 8.0)] = 0;
+  // Of two that stay together none goes.
+  taken[at(12.5, 12.0)] = taken[at(12.0, 12.5)] = 0;
+  const RemeshReport report = remeshGrid(after, taken, ofSize(0.5));
+  expectRemeshed(before, taken, after, report);
+  EXPECT_EQ(report.taken_in, 1u);
+  EXPECT_EQ(report.below_bounds, 0u);
+}
+
+// Parts of which what is left out has to be beyond the plane: around a pole, in several places, or land alone.
+TEST(RemeshGrid, MoreThanAHemisphere) {
+  const auto noneLeftOut = [](const SpaceVector&) { return true; };
+  const auto seasAndLands = [](const SpaceVector& p) { return !(p[0] > 0.8 || p[2] < -0.9 || p[0] + p[1] < -1.3); };
+  const auto all = [](const Point&) { return true; };
+  const auto south = [](const Point& p) { return p.y < 70.0; };
+  const auto north = [](const Point& p) { return p.y > -5.0; };
+  const auto between = [](const Point& p) { return std::abs(p.y) < 60.0; };
+  const auto restOf = [](const Point& p) { return std::abs(p.x - 100.0) > 25.0 || std::abs(p.y) > 30.0; };
+  const std::vector<std::pair<Grid, std::function<bool(const Point&)>>> parts{
+      {octahedralGlobe(4, noneLeftOut), south},   {octahedralGlobe(4, noneLeftOut), north},
+      {octahedralGlobe(4, noneLeftOut), between}, {octahedralGlobe(4, noneLeftOut), restOf},
+      {octahedralGlobe(4, seasAndLands), all},    {octahedralGlobe(4, seasAndLands), between}};
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    SCOPED_TRACE(k);
+    const auto& [before, isTaken] = parts[k];
+    Grid after = before;
+    Flags taken;
+    for (std::uint32_t t = 0; t < before.triangles.size(); ++t) taken.push_back(isTaken(middleOf(before, t)) ? 1 : 0);
+    const RemeshReport report = remeshGrid(after, taken, ofSize(400e3));
+    requireConsistent(after);
+    EXPECT_GT(report.replaced.triangles_added, 900u);
+    for (const auto& [edge, count] : edgeCounts(after)) EXPECT_EQ(count, 1) << edge[0] << " " << edge[1];
+    double area = 0.0;
+    for (const double a : triangleAreas(after.nodes, after.triangles, after.crs)) {
+      EXPECT_GT(a, 0.0);
+      area += a;
     }
-    EXPECT_GT(least, is_ragged ? 2.0 : 25.0);
+    for (const double a : triangleAreas(before.nodes, before.triangles, before.crs)) area -= a;
+    // Edges of shores are divided in the plane.
+    EXPECT_LT(std::abs(area), 5e-4 * 5e14);
+    EXPECT_EQ(after.boundaries.size(), before.boundaries.size());
   }
 }
 
 TEST(RemeshGrid, RefusesWhatCannotBeMeshed) {
+  Grid globe = octahedralGlobe(3, [](const SpaceVector&) { return true; });
+  try {
+    remeshGrid(globe, Flags(globe.triangles.size(), 1), ofSize(1e6));
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("a whole globe"));
+  }
   Grid grid = sea(10);
   grid.triangles.push_back(grid.triangles[100]);
   const Flags taken(grid.triangles.size(), 1);

@@ -134,10 +134,21 @@ inline void expectRemeshed(const Grid& before, const Flags& taken, const Grid& a
       EXPECT_EQ(after.area_m2[t], before.area_m2[source]);
     }
   }
-  for (std::size_t t = 0; t < taken.size(); ++t)
-    if (taken[t] == 0) {
-      EXPECT_TRUE(stays[t]) << t;
-    }
+  // Others without a flag touch one with a flag, and are counted.
+  std::set<std::uint32_t> flagged_nodes;
+  std::size_t flagged = 0, others = 0;
+  for (std::size_t t = 0; t < taken.size(); ++t) {
+    if (taken[t] == 0) continue;
+    ++flagged;
+    flagged_nodes.insert(before.triangles[t].begin(), before.triangles[t].end());
+  }
+  for (std::size_t t = 0; t < taken.size(); ++t) {
+    if (taken[t] != 0 || stays[t]) continue;
+    ++others;
+    EXPECT_TRUE(std::ranges::any_of(before.triangles[t], [&](std::uint32_t n) { return flagged_nodes.contains(n); }));
+  }
+  EXPECT_LE(others, report.taken_in);
+  EXPECT_EQ(replaced.triangles_removed + report.tidied.loose + report.tidied.teeth, flagged + report.taken_in);
   EXPECT_EQ(kept_triangles, before.triangles.size() - replaced.triangles_removed);
   // The mesh.
   for (const GridCorners& v : after.triangles)

@@ -118,5 +118,40 @@ TEST(UndividedSegments, NoVertexIsPutSoNearThatNoGoodTriangleFits) {
   }
 }
 
+double leastAngleOf(const TriMesh& mesh) {
+  double least = 180.0;
+  for (const Triangle& t : mesh.triangles)
+    least = std::min(least, leastAngleDeg(mesh.points[t.v[0]], mesh.points[t.v[1]], mesh.points[t.v[2]]));
+  return least;
+}
+
+// Smaller sizes than their lengths allow put no vertices close beside them.
+TEST(UndividedSegments, AreNotSpoilt) {
+  std::mt19937_64 random(13);
+  std::uniform_real_distribution<double> place(-1.0, 1.0), length(0.3, 2.0);
+  int narrow = 0;
+  for (int run = 0; run < 300; ++run) {
+    // Half of them triangles, half quadrilaterals.
+    Pslg pslg;
+    pslg.points = {{-3.0 + place(random), place(random)}, {2.0 + place(random), -1.0 + place(random)}};
+    if (run % 2 == 1) pslg.points.push_back({3.0 + place(random), 2.0 + place(random)});
+    pslg.points.push_back({place(random), 3.0 + place(random)});
+    const auto corners = static_cast<std::uint32_t>(pslg.points.size());
+    for (std::uint32_t i = 0; i < corners; ++i)
+      pslg.segments.push_back({i, (i + 1) % corners, 0, 0, kOutside, Divide::Never});
+    const ConstantSize size(length(random));
+    RefineOptions options;
+    options.size = &size;
+    TriMesh mesh = constrainedDelaunay(pslg);
+    const double before = leastAngleOf(mesh);
+    refine(mesh, pslg, options);
+    coarsen(mesh, pslg, options);
+    optimise(mesh, pslg, options, 3);
+    EXPECT_GE(leastAngleOf(mesh), std::min(before, 10.0)) << run;
+    narrow += before < 33.0 ? 1 : 0;
+  }
+  EXPECT_GT(narrow, 30);
+}
+
 }  // namespace
 }  // namespace coastmesh

@@ -382,6 +382,18 @@ TEST(TidyCut, TrianglesThatStickOutAreLeftOutOnce) {
   Grid one = whole;
   cutGrid(one, single);
   EXPECT_EQ(one.triangles.size(), 1u);
+  // Of three in a row, apart from others, two stick out, which leaves one alone.
+  Grid three = whole;
+  Flags row = inBox(whole, 0, 0, 2, 3);
+  const Flags square = inBox(whole, 4, 1, 5, 2), next = inBox(whole, 5, 1, 6, 2);
+  for (std::size_t t = 0; t < row.size(); ++t) {
+    const auto on_side = std::ranges::count_if(whole.triangles[t], [&](std::uint32_t n) {
+      return whole.nodes[n] == Point{5, 1} || whole.nodes[n] == Point{5, 2};
+    });
+    if (square[t] != 0 || (next[t] != 0 && on_side == 2)) row[t] = 1;
+  }
+  EXPECT_EQ(cutGrid(three, row).tidied.teeth, 3u);
+  EXPECT_EQ(three.triangles.size(), 12u);
   // A river one element wide stays.
   Grid river = gridOf(lattice(12, 1, [](int, int) { return true; }));
   cutGrid(river, inBox(river, 2, 0, 9, 1));

@@ -7,6 +7,10 @@
 #include <string>
 #include <utility>
 
+#include "gis/crs/geodesy.hpp"
+#include "gis/follow/follow_notes.hpp"
+#include "gis/projection/projection.hpp"
+
 namespace coastmesh {
 namespace {
 
@@ -31,6 +35,20 @@ TEST(WaterNotes, AThirdOfALakeBesideASeaIsNoWarning) {
   EXPECT_THAT(texts.warnings, IsEmpty());
   EXPECT_THAT(texts.notes, ElementsAre(HasSubstr("2.1 km² (0.21 %) of the water is left out, 2 waters")));
   EXPECT_THAT(texts.notes[0], HasSubstr("the largest 2 km² (0.2 %) at (0, 0); 0.1 km² (0.01 %) at (0, 0)"));
+}
+
+TEST(WaterNotes, LargeNumbersHaveNoExponents) {
+  Coastline coast;
+  coast.crs = wgs84();
+  coast.features.emplace_back().lines = {{{0.0, 0.0}, {1.0, 1.0}}};
+  const Projection earth = Projection::fitted(coast, {0}), plane = Projection::plane();
+  EXPECT_EQ(metPoint({}, 999.0, earth).text.find("999 m at"), 0u);
+  EXPECT_EQ(metPoint({}, 999e3, earth).text.find("999 km at"), 0u);
+  EXPECT_EQ(metPoint({}, 4512e3, earth).text.find("4512 km at"), 0u);
+  EXPECT_EQ(metPoint({}, 0.5, plane).text.find("0.5 at"), 0u);
+  EXPECT_EQ(metPoint({}, 4512.0, plane).text.find("4512 at"), 0u);
+  EXPECT_EQ(areaInWords(1612.0, true), "1612");
+  EXPECT_EQ(areaInWords(1612e6, false), "1612 km²");
 }
 
 TEST(WaterNotes, ManyLittleLossesAreOneWarning) {

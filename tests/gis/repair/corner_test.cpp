@@ -108,6 +108,26 @@ TEST(Corner, StaysWhereItIsAskedFor) {
   EXPECT_EQ(cuts(with_river, {}), 0);
 }
 
+// Waters of two triangles, each with an open edge: once the edge between them is divided, the second has a new node.
+TEST(Corner, MayHaveANodeOfTheSameRound) {
+  Grid grid;
+  for (std::uint32_t k = 0; k < 100; ++k) {
+    const double x = 3000.0 * k;
+    grid.nodes.insert(grid.nodes.end(), {{x, 0.0}, {x + 1000.0, 0.0}, {x + 2000.0, 0.0}, {x + 1000.0, 900.0}});
+    grid.triangles.push_back({4 * k, 4 * k + 1, 4 * k + 3});
+    grid.triangles.push_back({4 * k + 1, 4 * k + 2, 4 * k + 3});
+  }
+  grid.z.assign(grid.nodes.size(), -20.0);
+  grid.boundaries = cutLoops(grid, boundaryLoops(grid), [&](std::uint32_t from, std::uint32_t to) {
+    const bool open = grid.nodes[from].y == 0.0 && grid.nodes[to].y == 0.0;
+    return BoundaryKind{open ? BoundaryRole::Open : BoundaryRole::Land};
+  });
+  ASSERT_EQ(kindsIn(grid, Target::Fvcom), testing::Kinds{TargetDefectKind::OpenAndSolid});
+  const RepairReport report = repairForTargets(grid, kFvcom, {.min_angle_deg = kBoundDeg});
+  EXPECT_EQ(report.repairs.size(), 100u);
+  EXPECT_EQ(kindsIn(grid, Target::Fvcom), testing::Kinds{});
+}
+
 // The south-eastern corner of a frame in degrees, with two sides of a triangle on it.
 Grid cornerOfFrame() {
   constexpr double kEast = -67.5, kSouth = 16.5;

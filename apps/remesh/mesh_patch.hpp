@@ -1,0 +1,50 @@
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "apps/job/mesh_job_result.hpp"
+#include "apps/remesh/remesh_options.hpp"
+#include "core/item_loop.hpp"
+#include "core/run_control.hpp"
+#include "gis/grid/boundary_chains.hpp"
+#include "gis/grid/grid.hpp"
+#include "gis/remesh/remesh_patch.hpp"
+#include "gis/remesh/replace_patches.hpp"
+#include "gis/remesh/rim_shortfall.hpp"
+#include "gis/size/size_source.hpp"
+
+namespace coastmesh {
+
+// The new mesh of a patch, and what is known of it.
+struct MeshedPatch {
+  PatchMesh made;
+  RimReach rim;
+  bool has_shore = true;
+  Shortfall short_of;
+  RimShortfall at_rim;
+};
+
+// Meshes patches of a grid, whose shore is given; all must outlive it.
+class PatchMesher {
+ public:
+  PatchMesher(const Grid& grid, std::vector<NodePair> shore, const RemeshOptions& options, const SizeInputs& inputs,
+              const RunControl& control, const ItemLoop& loop)
+      : grid_(grid), shore_(std::move(shore)), options_(options), inputs_(inputs), control_(control), loop_(loop) {}
+
+  // Throws InputError: a patch that cannot be meshed, too many vertices; Cancelled.
+  MeshedPatch mesh(const RemeshPatch& patch) const;
+
+ private:
+  std::unique_ptr<SizeFunction> sizesOf(const RemeshPatch& patch, MeshedPatch& result) const;
+
+  const Grid& grid_;
+  std::vector<NodePair> shore_;
+  const RemeshOptions& options_;
+  const SizeInputs& inputs_;
+  const RunControl& control_;
+  const ItemLoop& loop_;
+};
+
+}  // namespace coastmesh
