@@ -142,7 +142,7 @@ _coastmesh; printf '%s\\n' "${{COMPREPLY[@]}}" """
         return run.stdout.split()
 
     def test_bash(self):
-        self.assertEqual(self.bash("coastmesh", "me"), ["mesh"])
+        self.assertEqual(self.bash("coastmesh", "mes"), ["mesh"])
         self.assertIn("--min-angle", self.bash("coastmesh", "mesh", "--mi"))
         self.assertEqual(self.bash("coastmesh", "mesh", "--algorithm", "re"), ["relocate"])
         self.assertNotIn("--min-angle", self.bash("coastmesh", "info", "--"))
@@ -158,7 +158,7 @@ _coastmesh; printf '%s\\n' "${{COMPREPLY[@]}}" """
             self.assertEqual(run.stderr, "")
             return [row.split("\t")[0] for row in run.stdout.splitlines()]
 
-        self.assertEqual(complete("coastmesh me"), ["mesh"])
+        self.assertEqual(complete("coastmesh mes"), ["mesh"])
         self.assertIn("--min-angle", complete("coastmesh mesh --mi"))
         self.assertIn("relocate", complete("coastmesh mesh --algorithm re"))
         self.assertNotIn("--min-angle", complete("coastmesh info --"))
