@@ -70,17 +70,29 @@ MeshedPart meshPart(const Grid& grid, const LinkedGrid& linked, const std::vecto
   return part;
 }
 
+// Flags of the nodes around which triangles that stay cost new ones the bounds on angles, in patches that may still be
+// meshed again: the triangles of these are taken from `most_again`.
+std::vector<std::uint8_t> costlyNodes(const MeshedPart& part, std::size_t nodes, std::size_t& most_again) {
+  std::vector<std::uint8_t> at_nodes(nodes, 0);
+  for (const auto& patch : part.meshed) {
+    const std::size_t triangles = patch->made.mesh.triangles.size();
+    if (patch->at_rim.nodes.empty() || triangles > most_again) continue;
+    most_again -= triangles;
+    for (const std::uint32_t node : patch->at_rim.nodes) at_nodes[node] = 1;
+  }
+  return at_nodes;
+}
+
 // Takes in the triangles around places where those that stay cost the bounds on angles, a few times. Returns the part
 // that misses them least.
 MeshedPart meshGrowing(const Grid& grid, const LinkedGrid& linked, std::vector<std::uint8_t> taken,
-                       const std::vector<std::uint8_t>& reach, const PatchMesher& mesher, const ItemLoop& loop) {
+                       const std::vector<std::uint8_t>& reach, const PatchMesher& mesher, std::size_t most_again,
+                       const ItemLoop& loop) {
   constexpr int kMostTimes = 4;
   MeshedPart last = meshPart(grid, linked, taken, mesher, {}, loop);
   std::optional<MeshedPart> best;  // if better than the last
   for (int times = 0; times < kMostTimes; ++times) {
-    std::vector<std::uint8_t> at_nodes(grid.nodes.size(), 0);
-    for (const auto& patch : last.meshed)
-      for (const std::uint32_t node : patch->at_rim.nodes) at_nodes[node] = 1;
+    const std::vector<std::uint8_t> at_nodes = costlyNodes(last, grid.nodes.size(), most_again);
     std::size_t taken_in = takeInAt(linked.mesh, at_nodes, reach, taken, loop);
     taken_in += takeInSingle(linked.mesh, reach, taken, loop);
     if (taken_in == 0) break;
@@ -166,7 +178,7 @@ RemeshReport remeshGrid(Grid& grid, std::vector<std::uint8_t> taken, const Remes
     if (options.stay.empty()) report.tidied = tidyCut(linked.mesh, taken, loop);
     const SizeInputs inputs = readSizeInputs(options.sizes, grid.crs);
     const PatchMesher mesher(grid, shoreEdges(grid, linked.mesh), options, inputs, control, loop);
-    part = meshGrowing(grid, linked, std::move(taken), reach, mesher, loop);
+    part = meshGrowing(grid, linked, std::move(taken), reach, mesher, options.most_again, loop);
     report.taken_in = single + part.taken_in;
   }
   const std::vector<RemeshPatch>& patches = part.patches;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -14,6 +15,9 @@ struct RemeshOptions {
   SizeOptions sizes;   // besides those that the triangles around the part ask for; coasts are kept
   MeshOptions mesh;    // its sizes are set from `sizes`
   DepthOptions depth;  // of new nodes; those without a value in any raster keep that of the old triangles
+  // The most new triangles, in all, that are made once more because the part takes in triangles beside it for the sake
+  // of angles.
+  std::size_t most_again = 300'000;
   // Empty, or a flag for each triangle: it stays in any case. Then all that are wanted are replaced, also those that
   // `tidyCut` would leave out.
   std::vector<std::uint8_t> stay{};

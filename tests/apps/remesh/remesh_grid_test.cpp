@@ -322,6 +322,26 @@ TEST(RemeshGrid, SingleTrianglesWithinThePartGoToo) {
   EXPECT_EQ(report.below_bounds, 0u);
 }
 
+TEST(RemeshGrid, LargePartsAreNotMeshedAgain) {
+  const Grid before = sampleGrid(Crs{}, {100.0, 200.0}, 10.0, 10);
+  std::mt19937_64 random(41);
+  std::size_t taken_in = 0, at_once = 0;
+  for (int run = 0; run < 10; ++run) {
+    Flags taken = middlesInBox(before, 100.0, 200.0, 180.0, 280.0);
+    for (std::uint8_t& flag : taken)
+      if (random() % 10 == 0) flag ^= 1;
+    RemeshOptions options = ofSize(4.0);
+    Grid after = before;
+    taken_in += remeshGrid(after, taken, options).taken_in;
+    options.most_again = 50;
+    after = before;
+    const RemeshReport report = remeshGrid(after, taken, options);
+    expectRemeshed(before, taken, after, report);
+    at_once += report.taken_in;
+  }
+  EXPECT_GT(taken_in, at_once);
+}
+
 // Parts of which what is left out has to be beyond the plane: around a pole, in several places, or land alone.
 TEST(RemeshGrid, MoreThanAHemisphere) {
   const auto noneLeftOut = [](const SpaceVector&) { return true; };
