@@ -1,20 +1,14 @@
-#include <cstdio>
+#include <algorithm>
+#include <iterator>
 #include <memory>
 
 #include "apps/cli/commands.hpp"
-#include "apps/cli/mesh_file.hpp"
-#include "apps/cli/run_outputs.hpp"
-#include "apps/job/finish_grid.hpp"
-#include "apps/process/exit_codes.hpp"
+#include "apps/cli/mesh_edit.hpp"
 #include "apps/report/report_sections.hpp"
 #include "apps/usage/part_usage.hpp"
 #include "gis/cut/cut_grid.hpp"
 #include "gis/cut/number_table.hpp"
-#include "gis/error.hpp"
 #include "gis/for_count.hpp"
-#include "gis/grid/boundary_chains.hpp"
-#include "parallel/recorder.hpp"
-#include "parallel/workers.hpp"
 
 namespace coastmesh {
 
@@ -61,39 +55,20 @@ std::string textOf(const CutReport& report, const CutUsage& usage) {
 }
 
 int runCut(const CutUsage& usage, Run& run) {
-  const PartUsage& part = usage.part;
-  requirePart(part, kPurpose);
-  RunOutputs outputs(part.overwrite, run.inputs, run.interrupt);
-  outputs.addGrids(part.outputs, part.format);
-  StagedFiles* const numbers = part.numbers.empty() ? nullptr : &outputs.addFile(part.numbers);
-  Grid grid = readMeshFile(usage.mesh, run);
-  findMissingBoundaries(grid);
-  const RunControl control{[&run] { return run.interrupt.requested(); }, {}};
+  requirePart(usage.part, kPurpose);
   CutReport report;
-  FinishReport finish;
-  std::vector<std::string> warnings;
-  withThreads({}, [&] {
-    Recorder recorder;
-    const ItemLoop loop = recorder.loop("cut", control);
-    report = cutGrid(grid, requireTriangles(part, grid, usage.mesh.path, kPurpose, warnings, loop), usage.cut, loop);
-    finish = finishGrid(grid, part.finish, control, loop);
-    if (part.finish.targets.empty()) warnings.push_back(windingWarning(grid, loop));
-  });
-  for (const auto& some : {warnings, warningsOf(report), finish.warnings(), outputs.numberWarnings(grid),
-                           outputs.lossWarnings(grid, LossesOf::Grid)})
-    for (const std::string& warning : some)
-      if (!warning.empty()) run.warn(warning);
-  withThreads({}, [&] {
-    Recorder recorder;
-    outputs.writeGrids(grid, recorder.loop("write", control));
-    if (numbers != nullptr)
-      numbers->make([&](const std::string& path) {
-        writeNumberTable(report.nodes, report.triangles, path, recorder.loop("write", control));
-      });
-  });
-  outputs.commit();
-  if (!part.quiet) std::fputs((textOf(report, usage) + finishSummary(part.finish, finish)).c_str(), stdout);
-  return finish.repairs.left.empty() ? kExitDone : kExitShort;
+  const auto cut = [&](Grid& grid, const RunControl&, const ItemLoop& loop) {
+    MeshEdit edit;
+    report = cutGrid(grid, requireTriangles(usage.part, grid, usage.mesh.path, kPurpose, edit.warnings, loop),
+                     usage.cut, loop);
+    std::ranges::move(warningsOf(report), std::back_inserter(edit.warnings));
+    edit.text = [&](const Grid&) { return textOf(report, usage); };
+    edit.writeNumbers = [&](const std::string& path, const ItemLoop& write) {
+      writeNumberTable(report.nodes, report.triangles, path, write);
+    };
+    return edit;
+  };
+  return runMeshEdit("cut", usage.mesh, usage.part, cut, run);
 }
 
 }  // namespace

@@ -1,14 +1,12 @@
-#include <cstdio>
+#include <algorithm>
+#include <iterator>
 #include <memory>
 #include <utility>
 
 #include "apps/cli/commands.hpp"
-#include "apps/cli/mesh_file.hpp"
-#include "apps/cli/run_outputs.hpp"
-#include "apps/job/finish_grid.hpp"
+#include "apps/cli/mesh_edit.hpp"
 #include "apps/job/places.hpp"
 #include "apps/merge/merge_mesh.hpp"
-#include "apps/process/exit_codes.hpp"
 #include "apps/report/remesh_texts.hpp"
 #include "apps/report/report_sections.hpp"
 #include "apps/usage/finish_usage.hpp"
@@ -18,8 +16,6 @@
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/merge/match_crs.hpp"
 #include "gis/merge/source_table.hpp"
-#include "parallel/recorder.hpp"
-#include "parallel/workers.hpp"
 
 namespace coastmesh {
 
@@ -35,7 +31,7 @@ struct MergeUsage {
 // What is known of one mesh that was put in.
 struct Inserted {
   std::string path;
-  std::size_t triangles = 0, nodes = 0;
+  std::size_t triangles = 0;
   MergedMesh result;
 };
 
@@ -52,7 +48,7 @@ Inserted putIn(Grid& grid, const std::string& path, const MergeUsage& usage, con
   findMissingBoundaries(inserted);
   matchCrs(inserted, grid, path);
   if (const std::string warning = depthWarning(grid, inserted, path); !warning.empty()) run.warn(warning);
-  Inserted done{path, inserted.triangles.size(), inserted.nodes.size(), {}};
+  Inserted done{path, inserted.triangles.size(), {}};
   try {
     done.result = mergeMesh(grid, std::move(inserted), usage.merge, control, loop);
   } catch (const InputError& error) {
@@ -76,12 +72,8 @@ std::vector<std::string> warningsOf(const Inserted& inserted, const MergeUsage& 
                   forCount(merged.cut_off, " triangle", " triangles"));
   if (merged.partition_dropped)
     all.emplace_back("the assignment to processes is of the meshes before, and left out; partition makes a new one");
-  if (!inserted.result.band) return all;
-  if (const std::string below = belowBoundsWarning(*inserted.result.band); !below.empty()) all.push_back(below);
-  if (!usage.merge.depth.files.empty()) {
-    const DepthReport& depth = inserted.result.band->depth;
-    all.insert(all.end(), depth.warnings.begin(), depth.warnings.end());
-  }
+  if (inserted.result.band)
+    std::ranges::move(newNodeWarnings(*inserted.result.band, usage.merge.depth), std::back_inserter(all));
   return all;
 }
 
@@ -117,51 +109,30 @@ std::vector<MergeSource> ownSources(std::size_t count) {
 }
 
 int runMerge(const MergeUsage& usage, Run& run) {
-  const PartUsage& part = usage.part;
-  requireNumbers(part);
-  RunOutputs outputs(part.overwrite, run.inputs, run.interrupt);
-  outputs.addGrids(part.outputs, part.format);
-  StagedFiles* const numbers = part.numbers.empty() ? nullptr : &outputs.addFile(part.numbers);
-  Grid grid = readMeshFile(usage.mesh, run);
-  findMissingBoundaries(grid);
-  const RunControl control{[&run] { return run.interrupt.requested(); }, {}};
-  std::vector<MergeSource> nodes = ownSources(grid.nodes.size()), triangles = ownSources(grid.triangles.size());
+  requireNumbers(usage.part);
   std::vector<Inserted> all;
-  FinishReport finish;
-  std::string winding;
-  withThreads({}, [&] {
-    Recorder recorder;
-    const ItemLoop loop = recorder.loop("merge", control);
+  std::vector<MergeSource> nodes, triangles;
+  const auto merge = [&](Grid& grid, const RunControl& control, const ItemLoop& loop) {
+    MeshEdit edit;
+    nodes = ownSources(grid.nodes.size());
+    triangles = ownSources(grid.triangles.size());
     for (std::uint32_t i = 0; i < usage.inserted.size(); ++i) {
       all.push_back(putIn(grid, usage.inserted[i], usage, control, run, loop));
       nodes = composed(nodes, all.back().result.nodes, i + 1);
       triangles = composed(triangles, all.back().result.triangles, i + 1);
+      std::ranges::move(warningsOf(all.back(), usage), std::back_inserter(edit.warnings));
     }
-    finish = finishGrid(grid, part.finish, control, loop);
-    if (part.finish.targets.empty()) winding = windingWarning(grid, loop);
-  });
-  std::vector<std::string> warnings{winding};
-  for (const Inserted& inserted : all)
-    for (std::string& warning : warningsOf(inserted, usage)) warnings.push_back(std::move(warning));
-  for (const auto& some :
-       {warnings, finish.warnings(), outputs.numberWarnings(grid), outputs.lossWarnings(grid, LossesOf::Grid)})
-    for (const std::string& warning : some)
-      if (!warning.empty()) run.warn(warning);
-  withThreads({}, [&] {
-    Recorder recorder;
-    outputs.writeGrids(grid, recorder.loop("write", control));
-    if (numbers != nullptr)
-      numbers->make(
-          [&](const std::string& path) { writeSourceTable(nodes, triangles, path, recorder.loop("write", control)); });
-  });
-  outputs.commit();
-  if (!part.quiet) {
-    std::string text;
-    for (const Inserted& inserted : all) text += textOf(inserted, grid);
-    text += grouped(grid.nodes.size()) + " nodes, " + grouped(grid.triangles.size()) + " triangles\n";
-    std::fputs((text + finishSummary(part.finish, finish)).c_str(), stdout);
-  }
-  return finish.repairs.left.empty() ? kExitDone : kExitShort;
+    edit.text = [&](const Grid& finished) {
+      std::string text;
+      for (const Inserted& inserted : all) text += textOf(inserted, finished);
+      return text + grouped(finished.nodes.size()) + " nodes, " + grouped(finished.triangles.size()) + " triangles\n";
+    };
+    edit.writeNumbers = [&](const std::string& path, const ItemLoop& write) {
+      writeSourceTable(nodes, triangles, path, write);
+    };
+    return edit;
+  };
+  return runMeshEdit("merge", usage.mesh, usage.part, merge, run);
 }
 
 }  // namespace

@@ -1,13 +1,11 @@
+#include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <iterator>
 #include <memory>
 
 #include "apps/cli/commands.hpp"
-#include "apps/cli/mesh_file.hpp"
-#include "apps/cli/run_outputs.hpp"
-#include "apps/job/finish_grid.hpp"
+#include "apps/cli/mesh_edit.hpp"
 #include "apps/job/places.hpp"
-#include "apps/process/exit_codes.hpp"
 #include "apps/remesh/remesh_grid.hpp"
 #include "apps/report/remesh_texts.hpp"
 #include "apps/report/report_sections.hpp"
@@ -17,9 +15,6 @@
 #include "gis/cut/number_table.hpp"
 #include "gis/error.hpp"
 #include "gis/for_count.hpp"
-#include "gis/grid/boundary_chains.hpp"
-#include "parallel/recorder.hpp"
-#include "parallel/workers.hpp"
 
 namespace coastmesh {
 
@@ -53,13 +48,7 @@ std::vector<std::string> warningsOf(const RemeshReport& report, const RemeshUsag
     all.emplace_back("--size-shore has no effect: the mesh has no shore near the part that is meshed anew");
   if (report.replaced.partition_dropped)
     all.emplace_back("the assignment to processes is of the mesh before, and left out; partition makes a new one");
-  all.push_back(belowBoundsWarning(report));
-  if (!usage.remesh.depth.files.empty()) {
-    all.insert(all.end(), report.depth.warnings.begin(), report.depth.warnings.end());
-    if (report.depth.unknown > 0)
-      all.push_back(grouped(report.depth.unknown) + forCount(report.depth.unknown, " new node has", " new nodes have") +
-                    " no depth, as no raster and no node around has one");
-  }
+  std::ranges::move(newNodeWarnings(report, usage.remesh.depth), std::back_inserter(all));
   return all;
 }
 
@@ -98,39 +87,19 @@ int runRemesh(RemeshUsage& usage, Run& run) {
   RemeshOptions& options = usage.remesh;
   settleSizing(usage.sizing, options.depth, SizeChoice::None, options.sizes);
   for (const std::string& note : notesOnOverriddenSizes(usage.sizing, options.sizes)) run.warn(note);
-  const PartUsage& part = usage.part;
-  RunOutputs outputs(part.overwrite, run.inputs, run.interrupt);
-  outputs.addGrids(part.outputs, part.format);
-  StagedFiles* const numbers = part.numbers.empty() ? nullptr : &outputs.addFile(part.numbers);
-  Grid grid = readMeshFile(usage.mesh, run);
-  findMissingBoundaries(grid);
-  const RunControl control{[&run] { return run.interrupt.requested(); }, {}};
   RemeshReport report;
-  FinishReport finish;
-  std::vector<std::string> warnings;
-  withThreads({}, [&] {
-    Recorder recorder;
-    const ItemLoop loop = recorder.loop("remesh", control);
-    report = remeshGrid(grid, requireTriangles(part, grid, usage.mesh.path, kPurpose, warnings, loop), options, control,
-                        loop);
-    finish = finishGrid(grid, part.finish, control, loop);
-    if (part.finish.targets.empty()) warnings.push_back(windingWarning(grid, loop));
-  });
-  for (const auto& some : {warnings, warningsOf(report, usage, grid), finish.warnings(), outputs.numberWarnings(grid),
-                           outputs.lossWarnings(grid, LossesOf::Grid)})
-    for (const std::string& warning : some)
-      if (!warning.empty()) run.warn(warning);
-  withThreads({}, [&] {
-    Recorder recorder;
-    outputs.writeGrids(grid, recorder.loop("write", control));
-    if (numbers != nullptr)
-      numbers->make([&](const std::string& path) {
-        writeNumberTable(report.replaced.nodes, report.replaced.triangles, path, recorder.loop("write", control));
-      });
-  });
-  outputs.commit();
-  if (!part.quiet) std::fputs((textOf(report, usage, grid) + finishSummary(part.finish, finish)).c_str(), stdout);
-  return finish.repairs.left.empty() ? kExitDone : kExitShort;
+  const auto remesh = [&](Grid& grid, const RunControl& control, const ItemLoop& loop) {
+    MeshEdit edit;
+    report = remeshGrid(grid, requireTriangles(usage.part, grid, usage.mesh.path, kPurpose, edit.warnings, loop),
+                        options, control, loop);
+    std::ranges::move(warningsOf(report, usage, grid), std::back_inserter(edit.warnings));
+    edit.text = [&](const Grid& finished) { return textOf(report, usage, finished); };
+    edit.writeNumbers = [&](const std::string& path, const ItemLoop& write) {
+      writeNumberTable(report.replaced.nodes, report.replaced.triangles, path, write);
+    };
+    return edit;
+  };
+  return runMeshEdit("remesh", usage.mesh, usage.part, remesh, run);
 }
 
 }  // namespace

@@ -17,8 +17,7 @@ std::vector<NodePair> shoreEdges(const Grid& grid, const TriMesh& mesh) {
     for (unsigned i = 0; i < 3; ++i) {
       const EdgeRef e = edgeRef(t, i);
       if (mesh.twin(e) != kNone) continue;
-      const BoundaryKind* const kind = kinds.find(mesh.origin(e), mesh.target(e));
-      if (kind == nullptr || kind->role != BoundaryRole::Open) edges.push_back({mesh.origin(e), mesh.target(e)});
+      if (!kinds.isOpen(mesh.origin(e), mesh.target(e))) edges.push_back({mesh.origin(e), mesh.target(e)});
     }
   }
   return edges;

@@ -22,11 +22,19 @@ std::string figuresText(const TriangleFigures& figures, const Grid& grid) {
          amount("%.1f", figures.min_angle_deg) + " degrees\n";
 }
 
-std::string belowBoundsWarning(const RemeshReport& report) {
-  if (!report.worst_below) return {};
-  return grouped(report.below_bounds) + forCount(report.below_bounds, " new triangle misses", " new triangles miss") +
-         " the bounds on angles, beside edges that have to stay; the smallest angle is " +
-         amount("%.1f", report.worst_below->min_angle_deg) + " degrees, at " + pointText(report.worst_below->place);
+std::vector<std::string> newNodeWarnings(const RemeshReport& report, const DepthOptions& depth) {
+  std::vector<std::string> all;
+  if (report.worst_below)
+    all.push_back(
+        grouped(report.below_bounds) + forCount(report.below_bounds, " new triangle misses", " new triangles miss") +
+        " the bounds on angles, beside edges that have to stay; the smallest angle is " +
+        amount("%.1f", report.worst_below->min_angle_deg) + " degrees, at " + pointText(report.worst_below->place));
+  if (depth.files.empty()) return all;
+  all.insert(all.end(), report.depth.warnings.begin(), report.depth.warnings.end());
+  if (report.depth.unknown > 0)
+    all.push_back(grouped(report.depth.unknown) + forCount(report.depth.unknown, " new node has", " new nodes have") +
+                  " no depth, as no raster and no node around has one");
+  return all;
 }
 
 }  // namespace coastmesh

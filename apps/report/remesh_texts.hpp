@@ -1,9 +1,11 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "apps/remesh/remesh_grid.hpp"
 #include "gis/grid/grid.hpp"
+#include "gis/model/depth.hpp"
 
 namespace coastmesh {
 
@@ -13,7 +15,7 @@ std::string lengthText(double length, const Grid& grid);
 // "120 triangles, edges from 90 m to 1 200 m, angles from 31.2 degrees\n"
 std::string figuresText(const TriangleFigures& figures, const Grid& grid);
 
-// A warning of new triangles that miss the bounds on angles; empty if there are none.
-std::string belowBoundsWarning(const RemeshReport& report);
+// Warnings of new triangles that miss the bounds on angles, and of new nodes' depths.
+std::vector<std::string> newNodeWarnings(const RemeshReport& report, const DepthOptions& depth);
 
 }  // namespace coastmesh

@@ -14,8 +14,6 @@ namespace coastmesh {
 
 namespace {
 
-NodePair keyOf(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
-
 // Where the grid's mesh ends, and whether the triangle there is taken.
 class OuterEdges {
  public:
@@ -27,7 +25,7 @@ class OuterEdges {
           for (auto t = static_cast<TriId>(first); t < last; ++t) {
             for (unsigned i = 0; i < 3; ++i) {
               const EdgeRef e = edgeRef(t, i);
-              if (mesh.twin(e) == kNone) found.emplace_back(keyOf(mesh.origin(e), mesh.target(e)), taken[t] != 0);
+              if (mesh.twin(e) == kNone) found.emplace_back(edgeKey(mesh.origin(e), mesh.target(e)), taken[t] != 0);
             }
           }
           return found;
@@ -36,7 +34,7 @@ class OuterEdges {
   }
 
   State at(std::uint32_t a, std::uint32_t b) const {
-    const auto [first, last] = std::ranges::equal_range(edges_, keyOf(a, b), {}, &Edge::first);
+    const auto [first, last] = std::ranges::equal_range(edges_, edgeKey(a, b), {}, &Edge::first);
     if (first == last) return State::Stray;
     return std::prev(last)->second ? State::Kept : State::Lost;
   }
@@ -49,13 +47,6 @@ class OuterEdges {
 std::size_t edgesIn(const Boundary& boundary) {
   const std::size_t n = boundary.nodes.size();
   return boundary.closed ? n : n - std::min<std::size_t>(n, 1);
-}
-
-// A part of a closed island is no island.
-void asPart(Boundary& piece) {
-  if (piece.closed) return;
-  if (piece.role == BoundaryRole::Island) piece.role = BoundaryRole::Land;
-  if (isPartOfIsland(piece)) piece.ibtype = mainlandType(piece.ibtype);
 }
 
 class BoundaryDivider {
@@ -92,7 +83,7 @@ class BoundaryDivider {
 
  private:
   static void asPartOf(const Boundary& boundary, Boundary& piece) {
-    if (piece.nodes.size() < boundary.nodes.size() || piece.closed != boundary.closed) asPart(piece);
+    if (piece.nodes.size() < boundary.nodes.size() || piece.closed != boundary.closed) asPartOfShore(piece);
   }
 
   void addWalls(const Boundary& shore, const std::function<bool(std::size_t)>& alone) {
@@ -173,6 +164,12 @@ std::vector<Boundary> chainsOfCut(const Grid& grid, const TriMesh& mesh, const s
 }
 
 }  // namespace
+
+void asPartOfShore(Boundary& piece) {
+  if (piece.closed) return;
+  if (piece.role == BoundaryRole::Island) piece.role = BoundaryRole::Land;
+  if (isPartOfIsland(piece)) piece.ibtype = mainlandType(piece.ibtype);
+}
 
 CutBoundaries boundariesOfPart(const Grid& grid, const TriMesh& mesh, const std::vector<std::uint8_t>& taken,
                                BoundaryRole cut_role, const ItemLoop& loop) {

@@ -18,6 +18,9 @@ struct CutBoundaries {
   std::size_t stray_edges = 0;  // edges of the grid's boundaries that its mesh does not end at: left out
 };
 
+// A part of a closed island is no island: it becomes land, of the mainland's type.
+void asPartOfShore(Boundary& piece);
+
 // Boundaries keep their direction and, if they are whole, all else. One that loses edges is divided there; an island
 // then becomes land. Weirs keep what both shores are left of. `cut_role` is Open or Land; land all around is an island
 // if its shape says so. `taken` has one flag for each triangle; `mesh` is the grid's, from `linkGrid`.

@@ -14,8 +14,6 @@ namespace {
 
 bool isShore(BoundaryRole role) { return role == BoundaryRole::Land || role == BoundaryRole::Island; }
 
-NodePair keyOf(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
-
 // By boundary: 0, or for open boundaries and rivers the least number that no adjacent one of the same kind has.
 std::vector<std::uint32_t> separatorsOf(const std::vector<Boundary>& boundaries) {
   std::vector<std::uint32_t> separators(boundaries.size(), 0);
@@ -94,7 +92,7 @@ std::vector<Boundary> cutLoops(const Grid& grid, const std::vector<std::vector<s
 EdgeKinds::EdgeKinds(const Grid& grid) {
   for (std::uint32_t b = 0; b < grid.boundaries.size(); ++b) {
     kinds_.push_back({grid.boundaries[b].role, grid.boundaries[b].ibtype, b});
-    for (const auto& [from, to] : edgesOf(grid.boundaries[b])) edges_.emplace_back(keyOf(from, to), b);
+    for (const auto& [from, to] : edgesOf(grid.boundaries[b])) edges_.emplace_back(edgeKey(from, to), b);
   }
   std::ranges::sort(edges_);
   separators_ = separatorsOf(grid.boundaries);
@@ -108,7 +106,7 @@ BoundaryKind EdgeKinds::forCutting(std::uint32_t a, std::uint32_t b) const {
 }
 
 const BoundaryKind* EdgeKinds::find(std::uint32_t a, std::uint32_t b) const& {
-  const NodePair key = keyOf(a, b);
+  const NodePair key = edgeKey(a, b);
   const auto at = std::ranges::lower_bound(edges_, key, {}, [](const auto& entry) { return entry.first; });
   return at != edges_.end() && at->first == key ? &kinds_[at->second] : nullptr;
 }

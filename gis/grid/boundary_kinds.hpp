@@ -46,6 +46,11 @@ class EdgeKinds {
   const BoundaryKind* find(std::uint32_t a, std::uint32_t b) const&;
   const BoundaryKind* find(std::uint32_t a, std::uint32_t b) const&& = delete;  // would point into what is gone
 
+  bool isOpen(std::uint32_t a, std::uint32_t b) const {
+    const BoundaryKind* const kind = find(a, b);
+    return kind != nullptr && kind->role == BoundaryRole::Open;
+  }
+
   // The kind for boundaries that are cut anew (`cutLoops`): islands, and edges in no boundary, are land. `segment` is 0
   // unless it separates open boundaries or rivers of one kind that meet at a node.
   BoundaryKind forCutting(std::uint32_t a, std::uint32_t b) const;

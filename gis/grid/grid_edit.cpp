@@ -36,8 +36,6 @@ void copyLast(std::vector<T, Allocator>& values, std::size_t source) {
   if (!values.empty()) values.push_back(T(values[source]));
 }
 
-NodePair keyOf(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
-
 // Calls `use(from, to)` for each edge of a chain.
 void forEachEdge(std::span<const std::uint32_t> nodes, bool closed, auto&& use) {
   for (std::size_t i = 1; i < nodes.size(); ++i) use(nodes[i - 1], nodes[i]);
@@ -119,7 +117,8 @@ void cutLines(Grid& grid, auto&& holds) {
 std::vector<std::pair<NodePair, int>> edgesOfLines(const Grid& grid) {
   std::vector<std::pair<NodePair, int>> edges;
   for (const GridLine& line : grid.lines)
-    forEachEdge(line.nodes, line.closed, [&](std::uint32_t a, std::uint32_t b) { edges.emplace_back(keyOf(a, b), 0); });
+    forEachEdge(line.nodes, line.closed,
+                [&](std::uint32_t a, std::uint32_t b) { edges.emplace_back(edgeKey(a, b), 0); });
   std::ranges::sort(edges);
   const auto repeated = std::ranges::unique(edges);
   edges.erase(repeated.begin(), repeated.end());
@@ -130,8 +129,8 @@ std::vector<std::pair<NodePair, int>> edgesOfLines(const Grid& grid) {
     for (unsigned i = 0; i < 3; ++i) {
       const std::uint32_t a = v[i], b = v[(i + 1) % 3];
       if (!on_line[a] || !on_line[b]) continue;
-      const auto at = std::ranges::lower_bound(edges, keyOf(a, b), {}, &std::pair<NodePair, int>::first);
-      if (at != edges.end() && at->first == keyOf(a, b)) ++at->second;
+      const auto at = std::ranges::lower_bound(edges, edgeKey(a, b), {}, &std::pair<NodePair, int>::first);
+      if (at != edges.end() && at->first == edgeKey(a, b)) ++at->second;
     }
   }
   return edges;
@@ -236,7 +235,7 @@ std::uint32_t addNodeBetween(Grid& grid, std::uint32_t a, std::uint32_t b, doubl
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const bool last = i + 1 == nodes.size();
       if (last && !line.closed) break;
-      if (keyOf(nodes[i], nodes[last ? 0 : i + 1]) != keyOf(a, b)) continue;
+      if (edgeKey(nodes[i], nodes[last ? 0 : i + 1]) != edgeKey(a, b)) continue;
       nodes.insert(nodes.begin() + static_cast<std::ptrdiff_t>(i) + 1, added);
       ++i;
     }
@@ -418,7 +417,7 @@ void cutLinesOffEdges(Grid& grid) {
   if (grid.lines.empty()) return;
   const auto edges = edgesOfLines(grid);
   cutLines(grid, [&](std::uint32_t a, std::uint32_t b) {
-    return std::ranges::lower_bound(edges, keyOf(a, b), {}, &std::pair<NodePair, int>::first)->second == 2;
+    return std::ranges::lower_bound(edges, edgeKey(a, b), {}, &std::pair<NodePair, int>::first)->second == 2;
   });
 }
 

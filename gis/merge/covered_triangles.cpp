@@ -50,10 +50,8 @@ class Tester {
       if (node != kNone) shared.push_back(node);
     std::ranges::sort(shared);
     const auto isShared = [&](std::uint32_t node) { return std::ranges::binary_search(shared, node); };
-    for (const Outline::Edge& edge : outline.edges()) {
+    for (const Outline::Edge& edge : outline.edges())
       stays_.push_back(edge.joins && !isShared(edge.a) && !isShared(edge.b) ? 1 : 0);
-      if (stays_.back() != 0) longest_ = std::max(longest_, distance(outline.place(edge.a), outline.place(edge.b)));
-    }
   }
 
   bool isMet(TriId t) const {
@@ -110,13 +108,7 @@ class Tester {
   // True for a node of a shore, which would stay, that is close to an edge that stays too, for its length: of a coarser
   // mesh. Edges at which the meshes continue one another do not count.
   bool isBesideEdge(VertexId v) const {
-    const Point& p = mesh_.points[v];
-    bool is_beside = false;
-    outline_.visit(Box::of(p, p).grownBy(kNear * longest_), [&](std::uint32_t e) {
-      const Point &a = outline_.place(outline_.edges()[e].a), &b = outline_.place(outline_.edges()[e].b);
-      if (stays_[e] != 0 && squaredDistanceToSegment(p, a, b) < kNear * kNear * squaredDistance(a, b)) is_beside = true;
-    });
-    return is_beside;
+    return outline_.isNear(mesh_.points[v], kNear, [&](std::uint32_t e) { return stays_[e] != 0; });
   }
 
   const TriMesh& mesh_;
@@ -124,7 +116,6 @@ class Tester {
   const Outline& outline_;
   std::vector<std::uint8_t> is_shore_;  // for each node
   std::vector<std::uint8_t> stays_;     // for each edge of the outline: it joins, and no node of the mesh is its end
-  double longest_ = 0.0;                // of these
 };
 
 // The edges of the outline between nodes of the mesh, sorted.

@@ -1,8 +1,6 @@
 #include "gis/merge/gap_faces.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <string>
 
 #include "core/metric.hpp"
@@ -27,8 +25,15 @@ class GapFiller {
         outline_(outline),
         loop_(loop),
         shift_(static_cast<std::uint32_t>(mesh.points.size())) {
-    for (const std::vector<VertexId>& ring : holes)
-      for (std::size_t i = 0; i < ring.size(); ++i) hole_edges_.push_back({ring[i], ring[(i + 1) % ring.size()]});
+    for (const std::vector<VertexId>& ring : holes) {
+      std::vector<Point> places;
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        hole_edges_.push_back({ring[i], ring[(i + 1) % ring.size()]});
+        places.push_back(mesh.points[ring[i]]);
+      }
+      holes_.add(places);
+    }
+    holes_.build();
     std::ranges::sort(hole_edges_);
   }
 
@@ -76,21 +81,7 @@ class GapFiller {
     std::ranges::sort(walls_);
   }
 
-  bool isClear(const Point& p) const {
-    bool clear = true;
-    // No edge that is near enough to matter is longer than this from the place.
-    const Box& all = outline_.box();
-    const double reach = kNear * std::max(all.xmax - all.xmin, all.ymax - all.ymin);
-    outline_.visit(Box::of(p, p).grownBy(std::min(reach, longest_ * kNear)), [&](std::uint32_t e) {
-      const Point &a = outline_.place(outline_.edges()[e].a), &b = outline_.place(outline_.edges()[e].b);
-      if (squaredDistanceToSegment(p, a, b) < kNear * kNear * squaredDistance(a, b)) clear = false;
-    });
-    return clear;
-  }
-
   void gatherPoints() {
-    for (const Outline::Edge& edge : outline_.edges())
-      longest_ = std::max(longest_, distance(outline_.place(edge.a), outline_.place(edge.b)));
     std::vector<std::uint8_t> is_fixed(shift_, 0);
     for (TriId t = 0; t < mesh_.triangles.size(); ++t)
       if (cover_[t] == Cover::Free)
@@ -107,7 +98,8 @@ class GapFiller {
     std::vector<std::uint8_t> taken(candidates.size(), 0);
     forEachByStretches(loop_, candidates.size(), [&](std::size_t i) {
       const Point& p = mesh_.points[candidates[i]];
-      taken[i] = is_fixed[candidates[i]] != 0 || (!outline_.surrounds(p) && isClear(p)) ? 1 : 0;
+      const bool is_clear = !outline_.surrounds(p) && !outline_.isNear(p, kNear, [](std::uint32_t) { return true; });
+      taken[i] = is_fixed[candidates[i]] != 0 || is_clear ? 1 : 0;
     });
     for (std::size_t i = 0; i < candidates.size(); ++i)
       if (taken[i] != 0) nodes_.push_back(candidates[i]);
@@ -203,22 +195,10 @@ class GapFiller {
       for (const VertexId v : mesh_.triangles[t].v) box.add(mesh_.points[v]);
     }
     met_tree_ = BoxTree(boxes, BoxTree::Order::Hilbert, loop_);
-    boxes.clear();
-    for (const auto& [a, b] : hole_edges_) boxes.push_back(Box::of(mesh_.points[a], mesh_.points[b]));
-    hole_tree_ = BoxTree(boxes, BoxTree::Order::Hilbert, loop_);
-  }
-
-  bool isInHole(const Point& p) const {
-    bool inside = false;
-    hole_tree_.visit({p.x, p.y, std::numeric_limits<double>::infinity(), p.y}, [&](std::uint32_t i) {
-      const Point &a = mesh_.points[hole_edges_[i][0]], &b = mesh_.points[hole_edges_[i][1]];
-      if ((a.y <= p.y) != (b.y <= p.y) && (orient2d(a, b, p) > 0) == (a.y <= p.y)) inside = !inside;
-    });
-    return inside;
   }
 
   bool isWater(const Point& p) const {
-    bool found = isInHole(p);
+    bool found = holes_.locate(p) == Location::Inside;
     met_tree_.visit(Box::of(p, p), [&](std::uint32_t i) {
       const auto& v = mesh_.triangles[met_[i]].v;
       const Point &a = mesh_.points[v[0]], &b = mesh_.points[v[1]], &c = mesh_.points[v[2]];
@@ -245,14 +225,14 @@ class GapFiller {
   const Outline& outline_;
   const ItemLoop& loop_;
   std::uint32_t shift_;
-  double longest_ = 0.0;  // edge of the outline
   std::vector<TriId> met_;
   std::vector<std::uint32_t> outline_nodes_, joining_;  // numbers, sorted; with an edge that joins
   std::vector<NodePair> outline_keys_, walls_;          // sorted; walls do not join
   std::vector<std::uint32_t> nodes_;                    // the number of each point, ascending
   std::vector<NodePair> edges_;
   std::vector<NodePair> hole_edges_;  // in their direction, sorted
-  BoxTree met_tree_, hole_tree_;
+  ChainIndex holes_{ChainIndex::Kind::Rings};
+  BoxTree met_tree_;
 };
 
 }  // namespace

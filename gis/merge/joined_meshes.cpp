@@ -51,8 +51,7 @@ std::vector<std::vector<VertexId>> openHoles(const TriMesh& mesh, const EdgeKind
     std::vector<Point> places;
     Box box;
     for (std::size_t i = 0; i < ring.size(); ++i) {
-      const BoundaryKind* const kind = kinds.find(ring[i], ring[(i + 1) % ring.size()]);
-      if (kind == nullptr || kind->role != BoundaryRole::Open) return true;
+      if (!kinds.isOpen(ring[i], ring[(i + 1) % ring.size()])) return true;
       places.push_back(mesh.points[ring[i]]);
       box.add(places.back());
     }
@@ -72,11 +71,6 @@ std::vector<VertexId> changedNodes(const TriMesh& mesh, std::span<const std::uin
     if (of_kept[v] != 0 && (of_covered[v] != 0 || same[v] != kNone))
       changed.push_back(same[v] == kNone ? v : static_cast<VertexId>(same.size()) + same[v]);
   return changed;
-}
-
-bool isOpen(const EdgeKinds& kinds, const TriMesh& mesh, EdgeRef e) {
-  const BoundaryKind* const kind = kinds.find(mesh.origin(e), mesh.target(e));
-  return kind != nullptr && kind->role == BoundaryRole::Open;
 }
 
 class MeshJoiner {
@@ -139,10 +133,12 @@ class MeshJoiner {
   EndKind endKindOf(EdgeRef e) const {
     const TriId t = triOf(e);
     if (t >= joined_.first_gap) return EndKind::Shore;
-    if (t < joined_.first_inserted)
-      return isOpen(kinds_, joined_.mesh, edgeRef(joined_.kept[t], indexOf(e))) ? EndKind::OpenOfOne : EndKind::Shore;
-    return isOpen(inserted_kinds_, inserted_, e - edgeRef(joined_.first_inserted, 0)) ? EndKind::OpenOfOther
-                                                                                      : EndKind::Shore;
+    if (t < joined_.first_inserted) {
+      const EdgeRef own = edgeRef(joined_.kept[t], indexOf(e));
+      return kinds_.isOpen(joined_.mesh.origin(own), joined_.mesh.target(own)) ? EndKind::OpenOfOne : EndKind::Shore;
+    }
+    const EdgeRef own = e - edgeRef(joined_.first_inserted, 0);
+    return inserted_kinds_.isOpen(inserted_.origin(own), inserted_.target(own)) ? EndKind::OpenOfOther : EndKind::Shore;
   }
 
   void assemble() {
@@ -164,9 +160,11 @@ class MeshJoiner {
     std::vector<EdgeConflict> conflicts;
     joined_.whole = linkTriangles(std::move(points), corners, conflicts, loop_);
     // Conflicts within either mesh are not of this.
-    const auto isOfBoth = [&](VertexId v) {
-      return v >= shift && std::ranges::find(joined_.same, v - shift) != joined_.same.end();
-    };
+    if (conflicts.empty()) return;
+    std::vector<std::uint8_t> is_same(inserted_.points.size(), 0);
+    for (const std::uint32_t node : joined_.same)
+      if (node != kNone) is_same[node] = 1;
+    const auto isOfBoth = [&](VertexId v) { return v >= shift && is_same[v - shift] != 0; };
     for (const EdgeConflict& edge : conflicts)
       if (isOfBoth(edge.a) && isOfBoth(edge.b))
         throw InputError("the meshes overlap beside the edge at " + placeText(joined_.whole.points[edge.a]) +
@@ -187,7 +185,7 @@ class MeshJoiner {
       for (unsigned k = 0; k < 3; ++k) {
         const EdgeRef e = edgeRef(joined_.kept[i], k), across = joined_.mesh.twin(e);
         if (across != kNone && cover_[triOf(across)] != Cover::Free) is_cut[waters.find(i)] = 1;
-        if (across == kNone && isOpen(kinds_, joined_.mesh, e)) stays[waters.find(i)] = 1;
+        if (across == kNone && kinds_.isOpen(joined_.mesh.origin(e), joined_.mesh.target(e))) stays[waters.find(i)] = 1;
       }
     }
     for (TriId t = joined_.first_inserted; t < joined_.first_gap; ++t) stays[waters.find(t)] = 1;

@@ -1,5 +1,6 @@
 #include "gis/merge/outline.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <span>
 
@@ -11,10 +12,6 @@ namespace coastmesh {
 
 Outline::Outline(const Grid& grid, const TriMesh& mesh, const ItemLoop& loop) : grid_(grid) {
   const EdgeKinds kinds(grid);
-  const auto isOpen = [&](std::uint32_t a, std::uint32_t b) {
-    const BoundaryKind* const kind = kinds.find(a, b);
-    return kind != nullptr && kind->role == BoundaryRole::Open;
-  };
   for (const std::vector<VertexId>& ring : boundaryLoops(mesh, loop)) {
     std::vector<Point> places;
     std::vector<Edge> edges;
@@ -22,7 +19,7 @@ Outline::Outline(const Grid& grid, const TriMesh& mesh, const ItemLoop& loop) : 
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const VertexId a = ring[i], b = ring[(i + 1) % ring.size()];
       places.push_back(grid.nodes[a]);
-      edges.push_back({a, b, isOpen(a, b)});
+      edges.push_back({a, b, kinds.isOpen(a, b)});
       is_open = is_open || edges.back().joins;
     }
     has_open_ = has_open_ || is_open;
@@ -33,6 +30,7 @@ Outline::Outline(const Grid& grid, const TriMesh& mesh, const ItemLoop& loop) : 
     if (!has_open_) edge.joins = true;
     boxes.push_back(Box::of(place(edge.a), place(edge.b)));
     box_.add(boxes.back());
+    longest_ = std::max(longest_, distance(place(edge.a), place(edge.b)));
   }
   tree_ = BoxTree(boxes, BoxTree::Order::Hilbert, loop);
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/item_loop.hpp"
+#include "core/metric.hpp"
 #include "core/tri_mesh.hpp"
 #include "gis/geometry/box.hpp"
 #include "gis/geometry/box_tree.hpp"
@@ -35,6 +36,16 @@ class Outline {
   void visit(const Box& query, Found&& found) const {
     tree_.visit(query, found);
   }
+  // True if the place is nearer to an edge for which `counts(edge)`, an index, than this share of the edge's length.
+  template <typename Counts>
+  bool isNear(const Point& place, double share, const Counts& counts) const {
+    bool is_near = false;
+    visit(Box::of(place, place).grownBy(share * longest_), [&](std::uint32_t e) {
+      const Point &a = this->place(edges_[e].a), &b = this->place(edges_[e].b);
+      is_near = is_near || (squaredDistanceToSegment(place, a, b) < share * share * squaredDistance(a, b) && counts(e));
+    });
+    return is_near;
+  }
   // True if the outline surrounds the place. Exact; places on an edge are on either side.
   bool surrounds(const Point& place) const;
 
@@ -43,6 +54,7 @@ class Outline {
   std::vector<Edge> edges_;
   bool has_open_ = false;
   Box box_;
+  double longest_ = 0.0;  // edge
   BoxTree tree_;
 };
 

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "gis/cut/cut_boundaries.hpp"
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/ibtype.hpp"
@@ -17,8 +18,6 @@ namespace coastmesh {
 namespace {
 
 bool isWeir(const Boundary& boundary) { return !boundary.back_nodes.empty() || !boundary.weir.empty(); }
-
-bool isShore(const BoundaryKind& kind) { return kind.role == BoundaryRole::Land || kind.role == BoundaryRole::Island; }
 
 class SeamBoundaries {
  public:
@@ -94,8 +93,7 @@ class SeamBoundaries {
         continue;
       }
       for (Boundary& piece : piecesOf(boundary, [&](std::size_t i) { return outer[i] != 0; })) {
-        if (!piece.closed && piece.role == BoundaryRole::Island) piece.role = BoundaryRole::Land;
-        if (isPartOfIsland(piece)) piece.ibtype = mainlandType(piece.ibtype);
+        asPartOfShore(piece);
         kept.push_back(std::move(piece));
         inserted_.push_back(b >= origin_.first_inserted);
       }
@@ -129,7 +127,7 @@ class SeamBoundaries {
       } else {
         is_new[i] = true;
         if (const BoundaryKind* const before = origin_.kind_before(from, to))
-          kinds[i] = BoundaryKind{isShore(*before) ? BoundaryRole::Land : before->role, before->ibtype, 0};
+          kinds[i] = BoundaryKind{!isOpening(*before) ? BoundaryRole::Land : before->role, before->ibtype, 0};
       }
     }
     resolveUnknown(kinds);
@@ -147,12 +145,12 @@ class SeamBoundaries {
   static void uniteAlike(std::vector<std::optional<BoundaryKind>>& kinds) {
     const std::size_t n = kinds.size();
     for (auto& kind : kinds)
-      if (isShore(*kind) && kind->segment != kWeir)
+      if (!isOpening(*kind) && kind->segment != kWeir)
         kind = BoundaryKind{BoundaryRole::Land, isRolesOwn(kind->ibtype) ? -1 : kind->ibtype, kind->segment};
     const auto goesOn = [&](std::size_t i, std::size_t j) {
       const BoundaryKind &a = *kinds[i], &b = *kinds[j];
       if (a.segment == kWeir || b.segment == kWeir || a.role != b.role || a.ibtype != b.ibtype) return false;
-      return a.segment == b.segment || isShore(a) || a.segment == 0 || b.segment == 0;
+      return a.segment == b.segment || !isOpening(a) || a.segment == 0 || b.segment == 0;
     };
     std::size_t start = 0;
     while (start < n && goesOn((start + n - 1) % n, start)) ++start;
