@@ -14,6 +14,8 @@
 #include "apps/report/vector_output.hpp"
 #include "apps/usage/input_usage.hpp"
 #include "apps/usage/target_usage.hpp"
+#include "gis/elements/elements.hpp"
+#include "gis/elements/quads.hpp"
 #include "gis/error.hpp"
 #include "gis/for_count.hpp"
 #include "gis/format/grid_io.hpp"
@@ -92,11 +94,33 @@ DefectRow rowOf(const TargetDefect& defect, const std::string& target) {
   return row;
 }
 
+// Quadrilaterals with an angle of 180 degrees or more.
+std::vector<DefectRow> bentRows(const Grid& grid) {
+  std::vector<DefectRow> rows;
+  for (const Quad& quad : quadsOf(grid)) {
+    const double greatest = std::ranges::max(anglesOf(grid, quad));
+    if (greatest < 180.0) continue;
+    char text[40];
+    std::snprintf(text, sizeof text, "%.3f degrees", greatest);
+    rows.push_back(
+        {"quadrilateral not convex", {}, middleOf(grid, quad.halves[0]), quad.halves[0], -1, greatest, text});
+  }
+  return rows;
+}
+
+// Triangles as the file numbers its elements.
+void useElementNumbers(const Grid& grid, std::vector<DefectRow>& rows) {
+  const Elements elements(grid);
+  for (DefectRow& row : rows)
+    if (row.triangle >= 0) row.triangle = elements.elementOf(static_cast<std::uint32_t>(row.triangle));
+}
+
 // Where triangles meet without being connected: overlaps and, `with_nodes`, repeated and hanging nodes, which
 // `checkTarget` reports for models. Nodes of weirs are exempt: both sides may coincide.
 std::vector<DefectRow> meetingRows(const Grid& grid, bool with_nodes, const ItemLoop& loop) {
   std::vector<DefectRow> rows;
   const TriMesh mesh = linkGrid(grid, loop).mesh;
+  const Elements elements(grid);
   for (const auto& [t, other] : triangleOverlaps(grid, mesh, loop))
     rows.push_back({std::string(toString(TargetDefectKind::Overlap)),
                     {},
@@ -104,7 +128,7 @@ std::vector<DefectRow> meetingRows(const Grid& grid, bool with_nodes, const Item
                     t,
                     -1,
                     0.0,
-                    "with triangle " + std::to_string(other + 1)});
+                    "with triangle " + std::to_string(elements.elementOf(other) + 1)});
   if (!with_nodes) return rows;
   std::vector<bool> of_weir(grid.nodes.size(), false);
   for (const Boundary& boundary : grid.boundaries)
@@ -124,8 +148,9 @@ bool isDefect(const DefectRow& row) { return !row.advice; }
 void printDefects(const CheckUsage& usage, const Grid& grid, const BoundCounts& bounds,
                   const std::vector<DefectRow>& defects) {
   const auto found = std::ranges::count_if(defects, isDefect);
-  std::printf("%s: %zu nodes, %zu %s, %td %s\n", usage.mesh.path.c_str(), grid.nodes.size(), grid.triangles.size(),
-              forCount(grid.triangles.size(), "triangle", "triangles"), found, forCount(found, "defect", "defects"));
+  const char* const element = quadsOf(grid).empty() ? "triangle" : "element";
+  std::printf("%s: %zu nodes, %s, %td %s\n", usage.mesh.path.c_str(), grid.nodes.size(), elementCount(grid).c_str(),
+              found, forCount(found, "defect", "defects"));
   if (bounds.excused() > 0) std::printf("%s\n", boundText(bounds).c_str());
   for (std::size_t begin = 0, end = 0; begin < defects.size(); begin = end) {
     const DefectRow& first = defects[begin];
@@ -135,7 +160,7 @@ void printDefects(const CheckUsage& usage, const Grid& grid, const BoundCounts& 
                 first.advice ? "advice, " : "", first.kind.c_str(), end - begin);
     for (std::size_t i = begin; i < std::min(begin + kPlacesShown, end); ++i) {
       std::printf("  at %s", pointText(defects[i].place).c_str());
-      if (defects[i].triangle >= 0) std::printf(", triangle %lld", static_cast<long long>(defects[i].triangle + 1));
+      if (defects[i].triangle >= 0) std::printf(", %s %lld", element, static_cast<long long>(defects[i].triangle + 1));
       if (defects[i].node >= 0) std::printf(", node %lld", static_cast<long long>(defects[i].node + 1));
       if (!defects[i].detail.empty()) std::printf(", %s", defects[i].detail.c_str());
       std::printf("\n");
@@ -211,6 +236,7 @@ int runCheck(const CheckUsage& usage, Run& run) {
     check = input.files.empty() ? checkGrid(grid, options, loop)
                                 : checkGridAgainst(grid, JobInput(input, loop), options, loop);
     for (const GridDefect& defect : check.defects) rows.push_back(rowOf(defect));
+    for (DefectRow& row : bentRows(grid)) rows.push_back(std::move(row));
     for (DefectRow& row : meetingRows(grid, targets.empty(), loop)) rows.push_back(std::move(row));
     for (DefectRow& row : targetRows(grid, targets, usage, loop)) rows.push_back(std::move(row));
     if (!targets.empty())
@@ -219,6 +245,7 @@ int runCheck(const CheckUsage& usage, Run& run) {
       for (const TargetDefect& defect : checkTimeStep(grid, usage.target_check.time_step_s, loop))
         rows.push_back(rowOf(defect, {}));
   });
+  useElementNumbers(grid, rows);
   // Advice for all models comes after all defects.
   std::ranges::stable_partition(rows, isDefect);
   if (layer != nullptr) {

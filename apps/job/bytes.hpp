@@ -30,10 +30,10 @@ auto partsOf(auto& feature) requires std::is_same_v<std::remove_cvref_t<decltype
   return std::tie(fid, source, attributes, region);
 }
 auto partsOf(auto& grid) requires std::is_same_v<std::remove_cvref_t<decltype(grid)>, Grid> {
-  auto& [title, crs, nodes, z, size_m, triangles, feature_of, piece_of, part_of, node_part_of, min_angle_deg, area_m2,
-         features, boundaries, lines, notes] = grid;
-  return std::tie(title, crs, nodes, z, size_m, triangles, feature_of, piece_of, part_of, node_part_of, min_angle_deg,
-                  area_m2, features, boundaries, lines, notes);
+  auto& [title, crs, nodes, z, size_m, triangles, quad_of, feature_of, piece_of, part_of, node_part_of, min_angle_deg,
+         area_m2, features, boundaries, lines, notes] = grid;
+  return std::tie(title, crs, nodes, z, size_m, triangles, quad_of, feature_of, piece_of, part_of, node_part_of,
+                  min_angle_deg, area_m2, features, boundaries, lines, notes);
 }
 auto partsOf(auto& refusal) requires std::is_same_v<std::remove_cvref_t<decltype(refusal)>, Refusal> {
   auto& [source, fids, reason, place, over_budget, lacks_memory] = refusal;

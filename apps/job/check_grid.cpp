@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <span>
@@ -14,8 +15,10 @@
 #include "core/quality.hpp"
 #include "core/sphere/close_sphere.hpp"
 #include "gis/crs/geodesy.hpp"
+#include "gis/elements/quads.hpp"
 #include "gis/error.hpp"
 #include "gis/grid/frame_box.hpp"
+#include "gis/grid/grid_edit.hpp"
 #include "gis/grid/ground_orientation.hpp"
 #include "gis/grid/local_plane.hpp"
 
@@ -101,6 +104,25 @@ void checkPiece(const GridPiece& piece, const Pslg* pslg, std::span<const std::u
   }
 }
 
+// Checks the angles of a grid with quadrilaterals: of triangles that are no halves, and of quadrilaterals.
+void checkMixedAngles(const Grid& grid, const std::vector<Quad>& quads, const GridCheckOptions& options,
+                      const ItemLoop& loop, GridCheck& result) {
+  GridCheck of_triangles;
+  for (const GridPiece& piece : splitGrid(trianglesOnly(grid), surfaceFor(grid, options.surface), loop))
+    checkPiece(piece, nullptr, {}, options, loop, of_triangles);
+  result.bounds = of_triangles.bounds;
+  std::ranges::copy_if(of_triangles.defects, std::back_inserter(result.defects),
+                       [](const GridDefect& defect) { return defect.kind == DefectKind::AngleBelowBound; });
+  for (const Quad& quad : quads) {
+    const std::array<double, 4> angles = anglesOf(grid, quad);
+    const auto [least, greatest] = std::ranges::minmax(angles);
+    if (least >= options.min_angle_deg - kAngleSlackDeg && greatest <= options.max_angle_deg + kAngleSlackDeg) continue;
+    result.defects.push_back({DefectKind::AngleBelowBound,
+                              placeBetween(grid.crs, grid.nodes[quad.nodes[0]], grid.nodes[quad.nodes[2]], 0.5),
+                              std::int64_t{quad.halves[0]}, least});
+  }
+}
+
 // On the ground, as `mesh` does: the plane of a piece may differ from the one that the mesh was made in.
 void checkOrientation(const Grid& grid, const ItemLoop& loop, std::vector<GridDefect>& defects) {
   for (const std::uint32_t t : turnedTriangles(grid, triangleAreas(grid.nodes, grid.triangles, grid.crs, loop), loop))
@@ -136,8 +158,15 @@ SurfaceKind surfaceFor(const Grid& grid, const SurfaceChoice& choice) {
 
 GridCheck checkGrid(const Grid& grid, const GridCheckOptions& options, const ItemLoop& loop) {
   GridCheck result;
+  const std::vector<Quad> quads = quadsOf(grid);
+  GridCheckOptions of_all = options;
+  if (!quads.empty()) {
+    of_all.min_angle_deg = 0.0;
+    of_all.max_angle_deg = 180.0;
+  }
   for (const GridPiece& piece : splitGrid(grid, surfaceFor(grid, options.surface), loop))
-    checkPiece(piece, nullptr, {}, options, loop, result);
+    checkPiece(piece, nullptr, {}, of_all, loop, result);
+  if (!quads.empty()) checkMixedAngles(grid, quads, options, loop, result);
   checkOrientation(grid, loop, result.defects);
   sortByKind(result.defects);
   return result;

@@ -11,6 +11,7 @@
 #include "core/union_find.hpp"
 #include "gis/coast/coastline.hpp"
 #include "gis/coast/feature_names.hpp"
+#include "gis/elements/quads.hpp"
 #include "gis/error.hpp"
 #include "gis/grid/grid_lines.hpp"
 
@@ -109,6 +110,14 @@ LineEdges::LineEdges(const Grid& grid) {
   std::ranges::sort(edges_);
 }
 
+LineEdges LineEdges::andQuads(const Grid& grid) {
+  LineEdges all(grid);
+  for (const NodePair& edge : edgesOfQuads(grid))
+    all.edges_.emplace_back(edge, static_cast<SegmentId>(grid.lines.size() + 1));
+  std::ranges::sort(all.edges_);
+  return all;
+}
+
 SegmentId LineEdges::segmentAt(std::uint32_t a, std::uint32_t b) const {
   const NodePair key{std::min(a, b), std::max(a, b)};
   const auto at = std::ranges::lower_bound(edges_, key, {}, &std::pair<NodePair, SegmentId>::first);
@@ -200,7 +209,7 @@ GridPiece makePiece(const Grid& grid, std::vector<std::uint32_t> triangles, cons
 
 std::vector<GridPiece> splitGrid(const Grid& grid, SurfaceKind kind, const ItemLoop& loop) {
   std::vector<GridPiece> pieces;
-  const LineEdges lines(grid);
+  const LineEdges lines = LineEdges::andQuads(grid);
   for (std::vector<std::uint32_t>& triangles : connectedTriangles(grid)) {
     const ItemLoop& of_piece = loopOfPiece(triangles.size(), loop);
     const Projection projection = fitProjection(grid, triangles, kind, of_piece);

@@ -28,6 +28,8 @@ struct GridPiece {
 class LineEdges {
  public:
   explicit LineEdges(const Grid& grid);
+  // Those of quadrilaterals too, which need not be Delaunay: one more segment.
+  static LineEdges andQuads(const Grid& grid);
 
   bool empty() const { return edges_.empty(); }
   SegmentId segmentAt(std::uint32_t a, std::uint32_t b) const;  // kNone if it is of no line

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "gis/elements/quads.hpp"
 #include "gis/merge/seam_band.hpp"
 
 namespace coastmesh {
@@ -16,6 +17,15 @@ std::vector<MergeSource> sourcesAfter(const std::vector<MergeSource>& before,
   return sources;
 }
 
+// Quadrilaterals stay where they are not covered.
+void keepQuads(const Grid& grid, SeamBand& band) {
+  for (const Quad& quad : quadsOf(grid))
+    for (const std::uint32_t t : quad.halves) {
+      band.triangles -= band.taken[t];
+      band.taken[t] = 0;
+    }
+}
+
 }  // namespace
 
 MergedMesh mergeMesh(Grid& grid, Grid&& inserted, const MergeOptions& options, const RunControl& control,
@@ -23,6 +33,7 @@ MergedMesh mergeMesh(Grid& grid, Grid&& inserted, const MergeOptions& options, c
   MergedMesh result;
   result.merged = mergeGrids(grid, std::move(inserted), loop);
   SeamBand band = seamBand(grid, result.merged, options.gradation, loop);
+  keepQuads(grid, band);
   if (band.triangles == 0) {
     result.nodes = result.merged.nodes;
     result.triangles = result.merged.triangles;

@@ -16,6 +16,7 @@
 #include "apps/plot/plot_style.hpp"
 #include "core/metric.hpp"
 #include "core/tri_mesh.hpp"
+#include "gis/elements/quads.hpp"
 #include "gis/error.hpp"
 #include "gis/format/grid_names.hpp"
 #include "gis/grid/boundary_chains.hpp"
@@ -260,12 +261,14 @@ class GlobePlot {
 
   // Lines get thinner with the triangles, so that places with small or foreshortened triangles keep the same tint.
   void drawEdges() {
+    const std::vector<std::uint8_t> diagonals = diagonalsOf(grid_);
     std::map<int, Lines> by_width;  // in quarter octaves below the widest
     for (TriId t = 0; t < mesh_.triangles.size(); ++t) {
       if (longestEdgePx(t) < kBlurPx) continue;
       for (unsigned i = 0; i < 3; ++i) {
         const EdgeRef e = edgeRef(t, i), twin = mesh_.twin(e);
         if (twin == kNone || (twin < e && longestEdgePx(triOf(twin)) >= kBlurPx)) continue;
+        if (!diagonals.empty() && diagonals[t] == i) continue;
         const std::uint32_t a = mesh_.origin(e), b = mesh_.target(e);
         const double length = chart_.lengthOf(seen_[a], seen_[b]) * canvas_.pixelsPerUnit();
         const double width = std::min(kWidestEdgePx, kEdgeShare * length) * shareAslant(a, b);

@@ -17,6 +17,7 @@
 #include "apps/plot/plot_lines.hpp"
 #include "apps/plot/plot_style.hpp"
 #include "core/quality.hpp"
+#include "gis/elements/quads.hpp"
 #include "gis/error.hpp"
 #include "gis/format/grid_names.hpp"
 #include "gis/grid/local_plane.hpp"
@@ -107,7 +108,8 @@ class MeshPlot {
         mesh_(piece.mesh),
         options_(options),
         canvas_(path, window.low, window.high, static_cast<double>(options.size_px), kStripPx),
-        lines_(colouredLines(grid)) {
+        lines_(colouredLines(grid)),
+        diagonals_(diagonalsOf(grid)) {
     pixels_.reserve(mesh_.points.size());
     for (const Point& p : mesh_.points) pixels_.push_back(canvas_.toPixel(p));
     centre_ = {(window.low.x + window.high.x) / 2, (window.low.y + window.high.y) / 2};
@@ -145,7 +147,8 @@ class MeshPlot {
       return std::ranges::min(spaceAnglesDeg(piece_.places[v[0]], piece_.places[v[1]], piece_.places[v[2]]));
     return leastAngleDeg(mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]]);
   }
-  bool isBad(TriId t) const { return smallestAngle(t) < options_.min_angle_deg - kAngleSlackDeg; }
+  bool isHalf(TriId t) const { return !diagonals_.empty() && diagonals_[piece_.triangles[t]] != kNoDiagonal; }
+  bool isBad(TriId t) const { return !isHalf(t) && smallestAngle(t) < options_.min_angle_deg - kAngleSlackDeg; }
   double area(TriId t) const {
     const auto& v = mesh_.triangles[t].v;
     return std::abs(signedArea(mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]]));
@@ -287,6 +290,7 @@ class MeshPlot {
         const EdgeRef e = edgeRef(t, i);
         const EdgeRef twin = mesh_.twin(e);
         if (twin == kNone || (twin < e && longestEdgePx(triOf(twin)) >= kBlurPx)) continue;
+        if (isHalf(t) && diagonals_[piece_.triangles[t]] == i) continue;
         const Point& a = pixels_[mesh_.origin(e)];
         const Point& b = pixels_[mesh_.target(e)];
         const double width = std::min(kWidestEdgePx, kEdgeShare * std::hypot(b.x - a.x, b.y - a.y));
@@ -477,6 +481,7 @@ class MeshPlot {
   double most_step_s_ = 0.0;
   std::vector<std::uint32_t> parts_;  // per triangle, if parts are shown
   std::vector<PlotLines> lines_;
+  const std::vector<std::uint8_t> diagonals_;
 };
 
 }  // namespace

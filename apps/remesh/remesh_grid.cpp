@@ -11,6 +11,7 @@
 #include "apps/remesh/mesh_patch.hpp"
 #include "apps/remesh/shore_near.hpp"
 #include "core/quality.hpp"
+#include "gis/elements/quads.hpp"
 #include "gis/error.hpp"
 #include "gis/grid/ground_orientation.hpp"
 #include "gis/grid/linked_grid.hpp"
@@ -171,11 +172,15 @@ RemeshReport remeshGrid(Grid& grid, std::vector<std::uint8_t> taken, const Remes
   MeshedPart part;
   {
     const LinkedGrid linked = linkGrid(grid, loop);
+    includeOtherHalves(grid, taken);
     std::vector<std::uint8_t> reach = reachOf(linked.mesh, taken, loop);
+    const std::vector<std::uint32_t> other_half = otherHalves(grid);
+    for (std::size_t t = 0; t < other_half.size(); ++t)
+      if (other_half[t] != kNone) reach[t] = 0;
     for (std::size_t t = 0; t < options.stay.size(); ++t)
       if (options.stay[t] != 0) reach[t] = 0;
     const std::size_t single = takeInSingle(linked.mesh, reach, taken, loop);
-    if (options.stay.empty()) report.tidied = tidyCut(linked.mesh, taken, loop);
+    if (options.stay.empty()) report.tidied = tidyCut(linked.mesh, other_half, taken, loop);
     const SizeInputs inputs = readSizeInputs(options.sizes, grid.crs);
     const PatchMesher mesher(grid, shoreEdges(grid, linked.mesh), options, inputs, control, loop);
     part = meshGrowing(grid, linked, std::move(taken), reach, mesher, options.most_again, loop);

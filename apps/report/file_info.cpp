@@ -9,6 +9,7 @@
 #include "apps/job/grid_pieces.hpp"
 #include "core/sphere/close_sphere.hpp"
 #include "gis/crs/geodesy.hpp"
+#include "gis/elements/quads.hpp"
 
 namespace coastmesh {
 
@@ -79,13 +80,26 @@ void addChain(std::span<const Point> chain, bool closed, ExtentOf& extent, Extre
   if (closed && chain.size() > 1) edges.add(chain.back(), chain.front());
 }
 
+QuadFigures quadFigures(const Grid& grid) {
+  QuadFigures figures;
+  for (const Quad& quad : quadsOf(grid)) {
+    ++figures.count;
+    const std::array<double, 4> angles = anglesOf(grid, quad);
+    figures.min_angle_deg = std::min(figures.min_angle_deg, std::ranges::min(angles));
+    figures.max_angle_deg = std::max(figures.max_angle_deg, std::ranges::max(angles));
+    if (std::ranges::max(angles) >= 180.0) ++figures.reflex;
+  }
+  return figures;
+}
+
 }  // namespace
 
 MeshInfo describeMesh(const Grid& grid, SurfaceKind surface) {
   MeshInfo info;
   info.crs = nameOf(grid.crs);
   info.nodes = grid.nodes.size();
-  info.triangles = grid.triangles.size();
+  info.quads = quadFigures(grid);
+  info.triangles = grid.triangles.size() - 2 * info.quads.count;
   info.features = grid.features.size();
   for (const Boundary& boundary : grid.boundaries) ++info.boundaries[std::string(toString(boundary.role))];
   ExtentOf extent;
@@ -102,7 +116,7 @@ MeshInfo describeMesh(const Grid& grid, SurfaceKind surface) {
   }
   for (const GridPiece& piece : splitGrid(grid, surface)) {
     ++info.pieces;
-    info.quality.add(measureQuality(piece.mesh, 0.0, 180.0, inOrder, piece.places));
+    if (info.quads.count == 0) info.quality.add(measureQuality(piece.mesh, 0.0, 180.0, inOrder, piece.places));
     info.closed = info.closed && isClosed(piece.mesh);
     info.euler += eulerNumber(piece.mesh);
     const SurfaceKind curved = surface == SurfaceKind::Sphere ? surface : SurfaceKind::Ellipsoid;
@@ -110,12 +124,15 @@ MeshInfo describeMesh(const Grid& grid, SurfaceKind surface) {
     const std::string name = kSurfaceNames[static_cast<std::size_t>(measured)];
     info.surface = info.surface.empty() || info.surface == name ? name : "mixed";
   }
+  if (info.quads.count > 0 && info.triangles > 0)
+    for (const GridPiece& piece : splitGrid(trianglesOnly(grid), surface))
+      info.quality.add(measureQuality(piece.mesh, 0.0, 180.0, inOrder, piece.places));
   ExtremeEdges edges(grid.crs);
-  for (const auto& [a, b, c] : grid.triangles) {
-    edges.add(grid.nodes[a], grid.nodes[b]);
-    edges.add(grid.nodes[b], grid.nodes[c]);
-    edges.add(grid.nodes[c], grid.nodes[a]);
-  }
+  const std::vector<std::uint8_t> diagonals = diagonalsOf(grid);
+  for (std::size_t t = 0; t < grid.triangles.size(); ++t)
+    for (unsigned i = 0; i < 3; ++i)
+      if (diagonals.empty() || diagonals[t] != i)
+        edges.add(grid.nodes[grid.triangles[t][i]], grid.nodes[grid.triangles[t][(i + 1) % 3]]);
   info.step = measureStep(grid);
   info.plane = grid.crs.isPlane();
   info.longest_edge_m = edges.longest();

@@ -18,10 +18,19 @@ struct Extent {
   Point high;
 };
 
+// Of the quadrilaterals of a mesh.
+struct QuadFigures {
+  std::uint64_t count = 0;
+  double min_angle_deg = 180.0;
+  double max_angle_deg = 0.0;
+  std::uint64_t reflex = 0;  // with an angle of 180 degrees or more
+};
+
 struct MeshInfo {
   std::string crs;
   std::uint64_t nodes = 0;
-  std::uint64_t triangles = 0;
+  std::uint64_t triangles = 0;  // without the halves of quadrilaterals
+  QuadFigures quads;
   std::uint64_t pieces = 0;  // parts that share no node
   std::uint64_t features = 0;
   std::map<std::string, std::uint64_t> boundaries;  // by role
@@ -31,7 +40,7 @@ struct MeshInfo {
   double highest_z = 0.0;
   std::uint64_t nodes_without_z = 0;  // NaN, if the file has z
   double area_m2 = 0.0;
-  MeshQuality quality;     // lengths and areas on the surface
+  MeshQuality quality;     // of triangles: lengths and areas on the surface
   std::string surface;     // on which angles are measured; "mixed" if pieces differ
   bool closed = true;      // no boundary edges
   std::int64_t euler = 0;  // nodes minus edges plus triangles: 2 for each piece that is a whole globe

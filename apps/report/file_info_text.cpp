@@ -72,6 +72,11 @@ std::string toJson(const MeshInfo& info) {
             {"longest_edge_m", info.longest_edge_m},
             {"step", stepSection(info.step)},
             {"angle_histogram", info.quality.angle_histogram}};
+  if (info.quads.count > 0)
+    json["quadrilaterals"] = {{"count", info.quads.count},
+                              {"min_angle_deg", info.quads.min_angle_deg},
+                              {"max_angle_deg", info.quads.max_angle_deg},
+                              {"reflex", info.quads.reflex}};
   if (info.has_z) {
     json["z"] = {info.lowest_z, info.highest_z};
     json["nodes_without_z"] = info.nodes_without_z;
@@ -110,8 +115,11 @@ std::string toJson(const PolyInfo& info) {
 
 std::string toText(const MeshInfo& info) {
   std::string text;
-  addLine(text, "mesh            %llu nodes, %llu %s", big(info.nodes), big(info.triangles),
-          forCount(info.triangles, "triangle", "triangles"));
+  std::string quads;
+  if (info.quads.count > 0)
+    quads = ", " + std::to_string(info.quads.count) + forCount(info.quads.count, " quadrilateral", " quadrilaterals");
+  addLine(text, "mesh            %llu nodes, %llu %s%s", big(info.nodes), big(info.triangles),
+          forCount(info.triangles, "triangle", "triangles"), quads.c_str());
   addLine(text, "pieces          %llu", big(info.pieces));
   if (info.features > 0) addLine(text, "features        %llu", big(info.features));
   for (const auto& [role, count] : info.boundaries) addLine(text, "boundaries      %llu %s", big(count), role.c_str());
@@ -127,6 +135,11 @@ std::string toText(const MeshInfo& info) {
   addLine(text, "edges           %.6g to %.6g m", info.step.shortest_edge_m, info.longest_edge_m);
   text += "step            " + stepText(info.step, info.plane) + "\n";
   if (info.surface != "plane") text += "measured on     " + info.surface + "\n";
+  if (info.quads.count > 0)
+    addLine(text, "quadrilaterals  angles from %.3f to %.3f degrees", info.quads.min_angle_deg,
+            info.quads.max_angle_deg);
+  if (info.quads.reflex > 0) addLine(text, "not convex      %llu of them", big(info.quads.reflex));
+  if (info.triangles == 0) return text;
   if (info.closed) text += "closed          nodes - edges + triangles = " + std::to_string(info.euler) + "\n";
   addLine(text, "smallest angle  %.3f degrees", info.quality.min_angle_deg);
   addLine(text, "largest angle   %.3f degrees", info.quality.max_angle_deg);

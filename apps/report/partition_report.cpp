@@ -36,7 +36,8 @@ Json partitionSection(const PartitionReport& report) {
 }
 
 std::string partitionText(const PartitionReport& report) {
-  return figuresText(report.elements, report.parts, "triangles") + figuresText(report.nodes, report.parts, "nodes");
+  return figuresText(report.elements, report.parts, report.mixed ? "elements" : "triangles") +
+         figuresText(report.nodes, report.parts, "nodes");
 }
 
 }  // namespace coastmesh

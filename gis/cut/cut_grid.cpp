@@ -9,6 +9,7 @@
 #include "core/union_find.hpp"
 #include "gis/crs/geodesy.hpp"
 #include "gis/cut/cut_boundaries.hpp"
+#include "gis/elements/quads.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/linked_grid.hpp"
 
@@ -81,7 +82,8 @@ CutReport cutGrid(Grid& grid, std::vector<std::uint8_t> taken, const CutOptions&
   report.triangles_before = grid.triangles.size();
   {
     const TriMesh mesh = linkGrid(grid, loop).mesh;
-    report.tidied = tidyCut(mesh, taken, loop);
+    includeOtherHalves(grid, taken);
+    report.tidied = tidyCut(mesh, otherHalves(grid), taken, loop);
     const Waters waters = watersOf(mesh, taken, loop);
     report.waters = waters.firsts.size();
     if (options.largest_water && report.waters > 1) {

@@ -1,12 +1,19 @@
 #include "gis/cut/tidy_cut.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace coastmesh {
 
 namespace {
+
+// A mesh, and for each triangle the other half of its quadrilateral; empty if there are only triangles.
+struct Halves {
+  const TriMesh& mesh;
+  std::span<const std::uint32_t> other;
+
+  TriId otherOf(TriId t) const { return other.empty() ? kNone : other[t]; }
+};
 
 struct Corner {
   TriId triangle;
@@ -81,7 +88,8 @@ std::vector<Corner> cornersAtCut(const TriMesh& mesh, const std::vector<std::uin
   }));
 }
 
-std::size_t leaveOutLoose(const TriMesh& mesh, std::vector<std::uint8_t>& taken, const ItemLoop& loop) {
+std::size_t leaveOutLoose(const Halves& halves, std::vector<std::uint8_t>& taken, const ItemLoop& loop) {
+  const TriMesh& mesh = halves.mesh;
   std::size_t left_out = 0;
   std::vector<Corner> corners = cornersAtCut(mesh, taken, loop);
   for (std::size_t at = 0; at < corners.size(); ++at) {  // grows
@@ -93,9 +101,12 @@ std::size_t leaveOutLoose(const TriMesh& mesh, std::vector<std::uint8_t>& taken,
     sets.erase(std::ranges::max_element(sets, smaller));
     for (const std::vector<TriId>& set : sets) {
       for (const TriId t : set) {
-        taken[t] = 0;
-        ++left_out;
-        for (unsigned i = 0; i < 3; ++i) corners.push_back({t, i});
+        for (const TriId gone : {t, halves.otherOf(t)}) {
+          if (gone == kNone || taken[gone] == 0) continue;
+          taken[gone] = 0;
+          ++left_out;
+          for (unsigned i = 0; i < 3; ++i) corners.push_back({gone, i});
+        }
       }
     }
   }
@@ -108,64 +119,69 @@ struct Sides {
   TriId neighbour = kNone;
 };
 
-Sides sidesOf(const TriMesh& mesh, const std::vector<std::uint8_t>& taken, TriId t) {
+// Those of the element that the triangle is, or is a half of.
+Sides sidesOf(const Halves& halves, const std::vector<std::uint8_t>& taken, TriId t) {
+  const TriId other = halves.otherOf(t);
   Sides sides;
-  for (const EdgeRef across : mesh.triangles[t].adj) {
-    if (across == kNone) continue;
+  const auto count = [&](EdgeRef across) {
+    if (across == kNone || triOf(across) == t || triOf(across) == other) return;
     if (taken[triOf(across)] == 0) {
       ++sides.cut;
     } else {
       ++sides.neighbours;
       sides.neighbour = triOf(across);
     }
-  }
+  };
+  for (const TriId part : {t, other})
+    if (part != kNone)
+      for (const EdgeRef across : halves.mesh.triangles[part].adj) count(across);
   return sides;
 }
 
-std::size_t leaveOutTeeth(const TriMesh& mesh, std::vector<std::uint8_t>& taken, const ItemLoop& loop) {
+std::size_t leaveOutTeeth(const Halves& halves, std::vector<std::uint8_t>& taken, const ItemLoop& loop) {
   const auto isTooth = [&](TriId t) {
-    const Sides sides = sidesOf(mesh, taken, t);
-    return sides.cut > 1 || (sides.cut > 0 && sides.neighbours == 0);
+    const Sides sides = sidesOf(halves, taken, t);
+    return sides.cut > (halves.otherOf(t) == kNone ? 1u : 2u) || (sides.cut > 0 && sides.neighbours == 0);
   };
-  const std::vector<TriId> teeth =
-      joined(overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
-        std::vector<TriId> found;
-        for (auto t = static_cast<TriId>(first); t < last; ++t) {
-          if (taken[t] == 0 || !isTooth(t)) continue;
-          const TriId neighbour = sidesOf(mesh, taken, t).neighbour;
-          if (neighbour == kNone || !isTooth(neighbour)) found.push_back(t);
-        }
-        return found;
-      }));
+  const std::vector<TriId> teeth = joined(overStretches(loop, taken.size(), [&](std::size_t first, std::size_t last) {
+    std::vector<TriId> found;
+    for (auto t = static_cast<TriId>(first); t < last; ++t) {
+      if (taken[t] == 0 || !isTooth(t)) continue;
+      const TriId neighbour = sidesOf(halves, taken, t).neighbour;
+      if (neighbour == kNone || !isTooth(neighbour)) found.push_back(t);
+    }
+    return found;
+  }));
   for (const TriId t : teeth) taken[t] = 0;
   return teeth.size();
 }
 
 // Those without a neighbour, of which leaving out teeth may leave some.
-std::size_t leaveOutAlone(const TriMesh& mesh, std::vector<std::uint8_t>& taken, const ItemLoop& loop) {
-  const auto left_out = overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
-    std::size_t count = 0;
+std::size_t leaveOutAlone(const Halves& halves, std::vector<std::uint8_t>& taken, const ItemLoop& loop) {
+  const std::vector<TriId> alone = joined(overStretches(loop, taken.size(), [&](std::size_t first, std::size_t last) {
+    std::vector<TriId> found;
     for (auto t = static_cast<TriId>(first); t < last; ++t) {
       if (taken[t] == 0) continue;
-      const Sides sides = sidesOf(mesh, taken, t);
-      if (sides.cut == 0 || sides.neighbours > 0) continue;
-      taken[t] = 0;  // no neighbour looks at it
-      ++count;
+      const Sides sides = sidesOf(halves, taken, t);
+      if (sides.cut > 0 && sides.neighbours == 0) found.push_back(t);
     }
-    return count;
-  });
-  return std::accumulate(left_out.begin(), left_out.end(), std::size_t{0});
+    return found;
+  }));
+  for (const TriId t : alone) taken[t] = 0;
+  return alone.size();
 }
 
 }  // namespace
 
-TidiedCut tidyCut(const TriMesh& mesh, std::vector<std::uint8_t>& taken, const ItemLoop& loop) {
+TidiedCut tidyCut(const TriMesh& mesh, std::span<const std::uint32_t> other_half, std::vector<std::uint8_t>& taken,
+                  const ItemLoop& loop) {
+  const Halves halves{mesh, other_half};
   TidiedCut tidied;
-  tidied.loose = leaveOutLoose(mesh, taken, loop);
+  tidied.loose = leaveOutLoose(halves, taken, loop);
   std::vector<std::uint8_t> without = taken;
-  std::size_t teeth = leaveOutTeeth(mesh, without, loop);
-  const std::size_t loose = leaveOutLoose(mesh, without, loop);
-  teeth += leaveOutAlone(mesh, without, loop);
+  std::size_t teeth = leaveOutTeeth(halves, without, loop);
+  const std::size_t loose = leaveOutLoose(halves, without, loop);
+  teeth += leaveOutAlone(halves, without, loop);
   if (teeth == 0 || std::ranges::find(without, 1) == without.end()) return tidied;
   taken = std::move(without);
   tidied.teeth = teeth;

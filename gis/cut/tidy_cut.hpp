@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/item_loop.hpp"
@@ -19,6 +20,9 @@ struct TidiedCut {
 // taken: first of loose ones, where the largest set that is connected around a node stays; then of teeth, once, unless
 // their neighbour is one too; then of those that this leaves loose or alone. Triangles that are loose, or alone, in
 // `mesh` already are left as they are. Some triangle stays.
-TidiedCut tidyCut(const TriMesh& mesh, std::vector<std::uint8_t>& taken, const ItemLoop& loop = inOrder);
+// `other_half`, of `otherHalves`: quadrilaterals are taken or left out whole, and are teeth with three sides. REQUIRES:
+// both halves of each have the same flag.
+TidiedCut tidyCut(const TriMesh& mesh, std::span<const std::uint32_t> other_half, std::vector<std::uint8_t>& taken,
+                  const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

@@ -18,11 +18,10 @@ void writeAdcirc(const Grid& grid, const std::string& path, const ItemLoop& loop
 
 // Reads a fort.14; `notes` report what is wrong in it. Throws InputError.
 Grid readAdcirc(const std::string& path, const Crs& unsaid) {
-  Grid grid = readFort14(path);
+  Grid grid = readFort14(path, readPrjBeside(path, unsaid));
   for (Boundary& boundary : grid.boundaries) {
     if (isRolesOwn(boundary.ibtype)) boundary.ibtype = -1;
   }
-  grid.crs = readPrjBeside(path, unsaid);
   return grid;
 }
 

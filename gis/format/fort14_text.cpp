@@ -1,8 +1,11 @@
 #include "gis/format/fort14_text.hpp"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
+#include "gis/elements/elements.hpp"
+#include "gis/elements/quads.hpp"
 #include "gis/error.hpp"
 #include "gis/file/list_reader.hpp"
 #include "gis/file/text_reader.hpp"
@@ -95,14 +98,22 @@ std::string oneLine(std::string title) {
 
 void writeFort14(TextWriter& file, const Grid& grid, std::span<const Point> places, Fort14Kind kind,
                  const ItemLoop& loop) {
-  file << oneLine(grid.title) << '\n' << grid.triangles.size() << ' ' << grid.nodes.size() << '\n';
+  // ADCIRC has triangles only.
+  const std::optional<Elements> elements = kind == Fort14Kind::Schism ? std::optional<Elements>(grid) : std::nullopt;
+  const std::size_t count = elements ? elements->size() : grid.triangles.size();
+  file << oneLine(grid.title) << '\n' << count << ' ' << grid.nodes.size() << '\n';
   file.rows(loop, places.size(), [&](TextBlock& text, std::size_t i) {
     const double depth = grid.z.empty() ? 0.0 : 0.0 - grid.z[i];  // never -0
     text << i + 1 << ' ' << places[i].x << ' ' << places[i].y << ' ' << depth << '\n';
   });
-  file.rows(loop, grid.triangles.size(), [&](TextBlock& text, std::size_t t) {
-    const auto& [a, b, c] = grid.triangles[t];
-    text << t + 1 << " 3 " << a + 1 << ' ' << b + 1 << ' ' << c + 1 << '\n';
+  file.rows(loop, count, [&](TextBlock& text, std::size_t i) {
+    if (elements && elements->isQuad(i)) {
+      const auto& [a, b, c, d] = elements->nodesOf(i).v;
+      text << i + 1 << " 4 " << a + 1 << ' ' << b + 1 << ' ' << c + 1 << ' ' << d + 1 << '\n';
+      return;
+    }
+    const auto& [a, b, c] = grid.triangles[elements ? elements->triangleOf(i) : i];
+    text << i + 1 << " 3 " << a + 1 << ' ' << b + 1 << ' ' << c + 1 << '\n';
   });
   writeSegments(file, grid, kind, true);
   writeSegments(file, grid, kind, false);
@@ -158,11 +169,13 @@ void readElements(ListReader& file, std::uint64_t count, const NodeNumbers& numb
     file.needStatement();
     const std::int64_t id = file.integer();
     in_order = in_order && id == static_cast<std::int64_t>(t) + 1;
-    if (const std::int64_t corners = file.integer(); corners != 3)
+    const std::int64_t corners = file.integer();
+    if (corners != 3 && corners != 4)
       file.fail("an element of " + std::to_string(corners) + forCount(corners, " node", " nodes") +
-                "; only meshes of triangles can be read");
-    auto& triangle = grid.triangles.emplace_back();
-    for (std::uint32_t& corner : triangle) corner = numbers.read(file);
+                "; only triangles and quadrilaterals can be read");
+    std::array<std::uint32_t, 4> nodes;
+    for (std::int64_t i = 0; i < corners; ++i) nodes[static_cast<std::size_t>(i)] = numbers.read(file);
+    addElement(grid, std::span(nodes).first(static_cast<std::size_t>(corners)));
   }
   if (!in_order) grid.notes.emplace_back("elements are not numbered from 1 in their order");
 }
@@ -221,9 +234,10 @@ void readLandSegments(ListReader& file, std::uint64_t count, const NodeNumbers& 
 
 }  // namespace
 
-Grid readFort14(const std::string& path) {
+Grid readFort14(const std::string& path, Crs crs) {
   ListReader file(path);
   Grid grid;
+  grid.crs = std::move(crs);
   // The first line is the title even if it is blank.
   TextReader& text = file.text();
   if (text.nextPhysicalLine() && text.hasWord() && text.line() != kNoTitle) grid.title = std::string(text.line());

@@ -11,14 +11,15 @@ namespace coastmesh {
 // ADCIRC's fort.14, and SCHISM's hgrid.gr3, which has the same layout.
 enum class Fort14Kind { Adcirc, Schism };
 
-// Title, nodes at `places` with their depth (positive down), triangles, then open and land boundaries. Loops other than
+// Title, nodes at `places` with their depth (positive down), elements, then open and land boundaries. ADCIRC gets the
+// halves of quadrilaterals. Loops other than
 // islands are two linked segments, since neither program accepts a segment that ends where it starts. A river is a flux
 // segment for ADCIRC and an open one for SCHISM. REQUIRES: every z is known.
 void writeFort14(TextWriter& file, const Grid& grid, std::span<const Point> places, Fort14Kind kind,
                  const ItemLoop& loop);
 
-// Reads either, without the CRS. Segments are not required to run along the boundary; `notes` report counts, numbers
-// and sums that are not as the programs require. Throws InputError.
-Grid readFort14(const std::string& path);
+// Reads either, with coordinates in `crs`. Segments are not required to run along the boundary; `notes` report counts,
+// numbers and sums that are not as the programs require. Throws InputError.
+Grid readFort14(const std::string& path, Crs crs);
 
 }  // namespace coastmesh

@@ -7,6 +7,7 @@
 
 #include "gis/coast/feature_names.hpp"
 #include "gis/crs/geodesy.hpp"
+#include "gis/elements/quads.hpp"
 #include "gis/grid/grid_lines.hpp"
 
 namespace coastmesh {
@@ -26,6 +27,19 @@ void addFeatureText(const Grid& grid, const std::string& name, std::vector<std::
                      longest});
 }
 
+// Adds a column with the same number in both halves of a quadrilateral, from 1, unless there are none.
+void addQuads(const Grid& grid, std::vector<LayerColumn>& columns) {
+  const std::vector<Quad> quads = quadsOf(grid);
+  if (quads.empty()) return;
+  std::vector<std::uint32_t> number(grid.triangles.size(), 0);
+  for (std::uint32_t q = 0; q < quads.size(); ++q)
+    for (const std::uint32_t t : quads[q].halves) number[t] = q + 1;
+  const auto numbers = std::make_shared<const std::vector<std::uint32_t>>(std::move(number));
+  columns.push_back({std::string(kQuadColumn),
+                     LayerColumn::Whole([numbers](std::size_t row) { return std::int64_t{(*numbers)[row]}; },
+                                        [numbers](std::size_t row) { return (*numbers)[row] == 0; })});
+}
+
 GridLayer triangleLayer(const Grid& grid) {
   GridLayer layer{std::string(kTriangleLayer), GridLayer::Shape::Polygon, grid.triangles.size(), {idColumn()}, {}};
   layer.shapeOf = [&grid](std::size_t row, std::vector<std::uint32_t>& nodes) {
@@ -34,6 +48,7 @@ GridLayer triangleLayer(const Grid& grid) {
   };
   for (unsigned i = 0; i < 3; ++i)
     layer.columns.push_back({std::string(kCornerColumns[i]), LayerColumn::Whole(grid.triangles, i)});
+  addQuads(grid, layer.columns);
   if (!grid.min_angle_deg.empty()) layer.columns.push_back({"min_angle", LayerColumn::Real(grid.min_angle_deg)});
   if (!grid.area_m2.empty()) layer.columns.push_back({"area_m2", LayerColumn::Real(grid.area_m2)});
   if (grid.feature_of.empty()) return layer;

@@ -77,16 +77,18 @@ struct GridLayer {
   std::function<void(std::size_t row, std::vector<std::uint32_t>& nodes)> shapeOf;
 };
 
-// The layers in this order: triangles (id, node1, node2, node3, min_angle in degrees, area_m2, src_fid, source, name,
-// region), nodes (id, z, size), boundaries (id, role, ibtype, closed, length_m) and, if there are any, lines (id, kind,
-// name, closed, length_m), ids from 1. Columns without values in the grid are left out; a triangle's `name` is the
-// first attribute of its feature that is called so, or else contains "name". REQUIRES: `grid` outlives the result.
+// The layers in this order: triangles (id, node1, node2, node3, quad, min_angle in degrees, area_m2, src_fid, source,
+// name, region), nodes (id, z, size), boundaries (id, role, ibtype, closed, length_m) and, if there are any, lines (id,
+// kind, name, closed, length_m), ids from 1. Columns without values in the grid are left out; the halves of a
+// quadrilateral have its number in `quad`; a triangle's `name` is the first attribute of its feature that is called so,
+// or else contains "name". REQUIRES: `grid` outlives the result.
 std::vector<GridLayer> layersOf(const Grid& grid, const ItemLoop& loop = inOrder);
 
 // The parts of a grid that layers hold.
-inline constexpr GridParts kLayerParts{
-    GridPart::Sizes,     GridPart::Features, GridPart::FeatureNames, GridPart::Regions,   GridPart::Lines,
-    GridPart::LineNames, GridPart::Rivers,   GridPart::Ibtypes,      GridPart::BareWeirs, GridPart::PartIslands};
+inline constexpr GridParts kLayerParts{GridPart::Quads,        GridPart::Sizes,      GridPart::Features,
+                                       GridPart::FeatureNames, GridPart::Regions,    GridPart::Lines,
+                                       GridPart::LineNames,    GridPart::Rivers,     GridPart::Ibtypes,
+                                       GridPart::BareWeirs,    GridPart::PartIslands};
 
 // The file of a layer in formats with one layer per file: "lake.shp" goes with "lake_nodes.shp", "lake_boundaries.shp"
 // and "lake_lines.shp".

@@ -9,6 +9,7 @@
 
 #include "core/metric.hpp"
 #include "gis/crs/geodesy.hpp"
+#include "gis/elements/quads.hpp"
 #include "gis/file/output_files.hpp"
 #include "gis/file/prj_file.hpp"
 #include "gis/grid/grid_lines.hpp"
@@ -70,6 +71,12 @@ std::string wordsFor(GridPart part, const Grid& grid, const GridFormat& format) 
   switch (part) {
     case GridPart::Title:
       return grid.title.empty() ? "" : "the title";
+    case GridPart::Quads: {
+      const std::size_t quads = grid.quad_of.empty() ? 0 : quadsOf(grid).size();
+      return quads == 0 ? ""
+                        : counted(quads, "quadrilateral, which becomes", "quadrilaterals, which become") +
+                              " two triangles" + (quads == 1 ? "" : " each");
+    }
     case GridPart::Sizes:
       return grid.size_m.empty() ? "" : "the lengths that edges were to have";
     case GridPart::Features:
@@ -170,9 +177,10 @@ constexpr std::array kGivenParts{GridPart::Regions,   GridPart::Pieces,    GridP
                                  GridPart::LineNames, GridPart::Rivers,    GridPart::Ibtypes,
                                  GridPart::Weirs,     GridPart::BareWeirs, GridPart::PartIslands};
 constexpr std::array kAllParts{
-    GridPart::Title,  GridPart::Sizes,     GridPart::Features,    GridPart::FeatureNames, GridPart::Regions,
-    GridPart::Pieces, GridPart::Lines,     GridPart::LineNames,   GridPart::Rivers,       GridPart::Ibtypes,
-    GridPart::Weirs,  GridPart::BareWeirs, GridPart::PartIslands, GridPart::Partition,    GridPart::NodePartition};
+    GridPart::Title,        GridPart::Quads,       GridPart::Sizes,     GridPart::Features,
+    GridPart::FeatureNames, GridPart::Regions,     GridPart::Pieces,    GridPart::Lines,
+    GridPart::LineNames,    GridPart::Rivers,      GridPart::Ibtypes,   GridPart::Weirs,
+    GridPart::BareWeirs,    GridPart::PartIslands, GridPart::Partition, GridPart::NodePartition};
 
 // Length in the grid's CRS over length on the ground, for a sample of edges. REQUIRES: a projected CRS in metres.
 double meanScale(const Grid& grid) {

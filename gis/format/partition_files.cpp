@@ -1,3 +1,4 @@
+#include "gis/elements/elements.hpp"
 #include "gis/error.hpp"
 #include "gis/file/text_writer.hpp"
 #include "gis/format/grid_formats.hpp"
@@ -14,8 +15,10 @@ void requireParts(const std::vector<std::uint32_t>& parts, const std::string& pa
 void writeSchismPartition(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   requireParts(grid.part_of, path);
   TextWriter file(path);
-  file.rows(loop, grid.part_of.size(),
-            [&](TextBlock& text, std::size_t t) { text << t + 1 << ' ' << grid.part_of[t] << '\n'; });
+  const Elements elements(grid);
+  file.rows(loop, elements.size(), [&](TextBlock& text, std::size_t e) {
+    text << e + 1 << ' ' << grid.part_of[elements.triangleOf(e)] << '\n';
+  });
   file.close();
 }
 

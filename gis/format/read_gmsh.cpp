@@ -8,6 +8,8 @@
 #include <numeric>
 #include <optional>
 
+#include "gis/elements/elements.hpp"
+#include "gis/elements/quads.hpp"
 #include "gis/error.hpp"
 #include "gis/file/prj_file.hpp"
 #include "gis/file/text_reader.hpp"
@@ -43,11 +45,12 @@ struct Contents {
   std::vector<Tag> node_tags;
   std::vector<std::array<double, 3>> places;
   std::vector<Element<2>> lines;
-  std::vector<Element<3>> triangles;
+  std::vector<Element<4>> faces;  // a triangle has kNoNode as its fourth node
   std::vector<std::pair<Tag, double>> z;
 };
 
 constexpr int kPointType = 15;
+constexpr Tag kNoNode = std::numeric_limits<Tag>::min();
 
 void readPhysicalNames(TextReader& file, Contents& contents) {
   file.needLine();
@@ -149,9 +152,13 @@ void addElement(TextReader& file, std::int64_t type, Tag tag, Tag physical, Cont
     contents.lines.push_back({tag, physical, of.entity, of.part, {a, b}});
   } else if (type == 2) {
     const Tag a = file.integer(), b = file.integer(), c = file.integer();
-    contents.triangles.push_back({tag, physical, of.entity, of.part, {a, b, c}});
+    contents.faces.push_back({tag, physical, of.entity, of.part, {a, b, c, kNoNode}});
+  } else if (type == 3) {
+    const Tag a = file.integer(), b = file.integer(), c = file.integer(), d = file.integer();
+    contents.faces.push_back({tag, physical, of.entity, of.part, {a, b, c, d}});
   } else if (type != kPointType) {
-    file.fail("an element of type " + std::to_string(type) + "; only meshes of triangles with three nodes can be read");
+    file.fail("an element of type " + std::to_string(type) +
+              "; only triangles with three nodes and quadrilaterals with four can be read");
   }
 }
 
@@ -279,15 +286,15 @@ void sortByTag(Contents& contents) {
   }
   contents.node_tags = std::move(tags);
   contents.places = std::move(places);
-  std::ranges::stable_sort(contents.triangles, {}, &Element<3>::tag);
+  std::ranges::stable_sort(contents.faces, {}, &Element<4>::tag);
   // Sorting by tag rejoins lines that partitioning cut.
   if (!contents.origin_of.empty()) std::ranges::stable_sort(contents.lines, {}, &Element<2>::tag);
 }
 
 void readParts(const Contents& contents, Grid& grid) {
-  if (std::ranges::all_of(contents.triangles, [](const auto& triangle) { return triangle.part < 1; })) return;
-  for (const auto& triangle : contents.triangles)
-    grid.part_of.push_back(static_cast<std::uint32_t>(std::clamp<Tag>(triangle.part - 1, 0, 4'000'000'000)));
+  if (std::ranges::all_of(contents.faces, [](const auto& face) { return face.part < 1; })) return;
+  for (const auto& face : contents.faces)
+    grid.part_of.push_back(static_cast<std::uint32_t>(std::clamp<Tag>(face.part - 1, 0, 4'000'000'000)));
 }
 
 void readZ(const Contents& contents, const IdMap& node_index, const std::string& path, Grid& grid) {
@@ -306,7 +313,7 @@ std::string nameOf(const Contents& contents, int dimension, Tag physical) {
 
 void readFeatures(const Contents& contents, Grid& grid) {
   std::map<Tag, std::uint32_t> index_of;
-  for (const auto& triangle : contents.triangles) index_of.emplace(triangle.physical, 0);
+  for (const auto& face : contents.faces) index_of.emplace(face.physical, 0);
   if (index_of.size() == 1) {
     const std::string name = nameOf(contents, 2, index_of.begin()->first);
     if (name.empty() || name == "domain") return;
@@ -315,7 +322,7 @@ void readFeatures(const Contents& contents, Grid& grid) {
     index = static_cast<std::uint32_t>(grid.features.size());
     grid.features.push_back(featureOfLabel(nameOf(contents, 2, physical), physical));
   }
-  for (const auto& triangle : contents.triangles) grid.feature_of.push_back(index_of[triangle.physical]);
+  for (const auto& face : contents.faces) grid.feature_of.push_back(index_of[face.physical]);
 }
 
 std::optional<BoundaryRole> roleOfName(const std::string& given) {
@@ -393,16 +400,20 @@ Grid readGmsh(const std::string& path, const Crs& unsaid) {
   Contents contents = readSections(file);
   sortByTag(contents);
   Grid grid;
+  grid.crs = readPrjBeside(path, unsaid);
   const IdMap node_index(contents.node_tags, file, "node");
   for (const auto& place : contents.places) grid.nodes.push_back({place[0], place[1]});
-  for (const auto& element : contents.triangles) {
-    auto& triangle = grid.triangles.emplace_back();
-    for (unsigned i = 0; i < 3; ++i) triangle[i] = nodeOf(node_index, element.nodes[i], path);
+  std::vector<std::uint32_t> nodes;
+  for (const auto& face : contents.faces) {
+    nodes.clear();
+    for (const Tag tag : face.nodes)
+      if (tag != kNoNode) nodes.push_back(nodeOf(node_index, tag, path));
+    addElement(grid, nodes);
   }
   readZ(contents, node_index, path, grid);
   readFeatures(contents, grid);
   readParts(contents, grid);
-  grid.crs = readPrjBeside(path, unsaid);
+  giveToHalves(Elements(grid), grid);
   readCurves(contents, node_index, path, grid);
   return grid;
 }

@@ -308,15 +308,28 @@ void makeTriangles(const std::vector<LayerTriangle>& given, const std::vector<st
   windTriangles(grid.nodes, grid.crs, wound, grid.triangles);
 }
 
+// `Grid::quad_of` for the numbers of a column; empty if none is a quadrilateral's.
+std::vector<std::uint32_t> numberedQuads(const std::vector<std::int64_t>& column) {
+  std::vector<std::uint32_t> quads;
+  if (std::ranges::all_of(column, [](std::int64_t number) { return number <= 0; })) return quads;
+  std::map<std::int64_t, std::uint32_t> number_of;
+  for (const std::int64_t number : column)
+    quads.push_back(
+        number <= 0 ? kNone : number_of.emplace(number, static_cast<std::uint32_t>(number_of.size())).first->second);
+  return quads;
+}
+
 void readTriangles(LayerReader& reader, const std::string& path, const std::vector<std::int64_t>& node_ids, Grid& grid,
                    NodesByPlace& index) {
   const int id_field = reader.field("id"), angle_field = reader.field("min_angle"),
             area_field = reader.field("area_m2");
   std::array<int, 3> node_fields;
   for (std::size_t i = 0; i < 3; ++i) node_fields[i] = reader.field(kCornerColumns[i]);
+  const int quad_field = reader.field(kQuadColumn);
   FeatureTable features(reader);
   std::vector<std::int64_t> ids;
   std::vector<LayerTriangle> triangles;
+  std::vector<std::int64_t> quads;  // 0: a triangle
   while (const OGRFeature* feature = reader.next()) {
     LayerTriangle& triangle = triangles.emplace_back();
     triangle.feature = feature->GetFID();
@@ -338,10 +351,12 @@ void readTriangles(LayerReader& reader, const std::string& path, const std::vect
       for (std::size_t i = 0; i < 3; ++i) (*triangle.node_ids)[i] = feature->GetFieldAsInteger64(node_fields[i]);
     }
     if (id_field >= 0) ids.push_back(feature->GetFieldAsInteger64(id_field));
+    if (quad_field >= 0) quads.push_back(says(quad_field) ? feature->GetFieldAsInteger64(quad_field) : 0);
     if (angle_field >= 0) grid.min_angle_deg.push_back(feature->GetFieldAsDouble(angle_field));
     if (area_field >= 0) grid.area_m2.push_back(feature->GetFieldAsDouble(area_field));
     if (features.exists()) grid.feature_of.push_back(features.indexOf(*feature, grid.features));
   }
+  grid.quad_of = numberedQuads(quads);
   if (!ids.empty()) {
     const std::vector<std::uint32_t> order = orderOf(ids);
     reorder(triangles, order);

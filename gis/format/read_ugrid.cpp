@@ -14,6 +14,8 @@
 #include "core/bulk_list.hpp"
 #include "gis/crs/length_unit.hpp"
 #include "gis/crs/ogr_support.hpp"
+#include "gis/elements/elements.hpp"
+#include "gis/elements/quads.hpp"
 #include "gis/error.hpp"
 #include "gis/file/depth_names.hpp"
 #include "gis/file/netcdf_file.hpp"
@@ -163,7 +165,7 @@ bool isTransposed(const NetcdfReader& file, const std::string& variable, const s
   return (shape[0] == 3 || shape[0] == 4) && shape[1] > 4;
 }
 
-void readTriangles(const NetcdfReader& file, const std::string& mesh, Grid& grid) {
+void readFaces(const NetcdfReader& file, const std::string& mesh, Grid& grid) {
   const std::string variable = file.text(mesh, "face_node_connectivity");
   if (!file.hasVariable(variable)) file.fail("\"" + mesh + "\" names no face_node_connectivity");
   const bool transposed = isTransposed(file, variable, file.text(mesh, "face_dimension"));
@@ -172,11 +174,12 @@ void readTriangles(const NetcdfReader& file, const std::string& mesh, Grid& grid
   if (columns < 3) file.fail("\"" + variable + "\" has fewer than three nodes a face");
   for (std::size_t at = 0; at < rows.size(); at += columns) {
     const auto isThere = [](std::uint32_t node) { return node != kNone; };
-    const auto corners = std::count_if(rows.begin() + at, rows.begin() + at + columns, isThere);
-    if (corners != 3 || !std::all_of(rows.begin() + at, rows.begin() + at + 3, isThere))
+    const auto row = std::span(rows).subspan(at, columns);
+    const auto corners = static_cast<std::size_t>(std::ranges::count_if(row, isThere));
+    if (corners < 3 || corners > 4 || !std::ranges::all_of(row.first(corners), isThere))
       file.fail("face " + std::to_string(at / columns + 1) + " has " + std::to_string(corners) +
-                " nodes; only meshes of triangles can be read");
-    grid.triangles.push_back({rows[at], rows[at + 1], rows[at + 2]});
+                " nodes; only triangles and quadrilaterals can be read");
+    addElement(grid, row.first(corners));
   }
 }
 
@@ -304,6 +307,26 @@ std::vector<double> readFaceData(const NetcdfReader& file, const std::string& na
   return file.doubles(name);
 }
 
+void readFaceArrays(const NetcdfReader& file, const std::string& mesh, Grid& grid) {
+  const Elements elements(grid);
+  const std::size_t faces = elements.size();
+  const auto readInto = [&](BulkList<double>& values, const char* name) {
+    const std::vector<double> read = readFaceData(file, mesh + name, faces);
+    values.assign(read.begin(), read.end());
+  };
+  readInto(grid.min_angle_deg, "_min_angle");
+  readInto(grid.area_m2, "_area");
+  const std::string region_name = mesh + "_region_name";
+  addFeatures(readFaceData(file, mesh + "_feature", faces),
+              file.hasVariable(region_name) ? readFaceData(file, mesh + "_region", faces) : std::vector<double>(),
+              file.hasVariable(region_name) ? file.texts(region_name) : std::vector<std::string>(), grid);
+  for (const double piece : readFaceData(file, mesh + "_piece", faces))
+    grid.piece_of.push_back(piece >= 1.0 ? static_cast<std::uint32_t>(std::min(piece, 4e9)) - 1 : 0);
+  for (const double part : readFaceData(file, mesh + "_partition", faces))
+    grid.part_of.push_back(part >= 0.0 ? static_cast<std::uint32_t>(std::min(part, 4e9)) : 0);
+  giveToHalves(elements, grid);
+}
+
 void readBoundaries(const NetcdfReader& file, const std::string& mesh, Grid& grid) {
   const std::string variable = file.text(mesh, "boundary_node_connectivity");
   const std::string number_name = mesh + "_boundary_number", role_name = mesh + "_boundary_role";
@@ -396,26 +419,12 @@ Grid readUgrid(const std::string& path, const Crs& unsaid) {
   grid.crs = readCrs(file, x);
   if (grid.crs.isPlane()) grid.crs = unsaid;
   readNodes(file, x, y, grid);
-  readTriangles(file, mesh, grid);
+  readFaces(file, mesh, grid);
   readElevation(file, mesh, x, grid);
   if (const std::string name = mesh + "_node_size";
       file.hasVariable(name) && file.shape(name) == std::vector{grid.nodes.size()})
     grid.size_m = file.doubles(name);
-  const auto readInto = [&](BulkList<double>& values, const char* name) {
-    const std::vector<double> read = readFaceData(file, mesh + name, grid.triangles.size());
-    values.assign(read.begin(), read.end());
-  };
-  readInto(grid.min_angle_deg, "_min_angle");
-  readInto(grid.area_m2, "_area");
-  const std::string region_name = mesh + "_region_name";
-  addFeatures(readFaceData(file, mesh + "_feature", grid.triangles.size()),
-              file.hasVariable(region_name) ? readFaceData(file, mesh + "_region", grid.triangles.size())
-                                            : std::vector<double>(),
-              file.hasVariable(region_name) ? file.texts(region_name) : std::vector<std::string>(), grid);
-  for (const double piece : readFaceData(file, mesh + "_piece", grid.triangles.size()))
-    grid.piece_of.push_back(piece >= 1.0 ? static_cast<std::uint32_t>(std::min(piece, 4e9)) - 1 : 0);
-  for (const double part : readFaceData(file, mesh + "_partition", grid.triangles.size()))
-    grid.part_of.push_back(part >= 0.0 ? static_cast<std::uint32_t>(std::min(part, 4e9)) : 0);
+  readFaceArrays(file, mesh, grid);
   readBoundaries(file, mesh, grid);
   readLines(file, mesh, grid);
   return grid;

@@ -16,6 +16,8 @@
 
 #include "core/bulk_list.hpp"
 #include "gis/crs/ogr_support.hpp"
+#include "gis/elements/elements.hpp"
+#include "gis/elements/quads.hpp"
 #include "gis/error.hpp"
 #include "gis/file/depth_names.hpp"
 #include "gis/file/prj_file.hpp"
@@ -28,7 +30,7 @@
 namespace coastmesh {
 namespace {
 
-constexpr std::int64_t kVertexCell = 1, kLineCell = 3, kTriangleCell = 5;
+constexpr std::int64_t kVertexCell = 1, kLineCell = 3, kTriangleCell = 5, kPixelCell = 8, kQuadCell = 9;
 
 std::string decodeBase64(std::string_view text) {
   std::string bytes;
@@ -235,8 +237,8 @@ class VtuFile {
   std::size_t header_ = 4;
 };
 
-// Reads the triangles and returns the index of each in the file's cells.
-std::vector<std::size_t> readTriangles(const VtuFile& file, Grid& grid) {
+// Reads the triangles and quadrilaterals, and returns the index of each in the file's cells.
+std::vector<std::size_t> readFaces(const VtuFile& file, Grid& grid) {
   const std::size_t cells = file.count("NumberOfCells");
   const std::vector<double> ends = file.need("Cells", "offsets", cells), types = file.need("Cells", "types", cells);
   const auto corners = file.array("Cells", "connectivity");
@@ -246,19 +248,22 @@ std::vector<std::size_t> readTriangles(const VtuFile& file, Grid& grid) {
     if (!(types[c] >= 0.0 && types[c] < 256.0)) file.fail("cell " + std::to_string(c + 1) + " is of no type");
     const auto type = static_cast<std::int64_t>(types[c]);
     if (type == kVertexCell || type == kLineCell) continue;
-    if (type != kTriangleCell)
+    if (type != kTriangleCell && type != kQuadCell && type != kPixelCell)
       file.fail("cell " + std::to_string(c + 1) + " is of type " + std::to_string(type) +
-                "; only meshes of triangles (5) can be read");
+                "; only triangles (5) and quadrilaterals (8 and 9) can be read");
+    const std::size_t count = type == kTriangleCell ? 3 : 4;
     const double begin = c == 0 ? 0.0 : ends[c - 1];
-    if (ends[c] - begin != 3.0 || begin < 0.0 || ends[c] > static_cast<double>(corners->size()))
-      file.fail("cell " + std::to_string(c + 1) + " has not three nodes");
-    auto& triangle = grid.triangles.emplace_back();
-    for (std::size_t i = 0; i < 3; ++i) {
+    if (ends[c] - begin != static_cast<double>(count) || begin < 0.0 || ends[c] > static_cast<double>(corners->size()))
+      file.fail("cell " + std::to_string(c + 1) + " does not have " + std::to_string(count) + " nodes");
+    std::array<std::uint32_t, 4> nodes;
+    for (std::size_t i = 0; i < count; ++i) {
       const double node = (*corners)[static_cast<std::size_t>(begin) + i];
       if (!(node >= 0.0 && node < static_cast<double>(grid.nodes.size())))
         file.fail("cell " + std::to_string(c + 1) + " names a node that is not there");
-      triangle[i] = static_cast<std::uint32_t>(node);
+      nodes[i] = static_cast<std::uint32_t>(node);
     }
+    if (type == kPixelCell) std::swap(nodes[2], nodes[3]);  // its nodes are row by row
+    addElement(grid, std::span(nodes).first(count));
     of_cell.push_back(c);
   }
   return of_cell;
@@ -389,7 +394,8 @@ Grid readVtu(const std::string& path, const Crs& unsaid) {
   const auto lon = file.array("PointData", kVtuLongitude), lat = file.array("PointData", kVtuLatitude);
   const bool on_globe = lon && lat && lon->size() == nodes && lat->size() == nodes;
   for (std::size_t i = 0; on_globe && i < nodes; ++i) grid.nodes[i] = {(*lon)[i], (*lat)[i]};
-  const std::vector<std::size_t> cells = readTriangles(file, grid);
+  grid.crs = on_globe ? wgs84() : readPrjBeside(path, unsaid);
+  const std::vector<std::size_t> cells = readFaces(file, grid);
   readElevation(file, places, on_globe, grid);
   const auto readInto = [&](BulkList<double>& values, const char* name) {
     const std::vector<double> read = readCellData(file, name, cells);
@@ -399,9 +405,9 @@ Grid readVtu(const std::string& path, const Crs& unsaid) {
   readInto(grid.area_m2, "area_m2");
   addFeatures(readCellData(file, "src_fid", cells), readCellData(file, "region", cells),
               readTexts(file, "region_names"), grid);
+  giveToHalves(Elements(grid), grid);
   readBoundaries(file, grid);
   readLines(file, grid);
-  grid.crs = on_globe ? wgs84() : readPrjBeside(path, unsaid);
   return grid;
 }
 

@@ -37,14 +37,9 @@ void writeSchism(const Grid& grid, const std::string& path, const ItemLoop& loop
 // Reads either file. A .ll is in WGS 84, unless `unsaid` has other longitudes: the .prj is that of the .gr3. Throws
 // InputError.
 Grid readSchism(const std::string& path, const Crs& unsaid) {
-  Grid grid = readFort14(path);
+  const bool degrees = lowerCase(std::filesystem::path(path).extension().string()) == ".ll";
+  Grid grid = readFort14(path, degrees ? (unsaid.geographic ? unsaid : wgs84()) : readPrjBeside(path, unsaid));
   for (Boundary& boundary : grid.boundaries) boundary.ibtype = -1;  // SCHISM only distinguishes land and islands
-  const std::string ending = lowerCase(std::filesystem::path(path).extension().string());
-  if (ending == ".ll") {
-    grid.crs = unsaid.geographic ? unsaid : wgs84();
-  } else {
-    grid.crs = readPrjBeside(path, unsaid);
-  }
   return grid;
 }
 
@@ -59,7 +54,7 @@ FormatRecord schismFormat() {
            .description = "SCHISM's hgrid.gr3 and hgrid.ll, depth positive down",
            .readable = true,
            .writable = true,
-           .holds = {GridPart::Title},
+           .holds = {GridPart::Title, GridPart::Quads},
            .says_depth = true,
            .needs_depths = true,
            .places = NodePlaces::OneTurn,

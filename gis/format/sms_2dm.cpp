@@ -2,6 +2,8 @@
 #include <iterator>
 #include <map>
 
+#include "gis/elements/elements.hpp"
+#include "gis/elements/quads.hpp"
 #include "gis/error.hpp"
 #include "gis/file/prj_file.hpp"
 #include "gis/file/text_reader.hpp"
@@ -23,7 +25,7 @@ struct NodeString {
 
 struct Cards {
   std::vector<std::int64_t> node_ids;
-  std::vector<std::array<std::int64_t, 3>> corners;
+  std::vector<std::vector<std::int64_t>> corners;  // of each element, three or four
   std::vector<std::int64_t> materials;
   std::vector<NodeString> strings;
   std::map<std::int64_t, std::string> material_names;
@@ -58,9 +60,9 @@ Cards readCards(TextReader& file, Grid& grid) {
   bool unfinished = false;
   while (file.nextLine()) {
     const std::string_view card = file.word();
-    if (card == "E3T") {
+    if (card == "E3T" || card == "E4Q") {
       file.integer();
-      auto& corners = cards.corners.emplace_back();
+      auto& corners = cards.corners.emplace_back(card == "E3T" ? 3 : 4);
       for (std::int64_t& corner : corners) corner = file.integer();
       cards.materials.push_back(file.hasWord() ? file.integer() : 1);
     } else if (card == "ND") {
@@ -72,8 +74,9 @@ Cards readCards(TextReader& file, Grid& grid) {
       readNodeString(file, cards, unfinished);
     } else if (card == "MAT") {
       readMaterialName(file, cards);
-    } else if (card == "E4Q" || card == "E6T" || card == "E8Q" || card == "E9Q") {
-      file.fail("an element of kind " + std::string(card) + "; only meshes of triangles (E3T) can be read");
+    } else if (card == "E6T" || card == "E8Q" || card == "E9Q") {
+      file.fail("an element of kind " + std::string(card) +
+                "; only triangles (E3T) and quadrilaterals (E4Q) can be read");
     }
   }
   if (unfinished) throw InputError("'" + file.path() + "': the last node string (NS) has no end");
@@ -92,6 +95,7 @@ void readMaterials(const Cards& cards, Grid& grid) {
                                             : GridFeature{material, {}, {}});
   for (const std::int64_t material : cards.materials)
     grid.feature_of.push_back(static_cast<std::uint32_t>(std::ranges::lower_bound(known, material) - known.begin()));
+  giveToHalves(Elements(grid), grid);
 }
 
 std::vector<std::uint32_t> nodesOf(const NodeString& string, const IdMap& node_index, const TextReader& file) {
@@ -135,9 +139,9 @@ void readStrings(const Cards& cards, const IdMap& node_index, const TextReader& 
   }
 }
 
-// Reads SMS .2dm of triangles, with the CRS of a .prj beside it. Materials become features if there are several or one
-// is named. Node strings that follow the mesh's boundary become boundaries: those with our numbers keep their
-// role; others are open, or land or an island if closed. Throws InputError with file and line.
+// Reads SMS .2dm of triangles and quadrilaterals, with the CRS of a .prj beside it. Materials become features if there
+// are several or one is named. Node strings that follow the mesh's boundary become boundaries: those with our numbers
+// keep their role; others are open, or land or an island if closed. Throws InputError with file and line.
 Grid read2dm(const std::string& path, const Crs& unsaid) {
   TextReader file(path);
   file.needLine();
@@ -145,18 +149,20 @@ Grid read2dm(const std::string& path, const Crs& unsaid) {
   Grid grid;
   const Cards cards = readCards(file, grid);
   const IdMap node_index(cards.node_ids, file, "node");
-  for (const auto& corners : cards.corners) {
-    auto& triangle = grid.triangles.emplace_back();
-    for (unsigned i = 0; i < 3; ++i) {
-      triangle[i] = node_index.indexOf(corners[i]);
-      if (triangle[i] == kNone)
-        throw InputError("'" + path + "': triangle " + std::to_string(grid.triangles.size()) + " names node " +
-                         std::to_string(corners[i]) + ", which is not there");
+  grid.crs = readPrjBeside(path, unsaid);
+  std::vector<std::uint32_t> nodes;
+  for (std::size_t e = 0; e < cards.corners.size(); ++e) {
+    nodes.clear();
+    for (const std::int64_t corner : cards.corners[e]) {
+      nodes.push_back(node_index.indexOf(corner));
+      if (nodes.back() == kNone)
+        throw InputError("'" + path + "': element " + std::to_string(e + 1) + " names node " + std::to_string(corner) +
+                         ", which is not there");
     }
+    addElement(grid, nodes);
   }
   if (std::ranges::all_of(grid.z, [](double z) { return z == 0.0; })) grid.z.clear();
   readMaterials(cards, grid);
-  grid.crs = readPrjBeside(path, unsaid);
   readStrings(cards, node_index, file, grid);
   return grid;
 }
@@ -195,10 +201,12 @@ void write2dm(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   requireZ(grid, path);
   TextWriter file(path);
   file << "MESH2D\n";
-  file.rows(loop, grid.triangles.size(), [&](TextBlock& text, std::size_t t) {
-    const auto& [a, b, c] = grid.triangles[t];
-    const std::uint32_t material = grid.feature_of.empty() ? 1 : grid.feature_of[t] + 1;
-    text << "E3T " << t + 1 << ' ' << a + 1 << ' ' << b + 1 << ' ' << c + 1 << ' ' << material << '\n';
+  const Elements elements(grid);
+  file.rows(loop, elements.size(), [&](TextBlock& text, std::size_t e) {
+    const std::uint32_t material = grid.feature_of.empty() ? 1 : grid.feature_of[elements.triangleOf(e)] + 1;
+    text << (elements.isQuad(e) ? "E4Q " : "E3T ") << e + 1;
+    for (const std::uint32_t node : elements.nodesOf(e)) text << ' ' << node + 1;
+    text << ' ' << material << '\n';
   });
   file.rows(loop, grid.nodes.size(), [&](TextBlock& text, std::size_t i) {
     text << "ND " << i + 1 << ' ' << grid.nodes[i].x << ' ' << grid.nodes[i].y << ' '
@@ -225,7 +233,7 @@ FormatRecord sms2dmFormat() {
            .description = "SMS 2dm for QGIS and TUFLOW, z positive up",
            .readable = true,
            .writable = true,
-           .holds = {GridPart::Features, GridPart::Regions, GridPart::Lines, GridPart::Rivers},
+           .holds = {GridPart::Quads, GridPart::Features, GridPart::Regions, GridPart::Lines, GridPart::Rivers},
            .needs_depths = true,
            .places = NodePlaces::OneTurn,
            .lengths_in_metres = true},

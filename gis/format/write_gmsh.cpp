@@ -5,6 +5,7 @@
 #include <numeric>
 #include <set>
 
+#include "gis/elements/elements.hpp"
 #include "gis/file/prj_file.hpp"
 #include "gis/file/text_writer.hpp"
 #include "gis/format/grid_formats.hpp"
@@ -16,10 +17,11 @@
 namespace coastmesh {
 namespace {
 
-constexpr int kLine = 1, kTriangle = 2;  // element types
+constexpr int kLine = 1, kTriangle = 2, kQuadrilateral = 3;  // element types
 
-constexpr GridParts kParts22{GridPart::Features, GridPart::Regions, GridPart::Lines,     GridPart::LineNames,
-                             GridPart::Rivers,   GridPart::Ibtypes, GridPart::BareWeirs, GridPart::PartIslands};
+constexpr GridParts kParts22{GridPart::Quads,   GridPart::Features,  GridPart::Regions,
+                             GridPart::Lines,   GridPart::LineNames, GridPart::Rivers,
+                             GridPart::Ibtypes, GridPart::BareWeirs, GridPart::PartIslands};
 
 // Curves are tagged from 1 in the order of the boundaries, then of the lines; surfaces continue in the order of the
 // features. Physical groups have the tags of their entities; lines of the same kind and name are one group.
@@ -32,10 +34,12 @@ struct Layout {
   };
   std::vector<Curve> curves;
   std::vector<std::pair<std::size_t, std::string>> curve_groups;  // tag and name
-  std::vector<std::vector<std::uint32_t>> triangles;              // one list for each surface
+  Elements elements;
+  std::vector<std::vector<std::uint32_t>> members;  // elements of each surface
   std::size_t line_count = 0;
 
-  std::size_t surfaces() const { return triangles.size(); }
+  explicit Layout(const Grid& grid) : elements(grid) {}
+  std::size_t surfaces() const { return members.size(); }
   std::size_t surfaceTag(std::size_t surface) const { return curves.size() + surface + 1; }
 };
 
@@ -55,7 +59,7 @@ std::string groupName(const GridLine& line) {
 }
 
 Layout layoutOf(const Grid& grid) {
-  Layout layout;
+  Layout layout(grid);
   const auto addCurve = [&](const auto& chain, std::size_t group, bool inside) {
     layout.curves.push_back({&chain.nodes, edgesOf(chain), group, inside});
     layout.line_count += layout.curves.back().edges.size();
@@ -71,8 +75,9 @@ Layout layoutOf(const Grid& grid) {
     if (added) layout.curve_groups.emplace_back(group->second, group->first);
     addCurve(line, group->second, true);
   }
-  layout.triangles.resize(grid.feature_of.empty() ? 1 : grid.features.size());
-  for (std::uint32_t t = 0; t < grid.triangles.size(); ++t) layout.triangles[surfaceOf(grid, t)].push_back(t);
+  layout.members.resize(grid.feature_of.empty() ? 1 : grid.features.size());
+  for (std::uint32_t e = 0; e < layout.elements.size(); ++e)
+    layout.members[surfaceOf(grid, layout.elements.triangleOf(e))].push_back(e);
   return layout;
 }
 
@@ -162,8 +167,8 @@ void writeEntities(TextWriter& file, const Grid& grid, const Layout& layout) {
   const std::vector<std::set<std::size_t>> along = curvesAlong(grid, layout);
   for (std::size_t s = 0; s < layout.surfaces(); ++s) {
     Box box;
-    for (std::uint32_t t : layout.triangles[s])
-      for (std::uint32_t node : grid.triangles[t]) box.add(grid.nodes[node]);
+    for (const std::uint32_t element : layout.members[s])
+      for (const std::uint32_t node : layout.elements.nodesOf(element)) box.add(grid.nodes[node]);
     file << layout.surfaceTag(s) << ' ' << box << " 1 " << layout.surfaceTag(s) << ' ' << along[s].size();
     for (std::size_t c : along[s]) file << ' ' << c + 1;
     file << '\n';
@@ -171,13 +176,14 @@ void writeEntities(TextWriter& file, const Grid& grid, const Layout& layout) {
   file << "$EndEntities\n";
 }
 
-// The elements of an entity, or of its share in one part of a partitioned mesh.
+// The elements of one type of an entity, or of its share in one part of a partitioned mesh.
 struct Block {
   int dimension = 0;
   std::size_t tag = 0;
   std::size_t entity = 0;              // its tag; differs from `tag` if the mesh is partitioned
   std::uint32_t part = 0;              // the part, from 0, if the mesh is partitioned
-  std::vector<std::uint32_t> members;  // indices into `linesOf`, or of triangles
+  std::vector<std::uint32_t> members;  // indices into `linesOf`, or elements
+  int type = kLine;                    // of the elements
 };
 
 // The edges of all curves, one curve after another.
@@ -221,14 +227,15 @@ std::vector<Block> blocksOf(const Grid& grid, const Layout& layout) {
   std::vector<Block> blocks;
   const bool partitioned = !grid.part_of.empty();
   std::size_t next_tag = layout.surfaceTag(layout.surfaces());
-  const auto add = [&](int dimension, std::size_t entity, std::vector<std::uint32_t> members, auto&& partOf) {
+  const auto add = [&](int type, std::size_t entity, std::vector<std::uint32_t> members, auto&& partOf) {
+    const int dimension = type == kLine ? 1 : 2;
     if (!partitioned) {
-      blocks.push_back({dimension, entity, entity, 0, std::move(members)});
+      blocks.push_back({dimension, entity, entity, 0, std::move(members), type});
       return;
     }
     std::map<std::uint32_t, std::vector<std::uint32_t>> by_part;
     for (const std::uint32_t member : members) by_part[partOf(member)].push_back(member);
-    for (auto& [part, some] : by_part) blocks.push_back({dimension, next_tag++, entity, part, std::move(some)});
+    for (auto& [part, some] : by_part) blocks.push_back({dimension, next_tag++, entity, part, std::move(some), type});
   };
   const std::vector<std::uint32_t> line_parts =
       partitioned ? partsOfLines(grid, linesOf(layout)) : std::vector<std::uint32_t>();
@@ -236,10 +243,20 @@ std::vector<Block> blocksOf(const Grid& grid, const Layout& layout) {
   for (std::size_t c = 0; c < layout.curves.size(); ++c) {
     std::vector<std::uint32_t> members(layout.curves[c].edges.size());
     for (std::uint32_t& member : members) member = line++;
-    add(1, c + 1, std::move(members), [&](std::uint32_t l) { return line_parts[l]; });
+    add(kLine, c + 1, std::move(members), [&](std::uint32_t l) { return line_parts[l]; });
   }
-  for (std::size_t s = 0; s < layout.surfaces(); ++s)
-    add(2, layout.surfaceTag(s), layout.triangles[s], [&](std::uint32_t t) { return grid.part_of[t]; });
+  const Elements& elements = layout.elements;
+  for (std::size_t s = 0; s < layout.surfaces(); ++s) {
+    std::vector<std::uint32_t> triangles = layout.members[s], quads;
+    if (elements.quads() > 0) {
+      const auto rest = std::ranges::stable_partition(triangles, [&](std::uint32_t e) { return !elements.isQuad(e); });
+      quads.assign(rest.begin(), rest.end());
+      triangles.erase(rest.begin(), rest.end());
+    }
+    const auto partOf = [&](std::uint32_t e) { return grid.part_of[elements.triangleOf(e)]; };
+    if (!triangles.empty() || quads.empty()) add(kTriangle, layout.surfaceTag(s), std::move(triangles), partOf);
+    if (!quads.empty()) add(kQuadrilateral, layout.surfaceTag(s), std::move(quads), partOf);
+  }
   return blocks;
 }
 
@@ -259,7 +276,7 @@ void writePartitionedEntities(TextWriter& file, const Grid& grid, const Layout& 
       if (block.dimension == 1) {
         for (const std::uint32_t node : lines[member]) box.add(grid.nodes[node]);
       } else {
-        for (const std::uint32_t node : grid.triangles[member]) box.add(grid.nodes[node]);
+        for (const std::uint32_t node : layout.elements.nodesOf(member)) box.add(grid.nodes[node]);
       }
     }
     const std::size_t group = block.dimension == 1 ? layout.curves[block.entity - 1].group : block.entity;
@@ -278,10 +295,11 @@ void writePartitionedEntities(TextWriter& file, const Grid& grid, const Layout& 
   file << "$EndPartitionedEntities\n";
 }
 
-// Writes every node in its first block, curves before surfaces, and unused nodes in the first surface's block. Returns
-// their order.
-std::vector<std::uint32_t> writeNodes(TextWriter& file, const Grid& grid, const std::vector<NodePair>& lines,
-                                      const std::vector<Block>& blocks, const ItemLoop& loop) {
+// Writes every node in the first block of its first entity, curves before surfaces, and unused nodes in the first
+// surface's block. Returns their order.
+std::vector<std::uint32_t> writeNodes(TextWriter& file, const Grid& grid, const Elements& elements,
+                                      const std::vector<NodePair>& lines, const std::vector<Block>& blocks,
+                                      const ItemLoop& loop) {
   std::vector<std::vector<std::uint32_t>> nodes_of(blocks.size());
   std::vector<bool> placed(grid.nodes.size(), false);
   const auto place = [&](std::size_t block, std::uint32_t node) {
@@ -291,11 +309,12 @@ std::vector<std::uint32_t> writeNodes(TextWriter& file, const Grid& grid, const 
   std::size_t first_surface = blocks.size();
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     if (blocks[b].dimension == 2) first_surface = std::min(first_surface, b);
+    const bool continues = b > 0 && blocks[b].dimension == 2 && blocks[b - 1].tag == blocks[b].tag;
     for (const std::uint32_t member : blocks[b].members) {
       if (blocks[b].dimension == 1) {
         for (const std::uint32_t node : lines[member]) place(b, node);
       } else {
-        for (const std::uint32_t node : grid.triangles[member]) place(b, node);
+        for (const std::uint32_t node : elements.nodesOf(member)) place(continues ? b - 1 : b, node);
       }
     }
   }
@@ -319,23 +338,22 @@ std::vector<std::uint32_t> writeNodes(TextWriter& file, const Grid& grid, const 
   return order;
 }
 
-void writeElements(TextWriter& file, const Grid& grid, const std::vector<NodePair>& lines,
+void writeElements(TextWriter& file, const Elements& elements, const std::vector<NodePair>& lines,
                    const std::vector<Block>& blocks, const ItemLoop& loop) {
   const auto filled = std::ranges::count_if(blocks, [](const Block& block) { return !block.members.empty(); });
-  const std::size_t count = lines.size() + grid.triangles.size();
+  const std::size_t count = lines.size() + elements.size();
   file << "$Elements\n" << filled << ' ' << count << " 1 " << count << '\n';
   for (const Block& block : blocks) {
     if (block.members.empty()) continue;
     const bool curve = block.dimension == 1;
-    file << block.dimension << ' ' << block.tag << ' ' << (curve ? kLine : kTriangle) << ' ' << block.members.size()
-         << '\n';
+    file << block.dimension << ' ' << block.tag << ' ' << block.type << ' ' << block.members.size() << '\n';
     file.rows(loop, block.members.size(), [&](TextBlock& text, std::size_t i) {
       const std::uint32_t member = block.members[i];
       text << (curve ? member : lines.size() + member) + 1;
       if (curve) {
         for (const std::uint32_t node : lines[member]) text << ' ' << node + 1;
       } else {
-        for (const std::uint32_t node : grid.triangles[member]) text << ' ' << node + 1;
+        for (const std::uint32_t node : elements.nodesOf(member)) text << ' ' << node + 1;
       }
       text << '\n';
     });
@@ -345,7 +363,7 @@ void writeElements(TextWriter& file, const Grid& grid, const std::vector<NodePai
 
 // Writes Gmsh .msh 4.1 (`writeGmsh22`: 2.2), ASCII, with the CRS in a .prj. Each boundary is a curve of line elements
 // with a physical group ("land 1", "island 2", "open 3"), as is each line ("weir North"); each feature is a surface
-// with its own ("feature 17"; "domain" if there are none). Tags of nodes and triangles follow the grid's order. The
+// with its own ("feature 17"; "domain" if there are none). Tags of nodes and elements follow the grid's order. The
 // mesh lies in the plane: z is node data, since solvers take a third coordinate for a curved surface. Throws
 // OutputError.
 void writeGmsh(const Grid& grid, const std::string& path, const ItemLoop& loop) {
@@ -357,8 +375,8 @@ void writeGmsh(const Grid& grid, const std::string& path, const ItemLoop& loop) 
   const std::vector<NodePair> lines = linesOf(layout);
   const std::vector<Block> blocks = blocksOf(grid, layout);
   writePartitionedEntities(file, grid, layout, lines, blocks);
-  const std::vector<std::uint32_t> order = writeNodes(file, grid, lines, blocks, loop);
-  writeElements(file, grid, lines, blocks, loop);
+  const std::vector<std::uint32_t> order = writeNodes(file, grid, layout.elements, lines, blocks, loop);
+  writeElements(file, layout.elements, lines, blocks, loop);
   writeNodeData(file, grid, order, loop);
   file.close();
   writePrjBeside(path, grid.crs);
@@ -373,17 +391,19 @@ void writeGmsh22(const Grid& grid, const std::string& path, const ItemLoop& loop
   file.rows(loop, grid.nodes.size(), [&](TextBlock& text, std::size_t i) {
     text << i + 1 << ' ' << grid.nodes[i].x << ' ' << grid.nodes[i].y << " 0\n";
   });
-  file << "$EndNodes\n$Elements\n" << layout.line_count + grid.triangles.size() << '\n';
+  file << "$EndNodes\n$Elements\n" << layout.line_count + layout.elements.size() << '\n';
   std::size_t tag = 0;
   for (std::size_t c = 0; c < layout.curves.size(); ++c)
     for (const auto& [from, to] : layout.curves[c].edges)
       file << ++tag << ' ' << kLine << " 2 " << layout.curves[c].group << ' ' << c + 1 << ' ' << from + 1 << ' '
            << to + 1 << '\n';
-  file.rows(loop, grid.triangles.size(), [&](TextBlock& text, std::size_t t) {
-    const auto& [a, b, c] = grid.triangles[t];
-    const std::size_t surface = layout.surfaceTag(surfaceOf(grid, t));
-    text << tag + t + 1 << ' ' << kTriangle << " 2 " << surface << ' ' << surface << ' ' << a + 1 << ' ' << b + 1 << ' '
-         << c + 1 << '\n';
+  const Elements& elements = layout.elements;
+  file.rows(loop, elements.size(), [&](TextBlock& text, std::size_t e) {
+    const std::size_t surface = layout.surfaceTag(surfaceOf(grid, elements.triangleOf(e)));
+    text << tag + e + 1 << ' ' << (elements.isQuad(e) ? kQuadrilateral : kTriangle) << " 2 " << surface << ' '
+         << surface;
+    for (const std::uint32_t node : elements.nodesOf(e)) text << ' ' << node + 1;
+    text << '\n';
   });
   file << "$EndElements\n";
   std::vector<std::uint32_t> order(grid.nodes.size());
@@ -396,9 +416,9 @@ void writeGmsh22(const Grid& grid, const std::string& path, const ItemLoop& loop
 }  // namespace
 
 FormatRecord gmshFormat() {
-  constexpr GridParts kParts41{GridPart::Features,  GridPart::Regions,     GridPart::Lines,
-                               GridPart::LineNames, GridPart::Rivers,      GridPart::Ibtypes,
-                               GridPart::BareWeirs, GridPart::PartIslands, GridPart::Partition};
+  constexpr GridParts kParts41{GridPart::Quads,       GridPart::Features, GridPart::Regions, GridPart::Lines,
+                               GridPart::LineNames,   GridPart::Rivers,   GridPart::Ibtypes, GridPart::BareWeirs,
+                               GridPart::PartIslands, GridPart::Partition};
   return {{.name = "gmsh",
            .endings = {".msh"},
            .description = "Gmsh 4.1 for Thetis, Firedrake, SLIM and FEniCS",

@@ -9,6 +9,9 @@
 #include <string_view>
 #include <type_traits>
 
+#include "core/bulk_list.hpp"
+#include "gis/elements/elements.hpp"
+#include "gis/elements/quads.hpp"
 #include "gis/file/cf_grid_mapping.hpp"
 #include "gis/file/netcdf_file.hpp"
 #include "gis/format/grid_formats.hpp"
@@ -117,15 +120,19 @@ class UgridFile {
 
   template <typename Rows>
   void connectivity(const std::string& of, const std::vector<int>& dimensions, const Rows& rows) {
-    const int variable = file_.variable("mesh2d_" + of + "_nodes", NC_INT, dimensions);
-    file_.attribute(variable, "cf_role", of + "_node_connectivity");
-    file_.attribute(variable, "long_name", "nodes of each " + of);
-    file_.attribute(variable, "start_index", kStartIndex);
-    file_.attribute(variable, "_FillValue", kFillNode);
+    const int variable = defineConnectivity(of, dimensions);
     if (rows.empty()) return;
     const std::size_t width = rows.front().size();
     putEach(variable, rows.size() * width, [&rows, width](std::size_t i) {
       return static_cast<std::int32_t>(rows[i / width][i % width]) + kStartIndex;
+    });
+  }
+
+  // REQUIRES: there are quadrilaterals, and `elements` outlive the writing.
+  void mixedFaces(const std::vector<int>& dimensions, const Elements& elements) {
+    putEach(defineConnectivity("face", dimensions), elements.size() * 4, [&elements](std::size_t i) {
+      const Elements::Nodes nodes = elements.nodesOf(i / 4);
+      return i % 4 < nodes.count ? static_cast<std::int32_t>(nodes.v[i % 4]) + kStartIndex : kFillNode;
     });
   }
 
@@ -166,6 +173,15 @@ class UgridFile {
   }
 
  private:
+  int defineConnectivity(const std::string& of, const std::vector<int>& dimensions) {
+    const int variable = file_.variable("mesh2d_" + of + "_nodes", NC_INT, dimensions);
+    file_.attribute(variable, "cf_role", of + "_node_connectivity");
+    file_.attribute(variable, "long_name", "nodes of each " + of);
+    file_.attribute(variable, "start_index", kStartIndex);
+    file_.attribute(variable, "_FillValue", kFillNode);
+    return variable;
+  }
+
   NetcdfWriter file_;
   std::string crs_name_;
   std::vector<std::function<void()>> puts_;
@@ -246,26 +262,30 @@ bool fidsFitInt(const Grid& grid) {
   });
 }
 
-void defineRegions(UgridFile& ugrid, const Grid& grid, int faces) {
+void defineRegions(UgridFile& ugrid, const Grid& grid, const Elements& elements, int faces) {
   const std::vector<std::string> names = regionNames(grid);
   if (names.empty() || grid.feature_of.empty()) return;
   const int region =
-      ugrid.dataOfEach("region", faces, "face", "region that the face lies in, 0 in none", {}, grid.feature_of.size(),
-                       [&grid, numbers = regionNumbers(grid, names)](std::size_t t) {
-                         return std::int32_t{numbers[grid.feature_of[t]]};
+      ugrid.dataOfEach("region", faces, "face", "region that the face lies in, 0 in none", {}, elements.size(),
+                       [&grid, &elements, numbers = regionNumbers(grid, names)](std::size_t face) {
+                         return std::int32_t{numbers[grid.feature_of[elements.triangleOf(face)]]};
                        });
   ugrid.flags(region, names);
   ugrid.names("region_name", ugrid.dimension("mesh2d_nRegions", names.size()), "names of the regions", names);
 }
 
-void defineFaces(UgridFile& ugrid, const Grid& grid, int faces) {
+// REQUIRES: `elements` outlive the writing.
+void defineFaces(UgridFile& ugrid, const Grid& grid, const Elements& elements, int faces) {
   const auto data = [&](const std::string& name, const std::string& long_name, const std::string& units,
                         const auto& valueOf) {
-    ugrid.dataOfEach(name, faces, "face", long_name, units, grid.triangles.size(), valueOf);
+    ugrid.dataOfEach(name, faces, "face", long_name, units, elements.size(),
+                     [&elements, valueOf](std::size_t face) { return valueOf(elements.triangleOf(face)); });
   };
   if (!grid.min_angle_deg.empty())
     data("min_angle", "smallest angle", "degree", [&grid](std::size_t t) { return grid.min_angle_deg[t]; });
-  if (!grid.area_m2.empty()) data("area", "area", "m2", [&grid](std::size_t t) { return grid.area_m2[t]; });
+  if (!grid.area_m2.empty())
+    ugrid.dataOfEach("area", faces, "face", "area", "m2", elements.size(),
+                     [&grid, &elements](std::size_t face) { return elements.sumOver(face, grid.area_m2); });
   if (!grid.feature_of.empty()) {
     const auto fidOf = [&grid](std::size_t t) { return grid.features[grid.feature_of[t]].fid; };
     const std::string what = "fid of the source feature";
@@ -275,7 +295,7 @@ void defineFaces(UgridFile& ugrid, const Grid& grid, int faces) {
       data("feature", what, {}, [fidOf](std::size_t t) { return static_cast<double>(fidOf(t)); });
     }
   }
-  defineRegions(ugrid, grid, faces);
+  defineRegions(ugrid, grid, elements, faces);
   if (!grid.piece_of.empty())
     data("piece", "piece that the face was refined in, from 1", {},
          [&grid](std::size_t t) { return static_cast<std::int32_t>(grid.piece_of[t]) + 1; });
@@ -316,11 +336,12 @@ void defineLines(UgridFile& ugrid, const Grid& grid, int edge_dimension, std::sp
   ugrid.names("line_name", lines, "names of the lines", names);
 }
 
-void defineTopology(UgridFile& ugrid, bool with_boundaries) {
+void defineTopology(UgridFile& ugrid, bool quads, bool with_boundaries) {
   NetcdfWriter& file = ugrid.file();
   const int mesh = file.variable("mesh2d", NC_INT, {});
   file.attribute(mesh, "cf_role", "mesh_topology");
-  file.attribute(mesh, "long_name", "topology of the triangle mesh");
+  file.attribute(mesh, "long_name",
+                 quads ? "topology of the mesh of triangles and quadrilaterals" : "topology of the triangle mesh");
   file.attribute(mesh, "topology_dimension", 2);
   file.attribute(mesh, "node_coordinates", "mesh2d_node_x mesh2d_node_y");
   file.attribute(mesh, "node_dimension", "mesh2d_nNodes");
@@ -333,17 +354,28 @@ void defineTopology(UgridFile& ugrid, bool with_boundaries) {
   ugrid.put(mesh, [] { return std::array{0}; });
 }
 
+// Every edge once, in the order of `uniqueEdges`; diagonals of quadrilaterals are none.
+BulkList<NodePair> edgesOfElements(const Grid& grid, const ItemLoop& loop) {
+  BulkList<NodePair> edges = uniqueEdges(grid.nodes.size(), grid.triangles, loop);
+  const std::vector<NodePair> diagonals = diagonalEdges(grid);
+  if (!diagonals.empty())
+    std::erase_if(edges, [&](const NodePair& edge) { return std::ranges::binary_search(diagonals, edge); });
+  return edges;
+}
+
 // Writes UGRID-1.0 NetCDF (64-bit offset; CDF-5 above its limit of 4 GiB per array) as MDAL, xugrid and D-FlowFM read
 // it: mesh topology `mesh2d` with face_nodes, edge_nodes and the boundary's edges, the CRS in
 // `projected_coordinate_system` or `wgs84`, elevation, smallest angle, area and source fid as data. A node without z
 // has the fill value -999. Throws OutputError.
 void writeUgrid(const Grid& grid, const std::string& path, const ItemLoop& loop) {
-  const auto edges = uniqueEdges(grid.nodes.size(), grid.triangles, loop);
+  const Elements elements(grid);
+  const auto edges = edgesOfElements(grid, loop);
   std::vector<NodePair> boundary_edges;
   for (const Boundary& boundary : grid.boundaries)
     for (const NodePair& edge : edgesOf(boundary)) boundary_edges.push_back(edge);
   constexpr std::size_t kLargest = 4'000'000'000;  // bytes of an array in a 64-bit offset file, with some to spare
-  const std::size_t bytes = std::max({grid.triangles.size() * 12, grid.nodes.size() * 8, edges.size() * 8});
+  const std::size_t bytes =
+      std::max({elements.size() * (elements.quads() > 0 ? 16 : 12), grid.nodes.size() * 8, edges.size() * 8});
   UgridFile ugrid(grid, path, bytes > kLargest);
   NetcdfWriter& file = ugrid.file();
   file.attribute(NC_GLOBAL, "Conventions", "CF-1.8 UGRID-1.0");
@@ -351,20 +383,23 @@ void writeUgrid(const Grid& grid, const std::string& path, const ItemLoop& loop)
   file.attribute(NC_GLOBAL, "source", "coastmesh");
   const int node_dim = ugrid.dimension("mesh2d_nNodes", grid.nodes.size());
   const int edge_dim = ugrid.dimension("mesh2d_nEdges", edges.size());
-  const int face_dim = ugrid.dimension("mesh2d_nFaces", grid.triangles.size());
-  const int corner_dim = ugrid.dimension("mesh2d_nMax_face_nodes", 3);
+  const int face_dim = ugrid.dimension("mesh2d_nFaces", elements.size());
+  const int corner_dim = ugrid.dimension("mesh2d_nMax_face_nodes", elements.quads() > 0 ? 4 : 3);
   const int two_dim = ugrid.dimension("Two", 2);
 
-  defineTopology(ugrid, !boundary_edges.empty());
+  defineTopology(ugrid, elements.quads() > 0, !boundary_edges.empty());
   if (!grid.crs.isPlane()) {
     const int crs = defineCrs(file, grid.crs);
     ugrid.put(crs, [&grid] { return std::array{epsgOf(grid.crs)}; });
   }
   defineNodes(ugrid, grid, node_dim);
-  ugrid.connectivity("face", {face_dim, corner_dim}, grid.triangles);
+  if (elements.quads() > 0)
+    ugrid.mixedFaces({face_dim, corner_dim}, elements);
+  else
+    ugrid.connectivity("face", {face_dim, corner_dim}, grid.triangles);
   ugrid.connectivity("edge", {edge_dim, two_dim}, edges);
   defineBoundaries(ugrid, grid, two_dim, boundary_edges);
-  defineFaces(ugrid, grid, face_dim);
+  defineFaces(ugrid, grid, elements, face_dim);
   defineLines(ugrid, grid, edge_dim, edges);
   ugrid.close(loop);
 }
@@ -377,9 +412,9 @@ FormatRecord ugridFormat() {
            .description = "UGRID NetCDF for QGIS, xugrid and D-FlowFM (_net.nc)",
            .readable = true,
            .writable = true,
-           .holds = {GridPart::Title, GridPart::Sizes, GridPart::Features, GridPart::Regions, GridPart::Pieces,
-                     GridPart::Partition, GridPart::Lines, GridPart::LineNames, GridPart::Rivers, GridPart::Ibtypes,
-                     GridPart::BareWeirs, GridPart::PartIslands},
+           .holds = {GridPart::Title, GridPart::Quads, GridPart::Sizes, GridPart::Features, GridPart::Regions,
+                     GridPart::Pieces, GridPart::Partition, GridPart::Lines, GridPart::LineNames, GridPart::Rivers,
+                     GridPart::Ibtypes, GridPart::BareWeirs, GridPart::PartIslands},
            .places = NodePlaces::OneTurn},
           {writeUgrid, readUgrid, nullptr, nullptr, depthRemark}};
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 
+#include "gis/elements/elements.hpp"
 #include "gis/file/prj_file.hpp"
 #include "gis/file/text_writer.hpp"
 #include "gis/format/grid_formats.hpp"
@@ -17,7 +18,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the file says LittleEndian");
 
-constexpr std::uint8_t kVtkTriangle = 5;
+constexpr std::uint8_t kVtkTriangle = 5, kVtkQuad = 9;
 
 // The blocks of the appended section: for each array its length in bytes, then its bytes.
 class Appendix {
@@ -137,8 +138,34 @@ struct VtuPlaces {
   std::function<LonLat(std::size_t node)> geographic;  // null: as in `place`
 };
 
+// The arrays of cells: their nodes, the end of each among them, and their types.
+void writeCells(const Grid& grid, const Elements& elements, const ItemLoop& loop, Appendix& appendix) {
+  const std::size_t cells = elements.size();
+  if (elements.quads() == 0) {
+    appendix.write(loop, cells, [&](std::size_t t) {
+      const auto& [a, b, c] = grid.triangles[t];
+      return std::array<std::int64_t, 3>{a, b, c};
+    });
+    appendix.write(loop, cells, [](std::size_t t) { return 3 * (static_cast<std::int64_t>(t) + 1); });
+    appendix.write(loop, cells, [](std::size_t) { return kVtkTriangle; });
+    return;
+  }
+  std::vector<std::int64_t> nodes, ends;
+  std::vector<std::uint8_t> types;
+  for (std::size_t e = 0; e < cells; ++e) {
+    const Elements::Nodes of_cell = elements.nodesOf(e);
+    nodes.insert(nodes.end(), of_cell.begin(), of_cell.end());
+    ends.push_back(static_cast<std::int64_t>(nodes.size()));
+    types.push_back(of_cell.count == 4 ? kVtkQuad : kVtkTriangle);
+  }
+  appendix.write(nodes);
+  appendix.write(ends);
+  appendix.write(types);
+}
+
 void writeFile(const Grid& grid, const VtuPlaces& places, const std::string& path, const ItemLoop& loop) {
-  const std::uint64_t nodes = grid.nodes.size(), cells = grid.triangles.size();
+  const Elements elements(grid);
+  const std::uint64_t nodes = grid.nodes.size(), cells = elements.size(), corners = 3 * cells + elements.quads();
   TextWriter file(path);
   Appendix appendix(file);
   file << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
@@ -154,7 +181,7 @@ void writeFile(const Grid& grid, const VtuPlaces& places, const std::string& pat
   file << "<Points>\n";
   appendix.declare("Float64", "Points", 3, nodes * 24);
   file << "</Points>\n<Cells>\n";
-  appendix.declare("Int64", "connectivity", 1, cells * 24);
+  appendix.declare("Int64", "connectivity", 1, corners * 8);
   appendix.declare("Int64", "offsets", 1, cells * 8);
   appendix.declare("UInt8", "types", 1, cells);
   file << "</Cells>\n<PointData>\n";
@@ -172,24 +199,22 @@ void writeFile(const Grid& grid, const VtuPlaces& places, const std::string& pat
 
   fields.write(appendix);
   appendix.write(loop, nodes, places.place);
-  appendix.write(loop, cells, [&](std::size_t t) {
-    const auto& [a, b, c] = grid.triangles[t];
-    return std::array<std::int64_t, 3>{a, b, c};
-  });
-  appendix.write(loop, cells, [](std::size_t t) { return 3 * (static_cast<std::int64_t>(t) + 1); });
-  appendix.write(loop, cells, [](std::size_t) { return kVtkTriangle; });
+  writeCells(grid, elements, loop, appendix);
   if (!grid.z.empty()) appendix.write(grid.z);
   if (places.geographic) {
     appendix.write(loop, nodes, [&](std::size_t i) { return places.geographic(i).lon; });
     appendix.write(loop, nodes, [&](std::size_t i) { return places.geographic(i).lat; });
   }
-  if (!grid.min_angle_deg.empty()) appendix.write(grid.min_angle_deg);
-  if (!grid.area_m2.empty()) appendix.write(grid.area_m2);
+  if (!grid.min_angle_deg.empty())
+    appendix.write(loop, cells, [&](std::size_t e) { return grid.min_angle_deg[elements.triangleOf(e)]; });
+  if (!grid.area_m2.empty())
+    appendix.write(loop, cells, [&](std::size_t e) { return elements.sumOver(e, grid.area_m2); });
+  const auto featureOf = [&](std::size_t e) { return grid.feature_of[elements.triangleOf(e)]; };
   if (!grid.feature_of.empty())
-    appendix.write(loop, cells, [&](std::size_t t) { return std::int64_t{grid.features[grid.feature_of[t]].fid}; });
+    appendix.write(loop, cells, [&](std::size_t e) { return std::int64_t{grid.features[featureOf(e)].fid}; });
   if (!regions.empty()) {
     const std::vector<int> numbers = regionNumbers(grid, regions);
-    appendix.write(loop, cells, [&](std::size_t t) { return std::int64_t{numbers[grid.feature_of[t]]}; });
+    appendix.write(loop, cells, [&](std::size_t e) { return std::int64_t{numbers[featureOf(e)]}; });
   }
   file << "\n</AppendedData>\n</VTKFile>\n";
   file.close();
@@ -217,8 +242,9 @@ void writeVtuGlobe(const Grid& grid, const std::string& path, const ItemLoop& lo
   writeFile(grid, {place, [&nodes](std::size_t i) { return asLonLat(nodes[i]); }}, path, loop);
 }
 
-constexpr GridParts kParts{GridPart::Features, GridPart::Regions, GridPart::Lines,     GridPart::LineNames,
-                           GridPart::Rivers,   GridPart::Ibtypes, GridPart::BareWeirs, GridPart::PartIslands};
+constexpr GridParts kParts{GridPart::Quads,   GridPart::Features,  GridPart::Regions,
+                           GridPart::Lines,   GridPart::LineNames, GridPart::Rivers,
+                           GridPart::Ibtypes, GridPart::BareWeirs, GridPart::PartIslands};
 
 }  // namespace
 

@@ -62,12 +62,15 @@ struct Grid {
   std::vector<double> z;                             // metres, positive up; empty or one per node, NaN if unknown
   std::vector<double> size_m;                        // empty or one for each node: the requested edge length there
   BulkList<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise
-  BulkList<std::uint32_t> feature_of;                // empty or one for each triangle: index into `features`
-  std::vector<std::uint32_t> piece_of;               // empty or one per triangle: the piece that it was refined in
-  std::vector<std::uint32_t> part_of;                // empty or one for each triangle: the solver's process, from 0
-  std::vector<std::uint32_t> node_part_of;           // empty or one for each node, in the same way
-  BulkList<double> min_angle_deg;                    // empty or one per triangle, as measured when meshed
-  BulkList<double> area_m2;                          // empty or one for each triangle, on the ellipsoid
+  // Empty or one for each triangle: two triangles with the same number that share an edge are the halves of a
+  // quadrilateral of a file (gis/elements); kNone, or no other half: a triangle.
+  std::vector<std::uint32_t> quad_of;
+  BulkList<std::uint32_t> feature_of;       // empty or one for each triangle: index into `features`
+  std::vector<std::uint32_t> piece_of;      // empty or one per triangle: the piece that it was refined in
+  std::vector<std::uint32_t> part_of;       // empty or one for each triangle: the solver's process, from 0
+  std::vector<std::uint32_t> node_part_of;  // empty or one for each node, in the same way
+  BulkList<double> min_angle_deg;           // empty or one per triangle, as measured when meshed
+  BulkList<double> area_m2;                 // empty or one for each triangle, on the ellipsoid
   std::vector<GridFeature> features;
   std::vector<Boundary> boundaries;
   std::vector<GridLine> lines;
@@ -78,15 +81,15 @@ struct Grid {
 // Grid, so that a new member does not compile until it is added where it belongs.
 template <typename AnyGrid>
 auto nodeArrays(AnyGrid& grid) {
-  auto& [title, crs, nodes, z, size_m, triangles, feature_of, piece_of, part_of, node_part_of, min_angle_deg, area_m2,
-         features, boundaries, lines, notes] = grid;
+  auto& [title, crs, nodes, z, size_m, triangles, quad_of, feature_of, piece_of, part_of, node_part_of, min_angle_deg,
+         area_m2, features, boundaries, lines, notes] = grid;
   return std::tie(nodes, z, size_m, node_part_of);
 }
 template <typename AnyGrid>
 auto triangleArrays(AnyGrid& grid) {
-  auto& [title, crs, nodes, z, size_m, triangles, feature_of, piece_of, part_of, node_part_of, min_angle_deg, area_m2,
-         features, boundaries, lines, notes] = grid;
-  return std::tie(triangles, feature_of, piece_of, part_of, min_angle_deg, area_m2);
+  auto& [title, crs, nodes, z, size_m, triangles, quad_of, feature_of, piece_of, part_of, node_part_of, min_angle_deg,
+         area_m2, features, boundaries, lines, notes] = grid;
+  return std::tie(triangles, quad_of, feature_of, piece_of, part_of, min_angle_deg, area_m2);
 }
 
 // Throws OutputError if a z is unknown; for formats that need one at every node.

@@ -148,6 +148,14 @@ void renumberNodes(Grid& grid, const auto& index_of) {
   for (GridLine& line : grid.lines) renumber(line.nodes);
 }
 
+// One more than the largest number of a quadrilateral.
+std::uint32_t firstFreeQuad(const Grid& grid) {
+  std::uint32_t free = 0;
+  for (const std::uint32_t quad : grid.quad_of)
+    if (quad != kNone) free = std::max(free, quad + 1);
+  return free;
+}
+
 // The new index of each item, kNone for removed ones.
 std::vector<std::uint32_t> indexWithout(const std::vector<bool>& gone) {
   std::vector<std::uint32_t> index_of(gone.size(), kNone);
@@ -298,6 +306,7 @@ std::uint32_t copyTriangle(Grid& grid, std::uint32_t source, const GridCorners& 
   const auto added = static_cast<std::uint32_t>(grid.triangles.size());
   forEachArray(triangleArrays(grid), [source](auto& values) { copyLast(values, source); });
   grid.triangles.back() = corners;
+  if (!grid.quad_of.empty()) grid.quad_of.back() = kNone;
   return added;
 }
 
@@ -378,6 +387,10 @@ void appendGrid(Grid& whole, Grid&& part, std::optional<std::uint32_t> first_pie
     Grid& silent = whole.piece_of.empty() ? whole : part;
     silent.piece_of.assign(silent.triangles.size(), 0);
   }
+  if (whole.quad_of.empty() != part.quad_of.empty()) {
+    Grid& plain = whole.quad_of.empty() ? whole : part;
+    plain.quad_of.assign(plain.triangles.size(), kNone);
+  }
   // A partition is valid for the whole mesh only.
   for (Grid* grid : {&whole, &part}) {
     grid->part_of.clear();
@@ -390,6 +403,9 @@ void appendGrid(Grid& whole, Grid&& part, std::optional<std::uint32_t> first_pie
   renumberNodes(part, [node_shift](std::uint32_t node) { return node_shift + node; });
   for (std::uint32_t& feature : part.feature_of) feature += feature_shift;
   for (std::uint32_t& piece : part.piece_of) piece += piece_shift;
+  const std::uint32_t quad_shift = firstFreeQuad(whole);
+  for (std::uint32_t& quad : part.quad_of)
+    if (quad != kNone) quad += quad_shift;
 
   const auto append = [](auto& to, auto& from) { std::move(from.begin(), from.end(), std::back_inserter(to)); };
   const auto appendUnlessSilent = [&]<typename T, typename Allocator>(std::vector<T, Allocator>& to,

@@ -8,6 +8,7 @@ namespace coastmesh {
 // What a grid may hold besides nodes, their depths, triangles, and the open boundaries.
 enum class GridPart : std::uint8_t {
   Title,
+  Quads,         // quadrilaterals; otherwise two triangles each
   Sizes,         // the requested edge length at each node
   Features,      // the feature of each triangle
   FeatureNames,  // names and sources of features

@@ -8,6 +8,7 @@
 
 #include "core/predicates.hpp"
 #include "core/union_find.hpp"
+#include "gis/elements/quads.hpp"
 #include "gis/error.hpp"
 #include "gis/geometry/ring_area.hpp"
 #include "gis/grid/boundary_kinds.hpp"
@@ -115,6 +116,11 @@ class MeshJoiner {
     cover_ = coverOf(joined_.mesh, joined_.same, outline_, loop_);
     for (TriId t = 0; t < cover_.size(); ++t)
       if (cover_[t] == Cover::Free && isTurned(joined_.mesh, t)) cover_[t] = Cover::Met;  // by a node that moved
+    for (const Quad& quad : quadsOf(grid_)) {
+      Cover &first = cover_[quad.halves[0]], &second = cover_[quad.halves[1]];
+      if (first == Cover::Free && second != Cover::Free) first = Cover::Met;
+      if (second == Cover::Free && first != Cover::Free) second = Cover::Met;
+    }
     if (std::ranges::find(cover_, Cover::Free) == cover_.end())
       throw InputError("the mesh that is put in covers all of the other one");
   }

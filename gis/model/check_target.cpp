@@ -12,6 +12,7 @@
 #include "core/predicates.hpp"
 #include "core/quality.hpp"
 #include "core/tri_mesh.hpp"
+#include "gis/elements/quads.hpp"
 #include "gis/geometry/box.hpp"
 #include "gis/grid/boundary_kinds.hpp"
 #include "gis/grid/geographic_nodes.hpp"
@@ -36,12 +37,12 @@ bool isOfLongWaves(Target target) {
 namespace {
 
 constexpr std::array<std::string_view, kTargetDefectKinds> kKindNames{
-    "wrong count",     "broken edge",    "clockwise",      "overlapping triangles", "unused node",
-    "repeated node",   "hanging node",   "pinched node",   "orphan cell",           "unknown depth",
-    "dry opening",     "no boundary",    "stray boundary", "boundary twice",        "boundary turned",
-    "looped boundary", "wrong shore",    "two open edges", "open and solid edge",   "one neighbour",
-    "lone wall",       "valence",        "large angle",    "not orthogonal",        "small flow link",
-    "courant",         "round the globe"};
+    "wrong count",     "broken edge",     "clockwise",      "overlapping triangles", "unused node",
+    "repeated node",   "hanging node",    "pinched node",   "orphan cell",           "unknown depth",
+    "dry opening",     "no boundary",     "stray boundary", "boundary twice",        "boundary turned",
+    "looped boundary", "wrong shore",     "two open edges", "open and solid edge",   "one neighbour",
+    "lone wall",       "valence",         "large angle",    "not orthogonal",        "small flow link",
+    "courant",         "round the globe", "quadrilateral"};
 
 // The other models have no open boundaries, or accept dry nodes there.
 bool mindsDryOpenings(Target target) {
@@ -79,7 +80,8 @@ class TargetCheck {
         conflicts_(linked.conflicts),
         target_(target),
         options_(options),
-        loop_(loop) {}
+        loop_(loop),
+        quads_(quadsOf(grid)) {}
 
   std::vector<TargetDefect> run() {
     for (const std::string& note : grid_.notes)
@@ -99,6 +101,7 @@ class TargetCheck {
     if (target_ == Target::Fvcom) checkOpenCells();
     if (target_ == Target::Fvcom || target_ == Target::Telemac) checkLoneWalls();
     if (target_ == Target::Dflowfm) checkFlowLinks();
+    if (!acceptsQuads(target_)) checkQuads();
     if (options_.time_step_s > 0.0 && isOfLongWaves(target_) && !grid_.z.empty()) checkCourant();
     std::ranges::stable_sort(defects_, {},
                              [](const TargetDefect& defect) { return std::pair(defect.advice, defect.kind); });
@@ -381,21 +384,65 @@ class TargetCheck {
     }
   }
 
+  void checkQuads() {
+    for (const Quad& quad : quads_)
+      add(TargetDefectKind::Quadrilateral, middle(quad.nodes[0], quad.nodes[2]), quad.halves[0]);
+  }
+
+  // Links lead from element to element: none crosses a diagonal.
   void checkFlowLinks() {
+    std::vector<const Quad*> quad_of(grid_.triangles.size(), nullptr);
+    for (const Quad& quad : quads_)
+      for (const std::uint32_t t : quad.halves) quad_of[t] = &quad;
     addForEach(mesh_.triangles.size(), [&](std::size_t t, std::vector<TargetDefect>& found) {
       for (unsigned i = 0; i < 3; ++i) {
         const EdgeRef e = edgeRef(static_cast<TriId>(t), i), twin = mesh_.twin(e);
         if (twin == kNone || triOf(twin) < t) continue;
-        const std::array<std::uint32_t, 4> nodes{mesh_.origin(e), mesh_.target(e), mesh_.apex(e), mesh_.apex(twin)};
-        const auto [a, b, c, d] = localPlane(grid_, nodes, EarthShape::Sphere);
-        const FlowLink link = flowLinkAcross(a, b, c, d);
+        const Quad* const left = quad_of[t];
+        const Quad* const right = quad_of[triOf(twin)];
+        if (left != nullptr && left == right) continue;
+        const std::uint32_t from = mesh_.origin(e), to = mesh_.target(e);
+        const FlowLink link = left == nullptr && right == nullptr
+                                  ? linkOfTriangles({from, to, mesh_.apex(e), mesh_.apex(twin)})
+                                  : linkOf(cellAt(left, e), cellAt(right, twin));
         const auto report = [&](TargetDefectKind kind, double value) {
-          found.push_back({kind, middle(nodes[0], nodes[1]), static_cast<std::int64_t>(t), nodes[0], value, {}});
+          found.push_back({kind, middle(from, to), static_cast<std::int64_t>(t), from, value, {}});
         };
         if (link.cosine > kDflowfmLargestCosine) report(TargetDefectKind::NotOrthogonal, link.cosine);
         if (link.length < kDflowfmSmallestLink) report(TargetDefectKind::SmallFlowLink, link.length);
       }
     });
+  }
+
+  // An element's nodes, counter-clockwise.
+  struct FlowCell {
+    std::array<std::uint32_t, 4> nodes{};
+    std::size_t count = 3;
+  };
+
+  // The nodes of a quadrilateral, or of the triangle if that is null, from the origin of one of its sides.
+  FlowCell cellAt(const Quad* quad, EdgeRef side) const {
+    const std::uint32_t from = mesh_.origin(side);
+    if (quad == nullptr) return {{from, mesh_.target(side), mesh_.apex(side)}, 3};
+    FlowCell cell{quad->nodes, 4};
+    std::ranges::rotate(cell.nodes, std::ranges::find(cell.nodes, from));
+    return cell;
+  }
+
+  // `nodes`: the ends of the side, then the apexes on both sides.
+  FlowLink linkOfTriangles(const std::array<std::uint32_t, 4>& nodes) const {
+    const auto [a, b, c, d] = localPlane(grid_, nodes, EarthShape::Sphere);
+    return flowLinkAcross(a, b, c, d);
+  }
+
+  // Across the side from the first to the second node of `left`, which is from the second to the first of `right`.
+  FlowLink linkOf(const FlowCell& left, const FlowCell& right) const {
+    std::array<Point, 8> places;
+    for (std::size_t i = 0; i < left.count; ++i) places[i] = grid_.nodes[left.nodes[i]];
+    for (std::size_t i = 0; i < right.count; ++i) places[left.count + i] = grid_.nodes[right.nodes[i]];
+    const std::span all = std::span(places).first(left.count + right.count);
+    flattenLocally(grid_.crs, all, EarthShape::Sphere);
+    return flowLinkAcross(all.first(left.count), all.subspan(left.count));
   }
 
   void checkCourant() {
@@ -413,6 +460,7 @@ class TargetCheck {
   const Target target_;
   const TargetCheckOptions& options_;
   const ItemLoop& loop_;
+  const std::vector<Quad> quads_;
   std::vector<EdgeRef> boundary_edges_;  // ascending
   std::vector<TargetDefect> defects_;
   std::vector<Point> on_earth_;  // longitudes and latitudes of the nodes, if the model uses these instead

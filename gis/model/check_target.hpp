@@ -41,8 +41,9 @@ enum class TargetDefectKind {
   SmallFlowLink,   // an edge with the neighbours' centres too close to one another
   Courant,         // a triangle whose Courant number is out of range for the time step
   RoundTheGlobe,   // a triangle whose longitudes jump at ±180, for a model that takes differences of them as they are
+  Quadrilateral,   // an element of four nodes, for a model of triangles
 };
-inline constexpr std::size_t kTargetDefectKinds = 27;
+inline constexpr std::size_t kTargetDefectKinds = 28;
 std::string_view toString(TargetDefectKind kind);
 
 struct TargetDefect {

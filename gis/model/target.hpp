@@ -16,6 +16,9 @@ std::string allTargetNames();
 // Returns whether the model uses latitudes as those of a sphere.
 bool isOnSphere(Target target);
 
+// Returns whether the model computes on quadrilaterals too.
+bool acceptsQuads(Target target);
+
 // The models with these names, each once, in the order of Target. Throws OptionError for an unknown name.
 std::vector<Target> targetsNamed(const std::vector<std::string>& names);
 

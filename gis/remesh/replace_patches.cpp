@@ -179,8 +179,8 @@ ReplaceReport replacePatches(Grid& grid, const std::vector<RemeshPatch>& patches
   }
 
   // Every member of Grid: see `nodeArrays`.
-  auto& [title, crs, places, z, size_m, corners, feature_of, piece_of, part_of, node_part_of, min_angle_deg, area_m2,
-         features, boundaries, lines, notes] = grid;
+  auto& [title, crs, places, z, size_m, corners, quad_of, feature_of, piece_of, part_of, node_part_of, min_angle_deg,
+         area_m2, features, boundaries, lines, notes] = grid;
   report.partition_dropped = !part_of.empty() || !node_part_of.empty();
   part_of.clear();
   node_part_of.clear();
@@ -194,6 +194,7 @@ ReplaceReport replacePatches(Grid& grid, const std::vector<RemeshPatch>& patches
   for (auto& triangle : corners)
     for (std::uint32_t& node : triangle) node = nodes.of_old[node];  // of triangles that are gone: perhaps kNone
   triangles.place(corners, loop, [&](std::size_t i) { return items.corners[i]; });
+  triangles.place(quad_of, loop, [](std::size_t) { return kNone; });
   triangles.place(feature_of, loop, [&](std::size_t i) { return items.features[i]; });
   const std::uint32_t piece = piece_of.empty() ? 0 : *std::ranges::max_element(piece_of) + 1;
   triangles.place(piece_of, loop, [&](std::size_t) { return piece; });

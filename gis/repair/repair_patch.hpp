@@ -31,9 +31,11 @@ struct GridLinks {
   std::vector<std::vector<std::uint32_t>> triangles_at;  // one list a node
   BoundaryKinds kinds;                                   // of boundary edges
   std::vector<bool> on_boundary;                         // one flag a node
-  std::set<NodePair> line_edges;                         // by `edgeKey`; these must stay
+  std::set<NodePair> line_edges;                         // by `edgeKey`, also of quadrilaterals; these must stay
+  std::vector<NodePair> quad_edges;                      // of `edgesOfQuads`; these must stay whole
   std::vector<bool> asked;                               // one flag a node, or empty; these must stay
 
+  bool isOfQuad(const NodePair& key) const { return std::ranges::binary_search(quad_edges, key); }
   bool isAsked(std::uint32_t node) const { return node < asked.size() && asked[node]; }
 };
 

@@ -121,6 +121,7 @@ std::optional<PatchEdit> bestReshaping(const RepairView& view, std::span<const s
   for (const std::uint32_t node : reach.movable) offerMoves(contest, view, node);
   for (const auto& [a, b] : edges) {
     if (const auto flip = flipOf(view, patch, a, b)) contest.offer(*flip);
+    if (view.links.isOfQuad({a, b})) continue;
     for (const double share : reach.shares) contest.offer(splitOf(view, patch, a, b, share));
   }
   if (mayCutShore(view))

@@ -8,6 +8,7 @@
 #include "core/metric.hpp"
 #include "gis/crs/geodesy.hpp"
 #include "gis/crs/ogr_support.hpp"
+#include "gis/elements/quads.hpp"
 #include "gis/grid/linked_grid.hpp"
 #include "gis/grid/local_plane.hpp"
 
@@ -149,6 +150,8 @@ void startRound(RepairState& state, TriMesh mesh) {
   for (const GridLine& line : grid.lines)
     for (const auto& [a, b] : edgesOf({BoundaryRole::Land, line.closed, line.nodes}))
       links.line_edges.insert(edgeKey(a, b));
+  links.quad_edges = edgesOfQuads(grid);
+  links.line_edges.insert(links.quad_edges.begin(), links.quad_edges.end());
   forgetNear(state);
   if (state.options.time_step_s > 0.0 || state.options.least_edge_m > 0.0) measureGround(state);
   for (std::vector<bool>* flags : {&state.touched, &state.dead, &state.disturbed})

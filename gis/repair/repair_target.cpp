@@ -9,6 +9,7 @@
 #include "core/quality.hpp"
 #include "core/run_control.hpp"
 #include "gis/crs/geodesy.hpp"
+#include "gis/elements/quads.hpp"
 #include "gis/error.hpp"
 #include "gis/grid/ground_orientation.hpp"
 #include "gis/grid/linked_grid.hpp"
@@ -152,6 +153,7 @@ void mend(RepairState& state, const FoundDefect& found) {
     case TargetDefectKind::HangingNode:
     case TargetDefectKind::UnknownDepth:
     case TargetDefectKind::RoundTheGlobe:  // longitudes are already unwrapped if they can be
+    case TargetDefectKind::Quadrilateral:  // split at first
       return;
   }
 }
@@ -264,11 +266,25 @@ std::vector<bool> nodesAt(std::span<const Point> nodes, std::vector<Point> place
   return flags;
 }
 
+// Makes triangles of quadrilaterals if a model has only these. Otherwise edits leave them as they are (`startRound`).
+void splitUnacceptedQuads(RepairState& state) {
+  const auto refusing = std::ranges::find_if_not(state.targets, acceptsQuads);
+  const std::vector<Quad> quads = quadsOf(state.grid);
+  if (refusing == state.targets.end() || quads.empty()) return;
+  const auto& [a, b, c, d] = quads.front().nodes;
+  const Point place = placeBetween(state.grid.crs, state.grid.nodes[a], state.grid.nodes[c], 0.5);
+  state.grid.quad_of.clear();
+  addRepair(state, {*refusing, {TargetDefectKind::Quadrilateral, place, quads.front().halves[0], -1, 0.0, {}}}, place,
+            quads.size() == 1 ? std::string("split into two triangles")
+                              : std::to_string(quads.size()) + " split into two triangles each, this is the first");
+}
+
 // `asked` has a flag for each node, as in GridLinks.
 RepairReport repairInOneTurn(Grid& grid, std::span<const Target> targets, const RepairOptions& options,
                              std::vector<bool> asked, RepairMemory* memory, const RunControl& control,
                              const ItemLoop& loop) {
   RepairState state{.grid = grid, .targets = targets, .options = options, .loop = loop};
+  splitUnacceptedQuads(state);
   state.links.asked = std::move(asked);
   LinkedGrid linked;
   const auto search = [&] {

@@ -18,7 +18,7 @@ struct MeshGraph {
   std::size_t size() const { return weights.size(); }
 };
 
-// Triangles, joined if they share a side, all with the same work. Throws InputError for a grid too large for 32-bit
+// Elements, joined if they share a side, all with the same work. Throws InputError for a grid too large for 32-bit
 // numbers.
 MeshGraph elementGraph(const Grid& grid, const ItemLoop& loop = inOrder);
 

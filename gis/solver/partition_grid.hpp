@@ -18,6 +18,7 @@ struct PartitionOptions {
 
 struct PartitionReport {
   std::uint32_t parts = 0;  // 0: the grid was not partitioned
+  bool mixed = false;       // elements are not triangles alone
   std::optional<PartitionFigures> elements, nodes;
 };
 

@@ -8,11 +8,13 @@
 #include <random>
 #include <set>
 
+#include "gis/elements/quads.hpp"
 #include "gis/grid/boundary_kinds.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/linked_grid.hpp"
 #include "gis/model/check_target.hpp"
 #include "tests/gis/grid_samples.hpp"
+#include "tests/gis/quad_samples.hpp"
 #include "tests/support/item_loops.hpp"
 
 namespace coastmesh {
@@ -398,6 +400,48 @@ TEST(TidyCut, TrianglesThatStickOutAreLeftOutOnce) {
   Grid river = gridOf(lattice(12, 1, [](int, int) { return true; }));
   cutGrid(river, inBox(river, 2, 0, 9, 1));
   EXPECT_EQ(river.triangles.size(), 14u);
+}
+
+// Whatever part is cut out, no half of a quadrilateral is left alone, and what models would reject is left out.
+TEST(CutGrid, QuadrilateralsAreTakenWhole) {
+  std::mt19937 random(20261128);
+  for (int trial = 0; trial < 200; ++trial) {
+    Grid grid = coastmesh::testing::mixedGrid(8, 6, [&](int, int) { return random() % 2 == 0; });
+    const std::size_t quads = quadsOf(grid).size();
+    Flags taken;
+    for (std::size_t t = 0; t < grid.triangles.size(); ++t) taken.push_back(random() % 4 != 0 ? 1 : 0);
+    const CutReport report = cutGrid(grid, taken, {});
+    EXPECT_EQ(std::ranges::count_if(grid.quad_of, [](std::uint32_t quad) { return quad != kNone; }),
+              2 * static_cast<std::ptrdiff_t>(quadsOf(grid).size()));
+    EXPECT_LE(quadsOf(grid).size(), quads);
+    requireConsistent(grid);
+    const std::vector<std::uint32_t> other = otherHalves(grid);
+    const TriMesh mesh = linkGrid(grid).mesh;
+    for (TriId t = 0; t < grid.triangles.size() && report.waters == 1; ++t)
+      EXPECT_LT(std::ranges::count(mesh.triangles[t].adj, kNone), 3) << trial;
+  }
+}
+
+// A quadrilateral with two sides along the cut is no tooth, one with three is.
+TEST(CutGrid, TeethOfQuadrilaterals) {
+  const auto row = [](int columns, int rows) {
+    return coastmesh::testing::mixedGrid(columns, rows, [](int, int) { return true; });
+  };
+  Grid grid = row(4, 3);
+  Flags taken(grid.triangles.size(), 0);
+  const auto take = [&](double west, double south, double east, double north) {
+    for (const Quad& quad : quadsOf(grid)) {
+      Point middle{};
+      for (const std::uint32_t node : quad.nodes)
+        middle = {middle.x + grid.nodes[node].x / 4, middle.y + grid.nodes[node].y / 4};
+      if (middle.x < west || middle.x > east || middle.y < south || middle.y > north) continue;
+      for (const std::uint32_t t : quad.halves) taken[t] = 1;
+    }
+  };
+  take(0, 0, 4, 2);  // two by two
+  take(4, 1, 6, 2);  // and one more beside them
+  cutGrid(grid, taken, {});
+  EXPECT_EQ(quadsOf(grid).size(), 4u);
 }
 
 }  // namespace

@@ -127,7 +127,7 @@ TEST_F(ReadGrid, TwoDmErrorsNameTheLine) {
   EXPECT_THAT(errorIn("a.2dm", "ND 1 0 0 0\n"), HasSubstr("line 1"));
   EXPECT_THAT(errorIn("a.2dm", "MESH2D\nND 1 0 zero 0\n"), AllOf(HasSubstr("line 2"), HasSubstr("\"zero\"")));
   EXPECT_THAT(errorIn("a.2dm", "MESH2D\n\nND 1 0 nan 0\n"), AllOf(HasSubstr("line 3"), HasSubstr("finite")));
-  EXPECT_THAT(errorIn("a.2dm", "MESH2D\nE4Q 1 1 2 3 4 1\n"), AllOf(HasSubstr("line 2"), HasSubstr("E4Q")));
+  EXPECT_THAT(errorIn("a.2dm", "MESH2D\nE8Q 1 1 2 3 4 5 6 7 8 1\n"), AllOf(HasSubstr("line 2"), HasSubstr("E8Q")));
   EXPECT_THAT(errorIn("a.2dm", "MESH2D\nND 1 0 0 0\nND 2 0 1 0\nND 2 1 1 0\n"), HasSubstr("node 2"));
   EXPECT_THAT(errorIn("a.2dm", "MESH2D\nND 1 0 0 0\nE3T 1 1 1 9 1\n"), HasSubstr("node 9"));
   EXPECT_THAT(errorIn("a.2dm", "MESH2D\nND 1 0 0 0\nNS 1\n"), HasSubstr("NS"));
@@ -270,9 +270,9 @@ TEST_F(ReadGrid, GmshErrors) {
   EXPECT_THAT(errorIn("a.msh", "$MeshFormat\n4.0 0 8\n"), HasSubstr("4.0"));
   EXPECT_THAT(errorIn("a.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n1 0 0 0\n"),
               HasSubstr("ends too early"));
-  std::string quad = kSquare22;
-  quad.replace(quad.find("6 2 2 3 1 1 2 3"), 15, "6 3 2 3 1 1 2 3 4");
-  EXPECT_THAT(errorIn("a.msh", quad), HasSubstr("type 3"));
+  std::string curved = kSquare22;
+  curved.replace(curved.find("6 2 2 3 1 1 2 3"), 15, "6 9 2 3 1 1 2 3 4 1 2");
+  EXPECT_THAT(errorIn("a.msh", curved), HasSubstr("type 9"));
   std::string missing = kSquare22;
   missing.replace(missing.find("6 2 2 3 1 1 2 3"), 15, "6 2 2 3 1 1 2 9");
   EXPECT_THAT(errorIn("a.msh", missing), HasSubstr("no node 9"));

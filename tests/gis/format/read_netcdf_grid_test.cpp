@@ -13,6 +13,7 @@
 #include "gis/error.hpp"
 #include "gis/format/grid_io.hpp"
 #include "tests/gis/format/read_grid.hpp"
+#include "tests/gis/quad_samples.hpp"
 #include "tests/support/bulk_lists.hpp"
 
 namespace coastmesh {
@@ -79,6 +80,31 @@ class Ugrid {
     const int columns[] = {0, 0, 1, 2, 2, 3, -1, quad ? 1 : -1};
     nc_put_var_int(id_, conn, columns);
     nc_close(id_);
+  }
+
+  // One face with six nodes.
+  static void writeHexagon(const std::string& path) {
+    int id = 0, nodes = 0, faces = 0, mesh = 0, x = 0, y = 0, conn = 0;
+    nc_create(path.c_str(), NC_NETCDF4 | NC_CLOBBER, &id);
+    nc_def_dim(id, "nodes", 6, &nodes);
+    nc_def_dim(id, "faces", 1, &faces);
+    nc_def_var(id, "mesh", NC_INT, 0, nullptr, &mesh);
+    const std::vector<std::pair<const char*, std::string>> texts{{"cf_role", "mesh_topology"},
+                                                                 {"topology_dimension", "2"},
+                                                                 {"node_coordinates", "x y"},
+                                                                 {"face_node_connectivity", "conn"}};
+    for (const auto& [name, text] : texts) nc_put_att_text(id, mesh, name, text.size(), text.c_str());
+    nc_def_var(id, "x", NC_DOUBLE, 1, &nodes, &x);
+    nc_def_var(id, "y", NC_DOUBLE, 1, &nodes, &y);
+    const int shape[] = {faces, nodes};
+    nc_def_var(id, "conn", NC_INT, 2, shape, &conn);
+    nc_enddef(id);
+    const double xs[] = {0, 2, 3, 2, 0, -1}, ys[] = {0, 0, 1, 2, 2, 1};
+    const int face[] = {0, 1, 2, 3, 4, 5};
+    nc_put_var_double(id, x, xs);
+    nc_put_var_double(id, y, ys);
+    nc_put_var_int(id, conn, face);
+    nc_close(id);
   }
 
  private:
@@ -334,9 +360,16 @@ TEST_F(ReadNetcdfGrid, OutputOfFvcom) {
   EXPECT_EQ(grid.z, (std::vector<double>{-1, -2, -3, -4, -5, -6, -7}));
 }
 
-TEST_F(ReadNetcdfGrid, UgridWithQuadsIsRefused) {
+TEST_F(ReadNetcdfGrid, UgridWithQuadrilaterals) {
   const Ugrid file(folder_ / "quads.nc", true);
-  EXPECT_THAT(errorOf(folder_ / "quads.nc"), AllOf(HasSubstr("face 2"), HasSubstr("4 nodes")));
+  EXPECT_EQ(testing::elementsOf(readGrid(folder_ / "quads.nc")),
+            (std::vector<std::vector<std::uint32_t>>{{0, 1, 2}, {0, 2, 3, 1}}));
+}
+
+TEST_F(ReadNetcdfGrid, UgridWithMoreNodesOfAFaceIsRefused) {
+  const std::string path = folder_ / "hexagons.nc";
+  Ugrid::writeHexagon(path);
+  EXPECT_THAT(errorOf(path), AllOf(HasSubstr("face 1"), HasSubstr("6 nodes")));
 }
 
 // The NetCDF library would allocate what this header claims for its attributes.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <fstream>
 #include <map>
@@ -11,10 +12,12 @@
 #include <set>
 #include <sstream>
 
+#include "gis/elements/quads.hpp"
 #include "gis/error.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/solver/mesh_graph.hpp"
 #include "tests/gis/grid_samples.hpp"
+#include "tests/gis/quad_samples.hpp"
 #include "tests/support/item_loops.hpp"
 
 namespace coastmesh {
@@ -49,6 +52,42 @@ TEST(MeshGraph, JoinsTrianglesThatShareTwoNodes) {
   }
   EXPECT_EQ(edgesOf(graph), expected);
   EXPECT_EQ(graph.neighbours.size(), expected.size());
+}
+
+TEST(MeshGraph, QuadrilateralsAreOneElement) {
+  const Grid grid = coastmesh::testing::mixedGrid(4, 3, [](int i, int j) { return (i + j) % 2 == 0; });
+  const auto elements = coastmesh::testing::elementsOf(grid);
+  const MeshGraph graph = elementGraph(grid);
+  ASSERT_EQ(graph.size(), elements.size());
+  std::set<std::pair<std::size_t, std::size_t>> expected;
+  for (std::size_t e = 0; e < elements.size(); ++e)
+    for (std::size_t f = 0; f < elements.size(); ++f) {
+      const auto shared = std::ranges::count_if(
+          elements[e], [&](std::uint32_t node) { return std::ranges::count(elements[f], node) > 0; });
+      if (e != f && shared == 2) expected.emplace(e, f);
+    }
+  EXPECT_EQ(edgesOf(graph), expected);
+  EXPECT_EQ(graph.neighbours.size(), expected.size());
+}
+
+// In a chain of two elements around a hole both sides are common; the graph has that edge once.
+TEST(MeshGraph, ElementsWithTwoCommonSidesAreJoinedOnce) {
+  Grid grid;
+  grid.nodes = {{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 1}};
+  addElement(grid, std::array<std::uint32_t, 4>{0, 1, 4, 3});  // not convex: around the corner
+  addElement(grid, std::array<std::uint32_t, 4>{1, 2, 3, 4});
+  const MeshGraph graph = elementGraph(grid);
+  EXPECT_EQ(edgesOf(graph), (std::set<std::pair<std::size_t, std::size_t>>{{0, 1}, {1, 0}}));
+  EXPECT_EQ(graph.neighbours.size(), 2u);
+}
+
+TEST(PartitionGrid, HalvesGetThePartOfTheirQuadrilateral) {
+  Grid grid = coastmesh::testing::mixedGrid(20, 12, [](int i, int) { return i % 3 > 0; });
+  const std::size_t elements = coastmesh::testing::elementsOf(grid).size();
+  const PartitionReport report = partitionGrid(grid, {.parts = 5, .elements = true});
+  ASSERT_EQ(grid.part_of.size(), grid.triangles.size());
+  for (const Quad& quad : quadsOf(grid)) EXPECT_EQ(grid.part_of[quad.halves[0]], grid.part_of[quad.halves[1]]);
+  EXPECT_LE(report.elements->most, elements / 5 + 2);
 }
 
 TEST(MeshGraph, JoinsNodesOfATriangleAndAcrossWeirs) {
