@@ -25,7 +25,8 @@ struct NodeString {
 
 struct Cards {
   std::vector<std::int64_t> node_ids;
-  std::vector<std::vector<std::int64_t>> corners;  // of each element, three or four
+  std::vector<std::int64_t> corners;     // of all elements
+  std::vector<std::uint8_t> corners_of;  // their number in each element: three or four
   std::vector<std::int64_t> materials;
   std::vector<NodeString> strings;
   std::map<std::int64_t, std::string> material_names;
@@ -62,8 +63,8 @@ Cards readCards(TextReader& file, Grid& grid) {
     const std::string_view card = file.word();
     if (card == "E3T" || card == "E4Q") {
       file.integer();
-      auto& corners = cards.corners.emplace_back(card == "E3T" ? 3 : 4);
-      for (std::int64_t& corner : corners) corner = file.integer();
+      cards.corners_of.push_back(card == "E3T" ? 3 : 4);
+      for (unsigned i = 0; i < cards.corners_of.back(); ++i) cards.corners.push_back(file.integer());
       cards.materials.push_back(file.hasWord() ? file.integer() : 1);
     } else if (card == "ND") {
       cards.node_ids.push_back(file.integer());
@@ -151,9 +152,11 @@ Grid read2dm(const std::string& path, const Crs& unsaid) {
   const IdMap node_index(cards.node_ids, file, "node");
   grid.crs = readPrjBeside(path, unsaid);
   std::vector<std::uint32_t> nodes;
-  for (std::size_t e = 0; e < cards.corners.size(); ++e) {
+  auto next = cards.corners.begin();
+  for (std::size_t e = 0; e < cards.corners_of.size(); ++e) {
     nodes.clear();
-    for (const std::int64_t corner : cards.corners[e]) {
+    for (unsigned i = 0; i < cards.corners_of[e]; ++i) {
+      const std::int64_t corner = *next++;
       nodes.push_back(node_index.indexOf(corner));
       if (nodes.back() == kNone)
         throw InputError("'" + path + "': element " + std::to_string(e + 1) + " names node " + std::to_string(corner) +

@@ -391,15 +391,15 @@ class TargetCheck {
 
   // Links lead from element to element: none crosses a diagonal.
   void checkFlowLinks() {
-    std::vector<const Quad*> quad_of(grid_.triangles.size(), nullptr);
+    std::vector<const Quad*> quad_of(quads_.empty() ? 0 : grid_.triangles.size(), nullptr);
     for (const Quad& quad : quads_)
       for (const std::uint32_t t : quad.halves) quad_of[t] = &quad;
     addForEach(mesh_.triangles.size(), [&](std::size_t t, std::vector<TargetDefect>& found) {
       for (unsigned i = 0; i < 3; ++i) {
         const EdgeRef e = edgeRef(static_cast<TriId>(t), i), twin = mesh_.twin(e);
         if (twin == kNone || triOf(twin) < t) continue;
-        const Quad* const left = quad_of[t];
-        const Quad* const right = quad_of[triOf(twin)];
+        const Quad* const left = quads_.empty() ? nullptr : quad_of[t];
+        const Quad* const right = quads_.empty() ? nullptr : quad_of[triOf(twin)];
         if (left != nullptr && left == right) continue;
         const std::uint32_t from = mesh_.origin(e), to = mesh_.target(e);
         const FlowLink link = left == nullptr && right == nullptr
