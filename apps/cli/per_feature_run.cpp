@@ -13,12 +13,12 @@
 #include <string>
 #include <thread>
 
+#include "apps/cli/feature_file_names.hpp"
 #include "apps/cli/partition_outputs.hpp"
 #include "apps/cli/run_outputs.hpp"
 #include "apps/cli/shard_file.hpp"
 #include "apps/job/available_memory.hpp"
 #include "apps/job/deal_groups.hpp"
-#include "apps/job/feature_file_names.hpp"
 #include "apps/job/idle_inputs.hpp"
 #include "apps/job/memory_share.hpp"
 #include "apps/job/mesh_job.hpp"

@@ -49,7 +49,7 @@ std::string adviceOnEnds(const Coastline& coastline, const std::vector<std::size
     for (std::size_t j = i + 1; j < plane.size(); ++j)
       if (gap(i, j) < gap(a, b)) std::tie(a, b) = std::pair(i, j);
   char width[40];
-  std::snprintf(width, sizeof width, "%.3g", gap(a, b));
+  std::snprintf(width, sizeof width, gap(a, b) < 100.0 ? "%.3g" : "%.0f", gap(a, b));
   const std::string with_snap = gap(a, b) <= kMostSnapped ? ", with --snap too" : "";
   return " (the nearest ends, " + placeInWords(loose[a]) + " and " + placeInWords(loose[b]) + ", are " + width +
          (projection.isIdentity() ? "" : " m") + " apart): join them" + with_snap;

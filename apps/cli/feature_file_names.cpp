@@ -1,4 +1,4 @@
-#include "apps/job/feature_file_names.hpp"
+#include "apps/cli/feature_file_names.hpp"
 
 #include <algorithm>
 #include <filesystem>
