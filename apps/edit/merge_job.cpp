@@ -102,7 +102,8 @@ EditedMesh runMergeJob(Grid& grid, const std::string& name, const std::vector<Me
                        const MergeJob& job, const Warn& warn, const JobControl& control) {
   const auto merge = [&](const RunControl& of_edit, const ItemLoop& loop) {
     MeshEdit edit;
-    std::vector<MergeSource>&nodes = edit.sources.merged_nodes, &triangles = edit.sources.merged_triangles;
+    auto& nodes = edit.sources.merged_nodes;
+    auto& triangles = edit.sources.merged_triangles;
     nodes = ownSources(grid.nodes.size());
     triangles = ownSources(grid.triangles.size());
     std::string text;
