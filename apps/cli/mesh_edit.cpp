@@ -2,46 +2,50 @@
 
 #include <cstdio>
 
+#include "apps/cli/mesh_file.hpp"
 #include "apps/cli/run_outputs.hpp"
-#include "apps/job/finish_grid.hpp"
 #include "apps/process/exit_codes.hpp"
-#include "gis/grid/boundary_chains.hpp"
+#include "apps/usage/grid_usage.hpp"
+#include "gis/error.hpp"
 #include "parallel/recorder.hpp"
 #include "parallel/workers.hpp"
 
 namespace coastmesh {
 
-int runMeshEdit(const std::string& name, const MeshFile& mesh, const PartUsage& part,
-                const std::function<MeshEdit(Grid& grid, const RunControl& control, const ItemLoop& loop)>& edit,
-                Run& run) {
-  RunOutputs outputs(part.overwrite, run.inputs, run.interrupt);
-  outputs.addGrids(part.outputs, part.format);
-  StagedFiles* const numbers = part.numbers.empty() ? nullptr : &outputs.addFile(part.numbers);
+void declareEditOutputs(OptionTable& table, EditOutputs& outputs, const std::string& label, const std::string& help) {
+  declareGridOutputs(table, outputs.meshes, outputs.format);
+  table.output({"--numbers", label}, outputs.numbers, {}, help);
+  table.flag({"--overwrite", "Replace files"}, outputs.overwrite, "replace files that exist");
+  table.section(Section::Run);
+  table.flag({"--quiet", "No summary"}, outputs.quiet, "print no summary");
+}
+
+void requireNumbers(const EditOutputs& outputs, const FinishOptions& finish) {
+  if (!outputs.numbers.empty() && !finish.targets.empty())
+    throw OptionError(
+        "--numbers: repairs for --target add, move and remove nodes, so that numbers are no longer those of the mesh; "
+        "leave --target out, and repair with convert --target if check finds anything");
+}
+
+int runMeshEdit(const MeshFile& mesh, const EditOutputs& asked,
+                const std::function<EditedMesh(Grid& grid, const JobControl& control)>& edit, Run& run) {
+  RunOutputs outputs(asked.overwrite, run.inputs, run.interrupt);
+  outputs.addGrids(asked.meshes, asked.format);
+  StagedFiles* const numbers = asked.numbers.empty() ? nullptr : &outputs.addFile(asked.numbers);
   Grid grid = readMeshFile(mesh, run);
-  findMissingBoundaries(grid);
-  const RunControl control{[&run] { return run.interrupt.requested(); }, {}};
-  MeshEdit made;
-  FinishReport finish;
+  const JobControl control{[&run] { return run.interrupt.requested(); }, {}};
+  const EditedMesh edited = edit(grid, control);
+  for (const auto& some : {edited.warnings, outputs.numberWarnings(grid), outputs.lossWarnings(grid, LossesOf::Grid)})
+    for (const std::string& warning : some) run.warn(warning);
   withThreads({}, [&] {
     Recorder recorder;
-    const ItemLoop loop = recorder.loop(name, control);
-    made = edit(grid, control, loop);
-    finish = finishGrid(grid, part.finish, control, loop);
-    if (part.finish.targets.empty()) made.warnings.push_back(windingWarning(grid, loop));
-  });
-  for (const auto& some :
-       {made.warnings, finish.warnings(), outputs.numberWarnings(grid), outputs.lossWarnings(grid, LossesOf::Grid)})
-    for (const std::string& warning : some)
-      if (!warning.empty()) run.warn(warning);
-  withThreads({}, [&] {
-    Recorder recorder;
-    outputs.writeGrids(grid, recorder.loop("write", control));
-    if (numbers != nullptr)
-      numbers->make([&](const std::string& path) { made.writeNumbers(path, recorder.loop("write", control)); });
+    const ItemLoop loop = recorder.loop("write", {control.cancelled, {}});
+    outputs.writeGrids(grid, loop);
+    if (numbers != nullptr) numbers->make([&](const std::string& path) { writeSources(edited.sources, path, loop); });
   });
   outputs.commit();
-  if (!part.quiet) std::fputs((made.text(grid) + finishSummary(part.finish, finish)).c_str(), stdout);
-  return finish.repairs.left.empty() ? kExitDone : kExitShort;
+  if (!asked.quiet) std::fputs(edited.summary.c_str(), stdout);
+  return edited.complete() ? kExitDone : kExitShort;
 }
 
 }  // namespace coastmesh

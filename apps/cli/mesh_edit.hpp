@@ -5,25 +5,30 @@
 #include <vector>
 
 #include "apps/cli/commands.hpp"
-#include "apps/cli/mesh_file.hpp"
-#include "apps/usage/part_usage.hpp"
-#include "core/item_loop.hpp"
-#include "core/run_control.hpp"
+#include "apps/edit/mesh_edit.hpp"
+#include "apps/edit/mesh_file.hpp"
 #include "gis/grid/grid.hpp"
 
 namespace coastmesh {
 
-// What a command says of its change of a mesh.
-struct MeshEdit {
-  std::vector<std::string> warnings;                                                // empty ones are left out
-  std::function<std::string(const Grid& grid)> text;                                // the summary, of the repaired mesh
-  std::function<void(const std::string& path, const ItemLoop& loop)> writeNumbers;  // the table of --numbers
+// What a command that changes a mesh writes.
+struct EditOutputs {
+  std::vector<std::string> meshes;
+  std::string format;
+  std::string numbers;  // the table with numbers in the mesh before; empty: none
+  bool overwrite = false;
+  bool quiet = false;
 };
 
-// The course of commands that change a mesh: reads it, changes it by `edit`, repairs it for the targets, warns, and
-// writes the outputs. `name`: of the command. Returns an exit code.
-int runMeshEdit(const std::string& name, const MeshFile& mesh, const PartUsage& part,
-                const std::function<MeshEdit(Grid& grid, const RunControl& control, const ItemLoop& loop)>& edit,
-                Run& run);
+// Declares -o, --format, --numbers, --overwrite and --quiet. `label` and `help`: of --numbers.
+void declareEditOutputs(OptionTable& table, EditOutputs& outputs, const std::string& label, const std::string& help);
+
+// To be called once all is set. Throws OptionError for --numbers together with repairs.
+void requireNumbers(const EditOutputs& outputs, const FinishOptions& finish);
+
+// The course of such a command: reads the mesh, changes it by `edit`, warns, and writes the outputs. Returns an exit
+// code.
+int runMeshEdit(const MeshFile& mesh, const EditOutputs& outputs,
+                const std::function<EditedMesh(Grid& grid, const JobControl& control)>& edit, Run& run);
 
 }  // namespace coastmesh

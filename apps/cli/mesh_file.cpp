@@ -1,91 +1,21 @@
 #include "apps/cli/mesh_file.hpp"
 
-#include <algorithm>
-
-#include "apps/job/places.hpp"
-#include "core/box_halves.hpp"
-#include "gis/crs/geodesy.hpp"
-#include "gis/error.hpp"
-#include "gis/for_count.hpp"
-#include "gis/format/grid_io.hpp"
-#include "gis/grid/ground_orientation.hpp"
+#include "apps/usage/grid_usage.hpp"
 
 namespace coastmesh {
 
 void declareMeshFile(OptionTable& table, const std::string& name, const std::string& help, MeshFile& file) {
   table.argument(name, file.path, help);
-  table.section(Section::Input);
-  table.text({"--assume-crs", "CRS of the mesh"}, file.crs, "CRS",
-             "CRS of the mesh, if its file has none; default: a plane");
+  declareAssumedCrs(table, file.crs);
 }
-
-namespace {
-
-Crs parseAssumed(const std::string& text) {
-  try {
-    return parseCrs(text);
-  } catch (const InputError& error) {
-    throw OptionError(std::string("--assume-crs: ") + error.what());
-  }
-}
-
-void warnOfNotes(const MeshFile& file, const Grid& grid, Run& run) {
-  constexpr std::size_t kShown = 5;
-  const std::size_t shown = std::min(kShown, grid.notes.size());
-  for (std::size_t i = 0; i < shown; ++i) run.warn("'" + file.path + "': " + grid.notes[i]);
-  if (shown < grid.notes.size())
-    run.warn("'" + file.path + "': " + std::to_string(grid.notes.size() - shown) +
-             " more inconsistencies; check with --target finds them");
-}
-
-// Longitudes are those of any turn that files have: 0 to 360, or on past 180. Flumes and other small planes begin at
-// the origin or lie around it, where there is nothing but ocean: no land is nearer to 0°, 0° than 4.5°.
-bool mayBeDegrees(const Grid& grid) {
-  constexpr double kNoLand = 3.0;  // to each side
-  Bounds box;
-  for (const Point& p : grid.nodes) box.add(p);
-  const double west = box.low.x, south = box.low.y, east = box.high.x, north = box.high.y;
-  if (west < -360.0 || east > 360.0 || south < -90.0 || north > 90.0) return false;
-  const bool begins_at_origin = west == 0.0 && south == 0.0;
-  return !begins_at_origin && std::max({-west, -south, east, north}) > kNoLand;
-}
-
-// Files for models have no CRS, and models read degrees from many of them.
-void warnOfDegrees(const MeshFile& file, const Grid& grid, Run& run) {
-  const GridFormat* const format = gridFormatOf(file.path);
-  if (!file.crs.empty() || !grid.crs.isPlane() || format == nullptr || !format->says_depth) return;
-  if (!mayBeDegrees(grid)) return;
-  run.warn("'" + file.path +
-           "' does not say its CRS, so coordinates are lengths in a plane; all lie within ±360, ±90: if they are "
-           "degrees, give --assume-crs EPSG:4326, otherwise --assume-crs plane");
-}
-
-}  // namespace
 
 Grid readMeshFile(const MeshFile& file, Run& run, FileNotes notes) {
-  const Crs assumed = file.crs.empty() ? Crs{} : parseAssumed(file.crs);
-  Grid grid = readGrid(file.path, assumed);
-  if (grid.triangles.empty()) throw InputError("'" + file.path + "' holds no triangle");
-  if (const std::string remark = remarkOnGrid(file.path); !remark.empty()) run.warn(remark);
-  if (notes == FileNotes::Warnings) warnOfNotes(file, grid, run);
-  warnOfDegrees(file, grid, run);
-  if (!file.crs.empty() && !sameCrs(grid.crs, assumed)) warnOfCrs(file, "'" + file.path + "' says its CRS", run);
-  return grid;
+  return readMeshFile(
+      file, [&run](const std::string& text) { run.warn(text); }, notes);
 }
 
 void warnOfCrs(const MeshFile& file, const std::string& why, Run& run) {
   if (!file.crs.empty()) run.warn("--assume-crs has no effect: " + why);
-}
-
-std::string windingWarning(const Grid& grid, const ItemLoop& loop) {
-  const std::vector<std::uint32_t> turned = turnedTriangles(grid, {}, loop);
-  if (turned.empty()) return {};
-  return std::to_string(turned.size()) + " of " + std::to_string(grid.triangles.size()) +
-         forCount(grid.triangles.size(), " triangle", " triangles") +
-         forCount(turned.size(), " is clockwise or flat", " are clockwise or flat") + ", the first at " +
-         pointText(middleOf(grid, turned.front())) +
-         ": most models reject this, and it makes shores islands and islands shores; --target turns clockwise "
-         "triangles";
 }
 
 }  // namespace coastmesh

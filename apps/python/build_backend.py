@@ -118,7 +118,8 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     compiled = "_coastmesh" + sysconfig.get_config_var("EXT_SUFFIX")
     linked = audit(folder / compiled)
     print("links", *linked)
-    files = {f"coastmesh/{name}": (folder / name).read_bytes() for name in ("__init__.py", "__init__.pyi", compiled, "py.typed")}
+    names = ["__init__.py", "__init__.pyi", "_errors.py", "_sources.py", "_usage.py", compiled, "py.typed"]
+    files = {f"coastmesh/{name}": (folder / name).read_bytes() for name in names}
     info = f"coastmesh-{version()}.dist-info"
     files[f"{info}/LICENSE"] = (ROOT / "LICENSE").read_bytes()
     files[f"{info}/METADATA"] = metadata(linked).encode()

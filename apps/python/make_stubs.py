@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Writes the type stubs of the module, with every option of mesh(): make_stubs.py OUT.pyi (PYTHONPATH finds coastmesh)."""
+"""Writes the type stubs of the module, with every option of its functions: make_stubs.py OUT.pyi (PYTHONPATH finds coastmesh)."""
 import sys
 
 del sys.path[0]  # has the sources, without the compiled half
@@ -8,7 +8,7 @@ import coastmesh  # noqa: E402
 HEAD = '''from os import PathLike
 from typing import Any, Callable, Optional, Sequence, Union
 
-from numpy import float64, uint32
+from numpy import float64, int64, uint32
 from numpy.typing import ArrayLike, NDArray
 
 __version__: str
@@ -42,7 +42,17 @@ class Mesh:
     @property
     def crs(self) -> str: ...
     @property
+    def node_source(self) -> Optional[NDArray[int64]]: ...
+    @property
+    def triangle_source(self) -> Optional[NDArray[int64]]: ...
+    @property
+    def node_mesh(self) -> Optional[NDArray[int64]]: ...
+    @property
+    def triangle_mesh(self) -> Optional[NDArray[int64]]: ...
+    @property
     def complete(self) -> bool: ...
+    @property
+    def summary(self) -> Optional[str]: ...
     @property
     def report(self) -> Optional[dict[str, Any]]: ...
     def write(self, path: Union[str, PathLike[str]], format: Optional[str] = None, overwrite: bool = False) -> None: ...
@@ -55,19 +65,25 @@ class Mesh:
         overwrite: bool = False,
     ) -> None: ...
 
-def options() -> dict[str, dict[str, Any]]: ...
-def read(path: Union[str, PathLike[str]]) -> Mesh: ...
-def mesh(
-    source: Any,
-    segments: Optional[ArrayLike] = None,
-    holes: Optional[ArrayLike] = None,
-    *,
-    progress: Optional[Callable[[str, float], object]] = None,
+def options(function: str = "mesh") -> dict[str, dict[str, Any]]: ...
+def read(path: Union[str, PathLike[str]], assume_crs: Any = None) -> Mesh: ...
 '''
 PATH = "Union[str, PathLike[str]]"
+MESH = "Union[Mesh, str, PathLike[str]]"
+# The arguments of each function besides its options.
+ARGUMENTS = {
+    "mesh": ["source: Any", "segments: Optional[ArrayLike] = None", "holes: Optional[ArrayLike] = None"],
+    "cut": [f"mesh: {MESH}"],
+    "remesh": [f"mesh: {MESH}"],
+    "merge": [f"mesh: {MESH}", f"inserted: Union[{MESH}, Sequence[{MESH}]]"],
+}
+PROGRESS = "progress: Optional[Callable[[str, float], object]] = None"
+SHAPES = ("within", "outside")  # besides paths
 
 
-def type_of(option):
+def type_of(name, option):
+    if name in SHAPES:
+        return "Any"
     kind = {"number": "float", "integer": "int", "flag": "bool", "file": PATH}.get(option["type"], "Any")
     if option["type"] == "choice":
         kind = "str"
@@ -77,9 +93,12 @@ def type_of(option):
 def main():
     with open(sys.argv[1], "w", encoding="utf-8") as file:
         file.write(HEAD)
-        for name, option in coastmesh.options().items():
-            file.write(f"    {name}: Optional[{type_of(option)}] = None,\n")
-        file.write(") -> Mesh: ...\n")
+        for function, arguments in ARGUMENTS.items():
+            options = [f"{name}: Optional[{type_of(name, option)}] = None"
+                       for name, option in coastmesh.options(function).items()]
+            file.write(f"def {function}(\n")
+            file.writelines(f"    {line},\n" for line in [*arguments, "*", PROGRESS, *options])
+            file.write(") -> Mesh: ...\n")
 
 
 if __name__ == "__main__":

@@ -3,12 +3,14 @@
 #include <pybind11/stl.h>
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "apps/plot/plot_globe.hpp"
 #include "apps/plot/plot_page.hpp"
 #include "apps/python/arrays.hpp"
+#include "apps/python/edit.hpp"
 #include "apps/python/pickle.hpp"
 #include "apps/python/run.hpp"
 #include "core/bulk_list.hpp"
@@ -38,7 +40,8 @@ py::object columnOf(const std::vector<T, Allocator>& values, const py::object& o
   return viewOf(values.data(), {static_cast<py::ssize_t>(values.size())}, owner);
 }
 
-const Grid& gridOf(const py::object& mesh) { return mesh.cast<const MeshResult&>().grid; }
+const MeshResult& meshOf(const py::object& mesh) { return mesh.cast<const MeshResult&>(); }
+const Grid& gridOf(const py::object& mesh) { return meshOf(mesh).grid; }
 
 py::list featuresOf(const Grid& grid) {
   py::list list;
@@ -116,13 +119,6 @@ std::string plotFile(const MeshResult& mesh, const std::string& path, const std:
   return note;
 }
 
-MeshResult readMesh(const std::string& path) {
-  const py::gil_scoped_release release;
-  MeshResult result;
-  result.grid = readGrid(path);
-  return result;
-}
-
 }  // namespace
 
 }  // namespace coastmesh
@@ -166,6 +162,12 @@ PYBIND11_MODULE(_coastmesh, m) {
                                const Crs& crs = gridOf(o).crs;
                                return crs.authority.empty() ? crs.wkt : crs.authority;
                              })
+      .def_property_readonly("node_source", [](const py::object& o) { return columnOf(meshOf(o).node_source, o); })
+      .def_property_readonly("triangle_source",
+                             [](const py::object& o) { return columnOf(meshOf(o).triangle_source, o); })
+      .def_property_readonly("node_mesh", [](const py::object& o) { return columnOf(meshOf(o).node_mesh, o); })
+      .def_property_readonly("triangle_mesh", [](const py::object& o) { return columnOf(meshOf(o).triangle_mesh, o); })
+      .def_property_readonly("summary", [](const MeshResult& mesh) { return textOf(mesh.summary); })
       .def_property_readonly("_report", [](const MeshResult& mesh) { return mesh.report; })
       .def_property_readonly("_warnings",
                              [](const MeshResult& mesh) {
@@ -188,6 +190,22 @@ PYBIND11_MODULE(_coastmesh, m) {
 
   m.def("run", &runFromPython, py::arg("keywords"), py::arg("files"), py::arg("text"), py::arg("graph"),
         py::arg("progress"));
-  m.def("read", &readMesh);
-  m.def("usage", &usageOfOptions);
+  using Texts = std::map<std::string, std::vector<std::string>>;
+  m.def("cut", [](const py::dict& keywords, const Texts& texts, const py::object& mesh, const py::object& progress) {
+    return cutFromPython({keywords, texts, mesh, progress});
+  });
+  m.def("remesh", [](const py::dict& keywords, const Texts& texts, const py::object& mesh, const py::object& progress) {
+    return remeshFromPython({keywords, texts, mesh, progress});
+  });
+  m.def("merge", [](const py::dict& keywords, const Texts& texts, const py::object& mesh, const py::object& progress,
+                    const py::list& inserted) {
+    return mergeFromPython({keywords, texts, mesh, progress}, inserted);
+  });
+  m.def("read", &readFromPython);
+  m.def("usage", [](const std::string& function) {
+    return function == "mesh"     ? usageOfMesh()
+           : function == "cut"    ? usageOfCut()
+           : function == "remesh" ? usageOfRemesh()
+                                  : usageOfMerge();
+  });
 }

@@ -5,8 +5,10 @@
 namespace coastmesh {
 
 auto partsOf(auto& result) requires std::is_same_v<std::remove_cvref_t<decltype(result)>, MeshResult> {
-  auto& [grid, report, warnings, refusals, complete] = result;
-  return std::tie(grid, report, warnings, refusals, complete);
+  auto& [grid, report, summary, warnings, refusals, complete, node_source, triangle_source, node_mesh, triangle_mesh] =
+      result;
+  return std::tie(grid, report, summary, warnings, refusals, complete, node_source, triangle_source, node_mesh,
+                  triangle_mesh);
 }
 
 std::string bytesOf(const MeshResult& result) {

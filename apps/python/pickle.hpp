@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "apps/python/run.hpp"
+#include "apps/python/mesh_result.hpp"
 
 namespace coastmesh {
 

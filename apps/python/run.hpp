@@ -6,26 +6,15 @@
 #include <string>
 #include <vector>
 
-#include "apps/job/mesh_job.hpp"
+#include "apps/python/mesh_result.hpp"
 
 namespace coastmesh {
-
-// The result of a run; Python's arrays are views into `grid`.
-struct MeshResult {
-  Grid grid;
-  std::string report;  // JSON, as --report writes it; empty for a mesh that was read
-  std::vector<std::string> warnings;
-  std::vector<Refusal> refusals;
-  bool complete = true;
-};
 
 pybind11::list refusalsOf(const MeshResult& result);
 
 // Meshes `files`, or `text` (GeoJSON), or `graph`, a tuple (points, segments, holes), whichever is given. `keywords`
-// are options, see setFromKeywords; messages use these names. Works on threads of its own, without the GIL; calls
-// `progress(phase, share)` and handles signals in the caller's thread. What either raises ends the run and is raised
-// again. Throws OptionError, InputError. `refusals` of a result without triangles has the reasons; if nothing was to be
-// meshed, throws InputError.
+// are options, see setFromKeywords; messages use these names. Runs like `runInBackground`. Throws OptionError,
+// InputError. `refusals` of a result without triangles has the reasons; if nothing was to be meshed, throws InputError.
 MeshResult runFromPython(const pybind11::dict& keywords, std::vector<std::string> files,
                          std::optional<std::string> text, const pybind11::object& graph,
                          const pybind11::object& progress);
@@ -34,6 +23,6 @@ MeshResult runFromPython(const pybind11::dict& keywords, std::vector<std::string
 std::string inKeywordsOfMesh(const std::string& message);
 
 // The options as JSON, in the form of `coastmesh mesh --json-usage`.
-std::string usageOfOptions();
+std::string usageOfMesh();
 
 }  // namespace coastmesh

@@ -53,7 +53,7 @@ void requireSound(const MeshedRegion& region, const RemeshPatch& patch, const It
 
 }  // namespace
 
-MeshedPatch PatchMesher::mesh(const RemeshPatch& patch) const {
+MeshedPatch PatchMesher::mesh(const RemeshPatch& patch, const RunControl& control) const {
   const Domain& domain = patch.domain;
   const Projection& projection = domain.projection;
   MeshedPatch result;
@@ -66,7 +66,7 @@ MeshedPatch PatchMesher::mesh(const RemeshPatch& patch) const {
     options.refine.most_in_memory = static_cast<std::uint64_t>(possibleVertices());
     if (std::isfinite(domain.resolution.grain)) options.refine.resolution = domain.resolution.grain;
     const RefineOptions asked = options.refine;
-    MeshedRegion region = meshRegion(domain.pslg, std::move(options), {control_.cancelled, {}});
+    MeshedRegion region = meshRegion(domain.pslg, std::move(options), control);
     const GroundPlaces ground = projection.groundPlaces(region.mesh.points, loop_);
     requireSound(region, patch, loop_);
     MeshJudgement judgement =

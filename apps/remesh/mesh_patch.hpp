@@ -30,11 +30,11 @@ struct MeshedPatch {
 class PatchMesher {
  public:
   PatchMesher(const Grid& grid, std::vector<NodePair> shore, const RemeshOptions& options, const SizeInputs& inputs,
-              const RunControl& control, const ItemLoop& loop)
-      : grid_(grid), shore_(std::move(shore)), options_(options), inputs_(inputs), control_(control), loop_(loop) {}
+              const ItemLoop& loop)
+      : grid_(grid), shore_(std::move(shore)), options_(options), inputs_(inputs), loop_(loop) {}
 
-  // Throws InputError: a patch that cannot be meshed, too many vertices; Cancelled.
-  MeshedPatch mesh(const RemeshPatch& patch) const;
+  // `control`: of this patch. Throws InputError: a patch that cannot be meshed, too many vertices; Cancelled.
+  MeshedPatch mesh(const RemeshPatch& patch, const RunControl& control) const;
 
  private:
   std::unique_ptr<SizeFunction> sizesOf(const RemeshPatch& patch, MeshedPatch& result) const;
@@ -43,7 +43,6 @@ class PatchMesher {
   std::vector<NodePair> shore_;
   const RemeshOptions& options_;
   const SizeInputs& inputs_;
-  const RunControl& control_;
   const ItemLoop& loop_;
 };
 

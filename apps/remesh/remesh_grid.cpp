@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -52,13 +53,46 @@ struct MeshedPart {
   }
 };
 
+// Combined progress of patches, weighted by their triangles.
+class PatchProgress {
+ public:
+  PatchProgress(const std::vector<RemeshPatch>& patches, const RunControl& control)
+      : patches_(patches), control_(control), shares_(patches.size(), 0.0) {
+    for (const RemeshPatch& patch : patches) total_ += static_cast<double>(patch.triangles.size());
+  }
+
+  RunControl of(std::size_t p) {
+    if (!control_.progress) return control_;
+    return {control_.cancelled, [this, p](double share) { report(p, share); }};
+  }
+
+ private:
+  void report(std::size_t p, double share) {
+    const std::lock_guard lock(mutex_);
+    const double gained = share - shares_[p];
+    if (!(gained > 0.0)) return;
+    shares_[p] = share;
+    done_ += gained * static_cast<double>(patches_[p].triangles.size());
+    control_.progress(std::min(1.0, done_ / total_));
+  }
+
+  const std::vector<RemeshPatch>& patches_;
+  const RunControl& control_;
+  std::vector<double> shares_;
+  std::mutex mutex_;
+  double total_ = 0.0;
+  double done_ = 0.0;
+};
+
 // Patches that `before` has too keep their meshes.
 MeshedPart meshPart(const Grid& grid, const LinkedGrid& linked, const std::vector<std::uint8_t>& taken,
-                    const PatchMesher& mesher, const MeshedPart& before, const ItemLoop& loop) {
+                    const PatchMesher& mesher, const MeshedPart& before, const RunControl& control,
+                    const ItemLoop& loop) {
   requireLinks(grid, linked.conflicts, taken);
   MeshedPart part;
   part.patches = patchesOf(grid, linked.mesh, taken, loop);
   part.meshed.resize(part.patches.size());
+  PatchProgress progress(part.patches, control);
   forItems(loop, part.patches.size(), [&](std::size_t p) {
     const RemeshPatch& patch = part.patches[p];
     // Patches are in the order of their first triangles.
@@ -66,7 +100,7 @@ MeshedPart meshPart(const Grid& grid, const LinkedGrid& linked, const std::vecto
                                                [](const RemeshPatch& other) { return other.triangles.front(); });
     part.meshed[p] = like != before.patches.end() && like->triangles == patch.triangles
                          ? before.meshed[static_cast<std::size_t>(like - before.patches.begin())]
-                         : std::make_shared<MeshedPatch>(mesher.mesh(patch));
+                         : std::make_shared<MeshedPatch>(mesher.mesh(patch, progress.of(p)));
   });
   return part;
 }
@@ -88,9 +122,10 @@ std::vector<std::uint8_t> costlyNodes(const MeshedPart& part, std::size_t nodes,
 // that misses them least.
 MeshedPart meshGrowing(const Grid& grid, const LinkedGrid& linked, std::vector<std::uint8_t> taken,
                        const std::vector<std::uint8_t>& reach, const PatchMesher& mesher, std::size_t most_again,
-                       const ItemLoop& loop) {
+                       const RunControl& control, const ItemLoop& loop) {
   constexpr int kMostTimes = 4;
-  MeshedPart last = meshPart(grid, linked, taken, mesher, {}, loop);
+  constexpr double kFirst = 0.8, kEach = (1.0 - kFirst) / kMostTimes;  // shares of the progress
+  MeshedPart last = meshPart(grid, linked, taken, mesher, {}, stageControl(control, {0.0, kFirst}), loop);
   std::optional<MeshedPart> best;  // if better than the last
   for (int times = 0; times < kMostTimes; ++times) {
     const std::vector<std::uint8_t> at_nodes = costlyNodes(last, grid.nodes.size(), most_again);
@@ -98,7 +133,9 @@ MeshedPart meshGrowing(const Grid& grid, const LinkedGrid& linked, std::vector<s
     taken_in += takeInSingle(linked.mesh, reach, taken, loop);
     if (taken_in == 0) break;
     try {
-      MeshedPart larger = meshPart(grid, linked, taken, mesher, last, loop);
+      const double from = kFirst + kEach * times;
+      MeshedPart larger =
+          meshPart(grid, linked, taken, mesher, last, stageControl(control, {from, from + kEach}), loop);
       larger.taken_in = last.taken_in + taken_in;
       if (larger.missed() >= last.missed() && !best) best = std::move(last);
       last = std::move(larger);
@@ -168,6 +205,7 @@ void TriangleFigures::add(const TriangleFigures& other) {
 
 RemeshReport remeshGrid(Grid& grid, std::vector<std::uint8_t> taken, const RemeshOptions& options,
                         const RunControl& control, const ItemLoop& loop) {
+  constexpr double kMeshing = 0.9;  // share of the progress
   RemeshReport report;
   MeshedPart part;
   {
@@ -182,8 +220,9 @@ RemeshReport remeshGrid(Grid& grid, std::vector<std::uint8_t> taken, const Remes
     const std::size_t single = takeInSingle(linked.mesh, reach, taken, loop);
     if (options.stay.empty()) report.tidied = tidyCut(linked.mesh, other_half, taken, loop);
     const SizeInputs inputs = readSizeInputs(options.sizes, grid.crs);
-    const PatchMesher mesher(grid, shoreEdges(grid, linked.mesh), options, inputs, control, loop);
-    part = meshGrowing(grid, linked, std::move(taken), reach, mesher, options.most_again, loop);
+    const PatchMesher mesher(grid, shoreEdges(grid, linked.mesh), options, inputs, loop);
+    part = meshGrowing(grid, linked, std::move(taken), reach, mesher, options.most_again,
+                       stageControl(control, {0.0, kMeshing}), loop);
     report.taken_in = single + part.taken_in;
   }
   const std::vector<RemeshPatch>& patches = part.patches;
@@ -206,7 +245,8 @@ RemeshReport remeshGrid(Grid& grid, std::vector<std::uint8_t> taken, const Remes
   }
   report.rim.share = changed / triangles;
   report.replaced = replacePatches(grid, patches, std::move(made), loop);
-  if (!options.depth.files.empty()) report.depth = setNewDepths(grid, report.replaced, options.depth, control, loop);
+  if (!options.depth.files.empty())
+    report.depth = setNewDepths(grid, report.replaced, options.depth, stageControl(control, {kMeshing, 1.0}), loop);
   const std::vector<std::uint32_t>& sources = report.replaced.triangles;
   report.inside = figuresOf(grid, loop, [&](std::size_t t) { return sources[t] == kNone; });
   report.outside = figuresOf(grid, loop, [&](std::size_t t) { return sources[t] != kNone; });

@@ -5,8 +5,6 @@
 >>> mesh.points.shape, mesh.triangles.shape
 >>> mesh.write("lake.nc")
 """
-import contextlib
-import difflib
 import json
 import os
 import warnings as _warnings
@@ -14,50 +12,13 @@ import warnings as _warnings
 import numpy as np
 
 from . import _coastmesh
+from ._errors import CoastmeshWarning, Error, InputError, OptionError, OutputError, own_errors as _own_errors
+from ._sources import split as _split, split_polygons as _split_polygons
+from ._usage import options, options_text as _options_text, require_known as _require_known
 
-__all__ = ["Error", "InputError", "OptionError", "OutputError", "CoastmeshWarning", "Mesh", "mesh", "options", "read"]
+__all__ = ["Error", "InputError", "OptionError", "OutputError", "CoastmeshWarning", "Mesh", "cut", "merge", "mesh", "options",
+           "read", "remesh"]
 __version__ = _coastmesh.version
-
-
-class Error(Exception):
-    """Whatever coastmesh raises, but for KeyboardInterrupt and MemoryError."""
-
-
-class OptionError(Error, ValueError):
-    """An option's value is outside its range, or of the wrong kind."""
-
-
-class InputError(Error, ValueError):
-    """The input cannot be read or meshed.
-
-    Attributes:
-        refusals: a dict for each part that could not be meshed, with "source", "fids" (numbers of the features),
-            "reason", and "place": (x, y) in the input's CRS, or None.
-    """
-
-    def __init__(self, message, refusals=()):
-        super().__init__(message)
-        self.refusals = list(refusals)
-
-
-class OutputError(Error, OSError):
-    """A file cannot be written; none was left in part."""
-
-
-class CoastmeshWarning(UserWarning):
-    """An option without effect, or something about the input that was mended, left out or cannot be had."""
-
-
-@contextlib.contextmanager
-def _own_errors():
-    try:
-        yield
-    except _coastmesh.UsageError as error:
-        raise OptionError(str(error).replace("--mark-pieces", "mark_pieces=True")) from None
-    except _coastmesh.InputError as error:
-        raise InputError(str(error)) from None
-    except _coastmesh.OutputError as error:
-        raise OutputError(str(error).replace("--overwrite", "overwrite=True")) from None
 
 
 class Mesh:
@@ -114,13 +75,41 @@ class Mesh:
         return self._made.crs
 
     @property
+    def node_source(self):
+        """int64 array (n,): the index of each point in the mesh that was changed by `cut` or `remesh`, or in that of `node_mesh`;
+        -1 for new ones. None for other meshes, and after repairs for a target, which change points and triangles."""
+        return self._made.node_source
+
+    @property
+    def triangle_source(self):
+        """int64 array (m,): the same for triangles."""
+        return self._made.triangle_source
+
+    @property
+    def node_mesh(self):
+        """int64 array (n,): of those that `merge` put together, the mesh that each point comes from: 0 the first, 1 the first
+        inserted one; -1 for new ones. None as for `node_source`."""
+        return self._made.node_mesh
+
+    @property
+    def triangle_mesh(self):
+        """int64 array (m,): the same for triangles."""
+        return self._made.triangle_mesh
+
+    @property
     def complete(self):
-        """Whether all that was asked was reached: angles wherever the input allows them, budget, every feature."""
+        """Whether all that was asked was reached: angles wherever the input allows them, budget, every feature, repairs."""
         return self._made._complete
 
     @property
+    def summary(self):
+        """What `cut`, `remesh` or `merge` did, as lines of text; None for other meshes."""
+        return self._made.summary or None
+
+    @property
     def report(self):
-        """The report as a dict, its keys as in `coastmesh mesh --report`; None for a mesh that was read."""
+        """The report as a dict, its keys as in `coastmesh mesh --report`; "coastmesh", "warnings" and "repairs" for a mesh that
+        was changed; None for one that was read."""
         if self._parsed_report is None and self._made._report:
             self._parsed_report = json.loads(self._made._report)
         return self._parsed_report
@@ -147,15 +136,6 @@ class Mesh:
         return f"<coastmesh.Mesh: {len(self.points)} points, {len(self.triangles)} triangles>"
 
 
-def options():
-    """The options of `mesh`: name as a keyword, and what `coastmesh mesh --json-usage` says of it."""
-    return {_keyword(option["name"]): option for option in json.loads(_coastmesh.usage())["options"]}
-
-
-def _keyword(name):
-    return name.lstrip("-").replace("-", "_")
-
-
 def mesh(source, segments=None, holes=None, *, progress=None, **keywords):
     """Meshes polygons, closed lines or a plane graph; returns a Mesh.
 
@@ -179,165 +159,122 @@ def mesh(source, segments=None, holes=None, *, progress=None, **keywords):
     has the places. Features that cannot be meshed are left out with a CoastmeshWarning.
     """
     files, text, graph = _split(source, segments, holes)
-    if progress is not None and not callable(progress):
-        raise TypeError("progress is not callable")
-    _require_known(keywords)
+    _require_callable(progress)
+    _require_known("mesh", keywords)
     with _own_errors():
         made = _coastmesh.run(keywords, [*map(os.fsencode, files)], text, graph, progress)
-    for warning in made._warnings:
-        _warnings.warn(warning, CoastmeshWarning, stacklevel=2)
+    meshed = _warned(made)
     refusals = made._refusals
     if len(made.triangles) == 0:
         reasons = refusals[0]["reason"] if len(refusals) == 1 else f"none of the {len(refusals)} parts can be meshed"
         raise InputError(reasons, refusals)
+    return meshed
+
+
+def cut(mesh, *, progress=None, **keywords):
+    """Cuts a part out of a mesh, with its boundaries; returns a new Mesh.
+
+    Args:
+        mesh: a Mesh, or the path of one.
+        progress: as for `mesh`; the phases are "read", "cut" and "finish".
+        **keywords: the options listed below; bbox, within or outside says which part. `within` and `outside` are paths, or
+            polygons as GeoJSON, a dict or a str, or whatever has a __geo_interface__ (shapely, geopandas), or a list or
+            array of such. GeoJSON is in longitude and latitude unless it, or the `crs` of the object, says otherwise.
+
+    Raises:
+        OptionError, InputError, KeyboardInterrupt (on Ctrl-C), TypeError for an unknown option.
+
+    `node_source` and `triangle_source` of the result are indices in the given mesh.
+    """
+    return _edited("cut", mesh, progress, keywords)
+
+
+def remesh(mesh, *, progress=None, **keywords):
+    """Meshes a part of a mesh anew, with other sizes; all else stays bit for bit. Returns a new Mesh.
+
+    Args:
+        mesh: a Mesh, or the path of one.
+        progress: as for `mesh`; the phases are "read", "remesh" and "finish".
+        **keywords: the options listed below; bbox, within or outside says which part, as for `cut`, and size, size_shore or
+            another size how large the new triangles should be. Lengths are metres on the ground, or the plane's units.
+
+    Raises:
+        OptionError, InputError, KeyboardInterrupt (on Ctrl-C), TypeError for an unknown option.
+
+    `node_source` and `triangle_source` of the result are indices in the given mesh, -1 for new ones.
+    """
+    return _edited("remesh", mesh, progress, keywords)
+
+
+def merge(mesh, inserted, *, progress=None, **keywords):
+    """Puts meshes into another one, in place of the triangles that they cover, with a graded transition; returns a new Mesh.
+
+    Args:
+        mesh: the Mesh to put the others into, or its path.
+        inserted: a Mesh or a path, or a list of such: they are put in in this order. Each joins the mesh along its open
+            boundaries, or all around if it has none.
+        progress: as for `mesh`; the phases are "read", "merge" and "finish".
+        **keywords: the options listed below.
+
+    Raises:
+        OptionError, InputError, KeyboardInterrupt (on Ctrl-C), TypeError for an unknown option.
+
+    `node_mesh` and `triangle_mesh` of the result say which mesh each comes from: 0 is `mesh`, 1 the first inserted one, -1 none:
+    it is new. `node_source` and `triangle_source` are indices there.
+    """
+    if isinstance(inserted, (list, tuple)):
+        named = [(_given("merge", one), f"inserted[{i}]") for i, one in enumerate(inserted)]
+    else:
+        named = [(_given("merge", inserted), "inserted")]
+    if not named:
+        raise InputError("there is no mesh to put in")
+    return _edited("merge", mesh, progress, keywords, named)
+
+
+def read(path, assume_crs=None):
+    """Reads a mesh from a file in any format that coastmesh reads; returns a Mesh. Raises InputError.
+
+    Args:
+        assume_crs: the CRS of the mesh if its file has none, such as "EPSG:4326"; otherwise it lies in a plane.
+
+    What is odd in the file is a CoastmeshWarning.
+    """
+    with _own_errors():
+        made = _coastmesh.read(os.fsencode(path), assume_crs)
+    return _warned(made)
+
+
+def _edited(function, mesh, progress, keywords, *more):
+    """What `function`, one of those that change a mesh, makes of `mesh`."""
+    _require_callable(progress)
+    _require_known(function, keywords)
+    keywords, texts = _split_polygons(keywords)
+    given = _given(function, mesh)
+    with _own_errors():
+        made = getattr(_coastmesh, function)(keywords, texts, given, progress, *more)
+    return _warned(made, 4)
+
+
+def _given(function, mesh):
+    """A Mesh or a path, for the compiled half."""
+    if isinstance(mesh, Mesh):
+        return mesh._made
+    if isinstance(mesh, (str, os.PathLike)):
+        return os.fsencode(mesh)
+    raise TypeError(f"{function}() cannot change a {type(mesh).__name__}: give a Mesh or the path of one")
+
+
+def _require_callable(progress):
+    if progress is not None and not callable(progress):
+        raise TypeError("progress is not callable")
+
+
+def _warned(made, stacklevel=3):
+    for warning in made._warnings:
+        _warnings.warn(warning, CoastmeshWarning, stacklevel=stacklevel)
     return Mesh(made)
 
 
-def read(path):
-    """Reads a mesh from a file in any format that coastmesh reads; returns a Mesh. Raises InputError."""
-    with _own_errors():
-        return Mesh(_coastmesh.read(os.fsencode(path)))
-
-
-def _split(source, segments, holes):
-    """What to mesh as (files, GeoJSON text or None, plane graph or None)."""
-    if segments is not None or holes is not None:
-        return [], None, (source, segments, holes)
-    if isinstance(source, str):
-        return ([], _geojson_text(_geojson_of(source)), None) if _is_geojson(source) else ([source], None, None)
-    if isinstance(source, os.PathLike):
-        return [os.fspath(source)], None, None
-    if isinstance(source, dict):
-        if "vertices" in source:
-            return [], None, (source["vertices"], source.get("segments"), source.get("holes"))
-        return [], _geojson_text(source), None
-    if hasattr(source, "__geo_interface__"):
-        return [], _geojson_text(_geojson_of(source), getattr(source, "crs", None)), None
-    if isinstance(source, np.ndarray) and source.dtype == object and source.ndim == 1:
-        source = source.tolist()  # as shapely's functions return shapes
-    if isinstance(source, (list, tuple)):
-        if not source:
-            raise InputError("there is nothing to mesh")
-        if any(_is_geojson(part) for part in source):
-            return [], _list_text(source), None
-        if all(isinstance(part, (str, os.PathLike)) for part in source):
-            return [os.fspath(part) for part in source], None, None
-        if isinstance(source, tuple) and len(source) in (2, 3) and np.ndim(source[0]) == 2:
-            return [], None, (*source, None)[:3]
-        return [], None, (source, None, None)
-    if isinstance(source, np.ndarray):
-        return [], None, (source, None, None)
-    raise TypeError(f"cannot mesh a {type(source).__name__}: give a path, GeoJSON, or points and segments")
-
-
-def _is_geojson(part):
-    return isinstance(part, dict) or hasattr(part, "__geo_interface__") or (
-        isinstance(part, str) and part.lstrip().startswith("{"))
-
-
-def _geojson_of(part):
-    """GeoJSON as a dict, of anything that _is_geojson."""
-    if isinstance(part, dict):
-        return part
-    if not isinstance(part, str):
-        if not isinstance(part.__geo_interface__, dict):
-            raise TypeError(f"the __geo_interface__ of a {type(part).__name__} is no dict")
-        return part.__geo_interface__
-    try:
-        return json.loads(part)
-    except json.JSONDecodeError as error:
-        raise InputError(f"GeoJSON: {error}") from None
-
-
-def _list_text(shapes):
-    """A list of GeoJSON as one."""
-    features, crs = [], None
-    for i, shape in enumerate(shapes):
-        if not _is_geojson(shape):
-            raise TypeError(f"number {i} of the list is a {type(shape).__name__}, which is no GeoJSON and has no "
-                            "__geo_interface__")
-        geojson = _geojson_of(shape)
-        own = getattr(shape, "crs", None)
-        own = geojson.get("crs") if own is None else own
-        if i > 0 and own != crs:
-            raise InputError(f"number {i} of the list is in another CRS than those before it")
-        crs = own
-        if geojson.get("type") == "FeatureCollection":
-            features.extend(geojson["features"])
-        else:
-            features.append(geojson if geojson.get("type") == "Feature" else _feature(geojson))
-    return _geojson_text({"type": "FeatureCollection", "features": features}, crs)
-
-
-def _feature(geometry):
-    return {"type": "Feature", "properties": {}, "geometry": geometry}
-
-
-def _geojson_text(geojson, crs=None):
-    """GeoJSON as text. `crs`: of pyproj, the name of one, or the "crs" of GeoJSON; None leaves what `geojson` says."""
-    crs = geojson.get("crs") if crs is None else crs
-    if geojson.get("type") not in ("Feature", "FeatureCollection"):
-        geojson = _feature(geojson)
-    if crs is not None:
-        geojson = {**geojson, "crs": crs if isinstance(crs, dict) and "type" in crs else _named_crs(crs)}
-    try:
-        return json.dumps(geojson, default=_plain)
-    except (TypeError, ValueError) as error:
-        raise InputError(f"GeoJSON: {error}") from None
-
-
-def _named_crs(crs):
-    if isinstance(crs, str):
-        authority = crs.split(":")
-    else:
-        authority = crs.to_authority() if hasattr(crs, "to_authority") else None
-    if not authority or len(authority) != 2:
-        raise InputError("the CRS of the shapes has no code such as EPSG:32633, and GeoJSON can name no other: "
-                         "give them in a CRS that has one, with to_crs()")
-    return {"type": "name", "properties": {"name": f"urn:ogc:def:crs:{authority[0]}::{authority[1]}"}}
-
-
-def _plain(value):
-    """Shapes as GeoJSON, numbers and arrays of numpy as Python's, dates and other attributes as text."""
-    if hasattr(value, "__geo_interface__"):
-        return value.__geo_interface__
-    return value.tolist() if isinstance(value, (np.generic, np.ndarray)) else str(value)
-
-
-def _require_known(keywords):
-    """Refuses what is no option, now or by its former name."""
-    known = options()
-    former = {_keyword(name) for option in known.values() for name in list(option.get("former_names", {}))[:1]}
-    for name in keywords:
-        if name not in known and name not in former:
-            near = difflib.get_close_matches(name, known, 1)
-            raise TypeError(f"mesh() has no option '{name}'" + (f"; did you mean '{near[0]}'?" if near else ""))
-
-
-def _describe(option):
-    label, said = option["label"], option["help"]
-    said = label + said[len(label):] if said.lower().startswith(label.lower()) else f"{label}: {said}"
-    unit = option.get("unit")
-    default = option.get("default")
-    bounds = [f"from {option['minimum']:g}" if "minimum" in option else "",
-              f"above {option['exclusive_minimum']:g}" if "exclusive_minimum" in option else "",
-              f"to {option['maximum']:g}" if "maximum" in option else ""]
-    facts = [unit or "", *bounds, f"default {default}" if default is not None else ""]
-    if "choices" in option:
-        facts.insert(0, " | ".join(option["choices"]))
-    facts = ", ".join(fact for fact in facts if fact)
-    return f"{said} ({facts})" if facts else said
-
-
-def _options_text():
-    text, section = "", None
-    for name, option in options().items():
-        if option["section"] != section:
-            section = option["section"]
-            text += f"\n    {section}:\n"
-        text += f"        {name}: {_describe(option)}\n"
-    return text
-
-
-if mesh.__doc__:  # python -OO drops docstrings
-    mesh.__doc__ += _options_text()
+for _function in (mesh, cut, remesh, merge):
+    if _function.__doc__:  # python -OO drops docstrings
+        _function.__doc__ += _options_text(_function.__name__)

@@ -115,6 +115,25 @@ TEST(RemeshGrid, AllOfAGrid) {
   EXPECT_EQ(report.rim.share, 0.0);
 }
 
+TEST(RemeshGrid, ProgressIsOfAllPartsTogetherAndOnlyGrows) {
+  Grid grid = sea(60);
+  Flags taken = middlesInBox(grid, 5.0, 5.0, 25.0, 25.0);
+  const Flags other = middlesInBox(grid, 35.0, 35.0, 55.0, 55.0);
+  for (std::size_t t = 0; t < taken.size(); ++t) taken[t] |= other[t];
+  std::vector<double> shares;
+  withThreads({4}, [&] {
+    Recorder recorder;
+    const RunControl control{{}, [&shares](double share) { shares.push_back(share); }};
+    EXPECT_EQ(remeshGrid(grid, taken, ofSize(0.1), control, recorder.loop("test")).patches, 2u);
+  });
+  ASSERT_GT(shares.size(), 10u);
+  EXPECT_TRUE(std::ranges::is_sorted(shares));
+  EXPECT_GE(shares.front(), 0.0);
+  EXPECT_LT(shares.front(), 0.1);
+  EXPECT_GT(shares.back(), 0.5);
+  EXPECT_LE(shares.back(), 1.0);
+}
+
 TEST(RemeshGrid, PartsRoundAnIslandAndWithHoles) {
   const Grid before = sea(40, [](int i, int j) { return !(i >= 18 && i < 22 && j >= 18 && j < 22); });
   for (const int hole : {0, 1, 2}) {

@@ -1,0 +1,127 @@
+#include "apps/edit/merge_job.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <utility>
+
+#include "apps/report/remesh_texts.hpp"
+#include "apps/report/report_sections.hpp"
+#include "core/run_control.hpp"
+#include "gis/error.hpp"
+#include "gis/for_count.hpp"
+#include "gis/grid/boundary_chains.hpp"
+#include "gis/merge/match_crs.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// What is known of one mesh that was put in.
+struct InsertedMesh {
+  std::string name;
+  std::size_t triangles = 0;
+  MergedMesh result;
+};
+
+// Whether a mesh has depths while the other has none.
+std::string depthWarning(const Grid& grid, const Grid& inserted, const std::string& name) {
+  if (grid.z.empty() == inserted.z.empty()) return {};
+  return inserted.z.empty() ? "'" + name + "' has no depths: unknown for its nodes"
+                            : "only '" + name + "' has depths: unknown for all other nodes";
+}
+
+InsertedMesh putIn(Grid& grid, const std::string& name, const MeshToInsert& mesh, const MergeOptions& options,
+                   const Warn& warn, const RunControl& control, const ItemLoop& loop) {
+  Grid inserted = mesh.read();
+  findMissingBoundaries(inserted);
+  matchCrs(inserted, grid, mesh.name);
+  if (const std::string warning = depthWarning(grid, inserted, mesh.name); !warning.empty()) warn(warning);
+  InsertedMesh done{mesh.name, inserted.triangles.size(), {}};
+  try {
+    done.result = mergeMesh(grid, std::move(inserted), options, control, loop);
+  } catch (const InputError& error) {
+    throw InputError("'" + mesh.name + "' cannot be put into '" + name + "': " + error.what());
+  }
+  return done;
+}
+
+std::vector<std::string> warningsOf(const InsertedMesh& inserted, const DepthOptions& depth) {
+  const MergeReport& merged = inserted.result.merged;
+  const std::string in = "'" + inserted.name + "': ";
+  std::vector<std::string> all;
+  if (!merged.has_open) all.push_back(in + "no open boundary, so that it joins the water of the other mesh all around");
+  if (merged.walls > 0)
+    all.push_back(in + grouped(merged.walls) +
+                  forCount(merged.walls, " edge of its open boundaries is land now, as it has",
+                           " edges of its open boundaries are land now, as they have") +
+                  " no water of the other mesh beside it");
+  if (merged.cut_off > 0)
+    all.push_back(in + "it cuts waters off from the rest, which are left out: " + grouped(merged.cut_off) +
+                  forCount(merged.cut_off, " triangle", " triangles"));
+  if (merged.partition_dropped)
+    all.emplace_back("the assignment to processes is of the meshes before, and left out; partition makes a new one");
+  if (inserted.result.band) std::ranges::move(newNodeWarnings(*inserted.result.band, depth), std::back_inserter(all));
+  return all;
+}
+
+std::string textOf(const InsertedMesh& inserted, const Grid& grid) {
+  const MergedMesh& result = inserted.result;
+  std::string text = "'" + inserted.name + "': " + grouped(inserted.triangles) +
+                     forCount(inserted.triangles, " triangle", " triangles") + " in place of " +
+                     grouped(result.merged.covered) + ", joined along " + grouped(result.merged.joined) +
+                     forCount(result.merged.joined, " edge", " edges") + "\n";
+  if (result.merged.united > 0) text += "nodes that both have: " + grouped(result.merged.united) + "\n";
+  if (result.band)
+    text += "between both: " + figuresText(result.band->inside, grid) + "in place of " + grouped(result.replaced) +
+            " around " + (result.merged.gap > 0 ? "the gap" : "the seam") + "\n";
+  return text;
+}
+
+// Sources after one more mesh, number `mesh`, was put in.
+std::vector<MergeSource> composed(const std::vector<MergeSource>& before, const std::vector<MergeSource>& last,
+                                  std::uint32_t mesh) {
+  std::vector<MergeSource> all;
+  all.reserve(last.size());
+  for (const MergeSource& source : last)
+    all.push_back(source.mesh == 0   ? before[source.number]
+                  : source.mesh == 1 ? MergeSource{mesh, source.number}
+                                     : MergeSource{});
+  return all;
+}
+
+std::vector<MergeSource> ownSources(std::size_t count) {
+  std::vector<MergeSource> sources;
+  for (std::uint32_t i = 0; i < count; ++i) sources.push_back({0, i});
+  return sources;
+}
+
+}  // namespace
+
+EditedMesh runMergeJob(Grid& grid, const std::string& name, const std::vector<MeshToInsert>& inserted,
+                       const MergeJob& job, const Warn& warn, const JobControl& control) {
+  const auto merge = [&](const RunControl& of_edit, const ItemLoop& loop) {
+    MeshEdit edit;
+    auto& nodes = edit.sources.merged_nodes;
+    auto& triangles = edit.sources.merged_triangles;
+    nodes = ownSources(grid.nodes.size());
+    triangles = ownSources(grid.triangles.size());
+    std::string text;
+    const auto share = [&](std::size_t i) { return static_cast<double>(i) / static_cast<double>(inserted.size()); };
+    for (std::uint32_t i = 0; i < inserted.size(); ++i) {
+      const RunControl of_one = stageControl(of_edit, {share(i), share(i + 1)});
+      const InsertedMesh done = putIn(grid, name, inserted[i], job.merge, warn, of_one, loop);
+      nodes = composed(nodes, done.result.nodes, i + 1);
+      triangles = composed(triangles, done.result.triangles, i + 1);
+      std::ranges::move(warningsOf(done, job.merge.depth), std::back_inserter(edit.warnings));
+      text += textOf(done, grid);
+    }
+    edit.text = [text](const Grid& finished) {
+      return text + grouped(finished.nodes.size()) + " nodes, " + grouped(finished.triangles.size()) + " triangles\n";
+    };
+    return edit;
+  };
+  return editMesh("merge", grid, merge, job.finish, control);
+}
+
+}  // namespace coastmesh

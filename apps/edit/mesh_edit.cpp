@@ -1,0 +1,62 @@
+#include "apps/edit/mesh_edit.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include "apps/edit/mesh_file.hpp"
+#include "apps/report/report_sections.hpp"
+#include "gis/cut/number_table.hpp"
+#include "gis/grid/boundary_chains.hpp"
+#include "gis/merge/source_table.hpp"
+#include "parallel/recorder.hpp"
+#include "parallel/workers.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+RunControl controlOf(std::string_view phase, const JobControl& control) {
+  RunControl inner{control.cancelled, {}};
+  if (control.progress) inner.progress = [&control, phase](double share) { control.progress(phase, share); };
+  return inner;
+}
+
+}  // namespace
+
+void writeSources(const EditSources& sources, const std::string& path, const ItemLoop& loop) {
+  if (sources.merged_nodes.empty())
+    writeNumberTable(sources.nodes, sources.triangles, path, loop);
+  else
+    writeSourceTable(sources.merged_nodes, sources.merged_triangles, path, loop);
+}
+
+EditedMesh editMesh(std::string_view name, Grid& grid,
+                    const std::function<MeshEdit(const RunControl& control, const ItemLoop& loop)>& edit,
+                    const FinishOptions& finish, const JobControl& control) {
+  findMissingBoundaries(grid);
+  EditedMesh edited;
+  withThreads({}, [&] {
+    Recorder recorder;
+    const RunControl of_edit = controlOf(name, control);
+    of_edit.checkpoint(0.0);
+    const ItemLoop loop = recorder.loop(name, of_edit);
+    MeshEdit made = edit(of_edit, loop);
+    of_edit.checkpoint(1.0);
+    edited.finish = finishGrid(grid, finish, controlOf("finish", control), loop);
+    if (finish.targets.empty()) made.warnings.push_back(windingWarning(grid, loop));
+    edited.warnings = std::move(made.warnings);
+    edited.sources = std::move(made.sources);
+    edited.summary = made.text(grid) + finishSummary(finish, edited.finish);
+  });
+  std::ranges::move(edited.finish.warnings(), std::back_inserter(edited.warnings));
+  std::erase(edited.warnings, std::string());
+  return edited;
+}
+
+std::string editReport(const EditedMesh& edited, const std::vector<std::string>& warnings) {
+  return textOf({{"coastmesh", COASTMESH_VERSION},
+                 {"warnings", warnings},
+                 {"repairs", Json::parse(repairSection(edited.finish))}});
+}
+
+}  // namespace coastmesh
