@@ -41,7 +41,8 @@ int runMeshEdit(const MeshFile& mesh, const EditOutputs& asked,
     Recorder recorder;
     const ItemLoop loop = recorder.loop("write", {control.cancelled, {}});
     outputs.writeGrids(grid, loop);
-    if (numbers != nullptr) numbers->make([&](const std::string& path) { writeSources(edited.sources, path, loop); });
+    if (numbers != nullptr)
+      numbers->make([&](const std::string& path) { writeSources(edited.sources, grid, path, loop); });
   });
   outputs.commit();
   if (!asked.quiet) std::fputs(edited.summary.c_str(), stdout);

@@ -6,6 +6,7 @@
 
 #include "apps/edit/edit_part.hpp"
 #include "apps/report/report_sections.hpp"
+#include "gis/elements/quads.hpp"
 #include "gis/for_count.hpp"
 
 namespace coastmesh {
@@ -26,9 +27,11 @@ std::vector<std::string> warningsOf(const CutReport& report) {
   return all;
 }
 
-std::string textOf(const CutReport& report, const CutOptions& options) {
+// `quads`: quadrilaterals, `quads_before` those of the whole grid.
+std::string textOf(const CutReport& report, std::size_t quads, std::size_t quads_before, const CutOptions& options) {
   std::string text =
-      grouped(report.triangles.size()) + " of " + grouped(report.triangles_before) + " triangles, " +
+      grouped(report.triangles.size() - 2 * quads) + " of " + grouped(report.triangles_before - 2 * quads_before) +
+      " triangles, " + (quads_before > 0 ? grouped(quads) + " of " + grouped(quads_before) + " quadrilaterals, " : "") +
       grouped(report.nodes.size()) + " of " + grouped(report.nodes_before) + " nodes; " +
       grouped(report.boundaries_kept) +
       forCount(report.boundaries_kept, " boundary or part of one kept, ", " boundaries or parts of them kept, ") +
@@ -49,10 +52,11 @@ std::string textOf(const CutReport& report, const CutOptions& options) {
 EditedMesh runCutJob(Grid& grid, const std::string& name, const CutJob& job, const JobControl& control) {
   const auto cut = [&](const RunControl&, const ItemLoop& loop) {
     MeshEdit edit;
+    const std::size_t quads_before = quadsOf(grid).size();
     CutReport report =
         cutGrid(grid, requireTriangles(job.region, grid, name, CutJob::kPurpose, edit.warnings, loop), job.cut, loop);
     std::ranges::move(warningsOf(report), std::back_inserter(edit.warnings));
-    edit.text = [text = textOf(report, job.cut)](const Grid&) { return text; };
+    edit.text = [text = textOf(report, quadsOf(grid).size(), quads_before, job.cut)](const Grid&) { return text; };
     edit.sources.nodes = std::move(report.nodes);
     edit.sources.triangles = std::move(report.triangles);
     return edit;

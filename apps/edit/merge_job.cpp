@@ -8,6 +8,7 @@
 #include "apps/report/remesh_texts.hpp"
 #include "apps/report/report_sections.hpp"
 #include "core/run_control.hpp"
+#include "gis/elements/elements.hpp"
 #include "gis/error.hpp"
 #include "gis/for_count.hpp"
 #include "gis/grid/boundary_chains.hpp"
@@ -20,7 +21,8 @@ namespace {
 // What is known of one mesh that was put in.
 struct InsertedMesh {
   std::string name;
-  std::size_t triangles = 0;
+  std::string elements;  // how many of which
+  std::vector<std::uint32_t> element_numbers;
   MergedMesh result;
 };
 
@@ -37,7 +39,7 @@ InsertedMesh putIn(Grid& grid, const std::string& name, const MeshToInsert& mesh
   findMissingBoundaries(inserted);
   matchCrs(inserted, grid, mesh.name);
   if (const std::string warning = depthWarning(grid, inserted, mesh.name); !warning.empty()) warn(warning);
-  InsertedMesh done{mesh.name, inserted.triangles.size(), {}};
+  InsertedMesh done{mesh.name, elementText(inserted), elementNumbers(inserted), {}};
   try {
     done.result = mergeMesh(grid, std::move(inserted), options, control, loop);
   } catch (const InputError& error) {
@@ -67,8 +69,7 @@ std::vector<std::string> warningsOf(const InsertedMesh& inserted, const DepthOpt
 
 std::string textOf(const InsertedMesh& inserted, const Grid& grid) {
   const MergedMesh& result = inserted.result;
-  std::string text = "'" + inserted.name + "': " + grouped(inserted.triangles) +
-                     forCount(inserted.triangles, " triangle", " triangles") + " in place of " +
+  std::string text = "'" + inserted.name + "': " + inserted.elements + " in place of " +
                      grouped(result.merged.covered) + ", joined along " + grouped(result.merged.joined) +
                      forCount(result.merged.joined, " edge", " edges") + "\n";
   if (result.merged.united > 0) text += "nodes that both have: " + grouped(result.merged.united) + "\n";
@@ -110,14 +111,15 @@ EditedMesh runMergeJob(Grid& grid, const std::string& name, const std::vector<Me
     const auto share = [&](std::size_t i) { return static_cast<double>(i) / static_cast<double>(inserted.size()); };
     for (std::uint32_t i = 0; i < inserted.size(); ++i) {
       const RunControl of_one = stageControl(of_edit, {share(i), share(i + 1)});
-      const InsertedMesh done = putIn(grid, name, inserted[i], job.merge, warn, of_one, loop);
+      InsertedMesh done = putIn(grid, name, inserted[i], job.merge, warn, of_one, loop);
       nodes = composed(nodes, done.result.nodes, i + 1);
       triangles = composed(triangles, done.result.triangles, i + 1);
       std::ranges::move(warningsOf(done, job.merge.depth), std::back_inserter(edit.warnings));
       text += textOf(done, grid);
+      edit.sources.elements_before.push_back(std::move(done.element_numbers));
     }
     edit.text = [text](const Grid& finished) {
-      return text + grouped(finished.nodes.size()) + " nodes, " + grouped(finished.triangles.size()) + " triangles\n";
+      return text + grouped(finished.nodes.size()) + " nodes, " + elementText(finished) + "\n";
     };
     return edit;
   };

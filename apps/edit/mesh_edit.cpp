@@ -6,6 +6,7 @@
 #include "apps/edit/mesh_file.hpp"
 #include "apps/report/report_sections.hpp"
 #include "gis/cut/number_table.hpp"
+#include "gis/elements/elements.hpp"
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/merge/source_table.hpp"
 #include "parallel/recorder.hpp"
@@ -23,11 +24,26 @@ RunControl controlOf(std::string_view phase, const JobControl& control) {
 
 }  // namespace
 
-void writeSources(const EditSources& sources, const std::string& path, const ItemLoop& loop) {
-  if (sources.merged_nodes.empty())
-    writeNumberTable(sources.nodes, sources.triangles, path, loop);
-  else
-    writeSourceTable(sources.merged_nodes, sources.merged_triangles, path, loop);
+void writeSources(const EditSources& sources, const Grid& grid, const std::string& path, const ItemLoop& loop) {
+  const Elements elements(grid);
+  const auto elementBefore = [&](std::uint32_t mesh, std::uint32_t triangle) {
+    const std::vector<std::uint32_t>& numbers = sources.elements_before[mesh];
+    return numbers.empty() ? triangle : numbers[triangle];
+  };
+  if (sources.merged_nodes.empty()) {
+    std::vector<std::uint32_t> before;
+    for (std::size_t e = 0; e < elements.size(); ++e) {
+      const std::uint32_t source = sources.triangles[elements.triangleOf(e)];
+      before.push_back(source == kNone ? kNone : elementBefore(0, source));
+    }
+    return writeNumberTable(sources.nodes, elements, before, path, loop);
+  }
+  std::vector<MergeSource> before;
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    MergeSource& source = before.emplace_back(sources.merged_triangles[elements.triangleOf(e)]);
+    if (source.mesh != kNone) source.number = elementBefore(source.mesh, source.number);
+  }
+  writeSourceTable(sources.merged_nodes, elements, before, path, loop);
 }
 
 EditedMesh editMesh(std::string_view name, Grid& grid,
@@ -40,7 +56,10 @@ EditedMesh editMesh(std::string_view name, Grid& grid,
     const RunControl of_edit = controlOf(name, control);
     of_edit.checkpoint(0.0);
     const ItemLoop loop = recorder.loop(name, of_edit);
+    std::vector<std::uint32_t> elements_before = elementNumbers(grid);
     MeshEdit made = edit(of_edit, loop);
+    std::vector<std::vector<std::uint32_t>>& before = made.sources.elements_before;
+    before.insert(before.begin(), std::move(elements_before));
     of_edit.checkpoint(1.0);
     edited.finish = finishGrid(grid, finish, controlOf("finish", control), loop);
     if (finish.targets.empty()) made.warnings.push_back(windingWarning(grid, loop));

@@ -20,10 +20,12 @@ struct EditSources {
   std::vector<std::uint32_t> nodes, triangles;  // their numbers in the mesh before, from 0; kNone for new ones
   // Of a merged mesh instead. Mesh 0 is the one that the others, from 1, were put into.
   std::vector<MergeSource> merged_nodes, merged_triangles;
+  // For each mesh before: the numbers of elements by triangle, from 0; empty if it had triangles only.
+  std::vector<std::vector<std::uint32_t>> elements_before;
 };
 
-// Writes them as a table (CSV). Throws OutputError.
-void writeSources(const EditSources& sources, const std::string& path, const ItemLoop& loop);
+// Writes those of the nodes and elements of `grid` as a table (CSV). Throws OutputError.
+void writeSources(const EditSources& sources, const Grid& grid, const std::string& path, const ItemLoop& loop);
 
 // A change of a mesh.
 struct MeshEdit {

@@ -33,9 +33,14 @@ std::vector<std::string> warningsOf(const RemeshReport& report, const DepthOptio
 
 std::string textOf(const RemeshReport& report, const DepthOptions& depth, const Grid& grid) {
   const ReplaceReport& replaced = report.replaced;
+  const std::size_t quads_replaced = report.quads_before - report.quads;
   std::string text =
-      grouped(replaced.triangles_removed) + " of " + grouped(replaced.triangles_before) + " triangles replaced by " +
-      grouped(replaced.triangles_added) + ", " + grouped(replaced.nodes_removed) + " of " +
+      grouped(replaced.triangles_removed - 2 * quads_replaced) + " of " +
+      grouped(replaced.triangles_before - 2 * report.quads_before) + " triangles " +
+      (report.quads_before > 0
+           ? "and " + grouped(quads_replaced) + " of " + grouped(report.quads_before) + " quadrilaterals "
+           : "") +
+      "replaced by " + grouped(replaced.triangles_added) + ", " + grouped(replaced.nodes_removed) + " of " +
       grouped(replaced.nodes_before) + " nodes by " + grouped(replaced.nodes_added) +
       (report.patches > 1 ? ", in " + grouped(report.patches) + " parts without a common edge" : "") + "\n";
   text += "new: " + figuresText(report.inside, grid);

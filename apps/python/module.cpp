@@ -14,6 +14,7 @@
 #include "apps/python/pickle.hpp"
 #include "apps/python/run.hpp"
 #include "core/bulk_list.hpp"
+#include "gis/elements/quads.hpp"
 #include "gis/error.hpp"
 #include "gis/file/staged_files.hpp"
 #include "gis/format/grid_io.hpp"
@@ -55,6 +56,16 @@ py::list featuresOf(const Grid& grid) {
     list.append(entry);
   }
   return list;
+}
+
+py::array_t<std::uint32_t> quadsAsArray(const Grid& grid) {
+  const std::vector<Quad> quads = quadsOf(grid);
+  py::array_t<std::uint32_t> rows({static_cast<py::ssize_t>(quads.size()), py::ssize_t{4}});
+  auto at = rows.mutable_unchecked<2>();
+  for (py::ssize_t q = 0; q < rows.shape(0); ++q)
+    for (py::ssize_t i = 0; i < 4; ++i)
+      at(q, i) = quads[static_cast<std::size_t>(q)].nodes[static_cast<std::size_t>(i)];
+  return rows;
 }
 
 py::list boundariesOf(const Grid& grid) {
@@ -151,6 +162,7 @@ PYBIND11_MODULE(_coastmesh, m) {
       .def_property_readonly("points", [](const py::object& o) { return rowsOf<double>(gridOf(o).nodes, 2, o); })
       .def_property_readonly("triangles",
                              [](const py::object& o) { return rowsOf<std::uint32_t>(gridOf(o).triangles, 3, o); })
+      .def_property_readonly("quadrilaterals", [](const py::object& o) { return quadsAsArray(gridOf(o)); })
       .def_property_readonly("z", [](const py::object& o) { return columnOf(gridOf(o).z, o); })
       .def_property_readonly("min_angle", [](const py::object& o) { return columnOf(gridOf(o).min_angle_deg, o); })
       .def_property_readonly("area", [](const py::object& o) { return columnOf(gridOf(o).area_m2, o); })

@@ -207,6 +207,7 @@ RemeshReport remeshGrid(Grid& grid, std::vector<std::uint8_t> taken, const Remes
                         const RunControl& control, const ItemLoop& loop) {
   constexpr double kMeshing = 0.9;  // share of the progress
   RemeshReport report;
+  report.quads_before = quadsOf(grid).size();
   MeshedPart part;
   {
     const LinkedGrid linked = linkGrid(grid, loop);
@@ -248,8 +249,11 @@ RemeshReport remeshGrid(Grid& grid, std::vector<std::uint8_t> taken, const Remes
   if (!options.depth.files.empty())
     report.depth = setNewDepths(grid, report.replaced, options.depth, stageControl(control, {kMeshing, 1.0}), loop);
   const std::vector<std::uint32_t>& sources = report.replaced.triangles;
+  report.quads = quadsOf(grid).size();
+  const std::vector<std::uint32_t> other_half = otherHalves(grid);
   report.inside = figuresOf(grid, loop, [&](std::size_t t) { return sources[t] == kNone; });
-  report.outside = figuresOf(grid, loop, [&](std::size_t t) { return sources[t] != kNone; });
+  report.outside = figuresOf(
+      grid, loop, [&](std::size_t t) { return sources[t] != kNone && (other_half.empty() || other_half[t] == kNone); });
   return report;
 }
 

@@ -31,6 +31,7 @@ struct RemeshReport {
   ReplaceReport replaced;
   TidiedCut tidied;
   std::size_t taken_in = 0;  // triangles replaced although they had no flag, or were left out by `tidyCut`
+  std::size_t quads_before = 0, quads = 0;  // quadrilaterals, of which those in the part are replaced too
   std::size_t patches = 0;
   std::size_t whole_edges = 0;  // of weirs, and of boundaries within the mesh: kept as they are
   RimReach rim;                 // the widest, and the mean share by triangles
@@ -38,7 +39,7 @@ struct RemeshReport {
   // New triangles that miss the bounds on angles, beside edges that stay: no corner of the outline excuses them.
   std::size_t below_bounds = 0;
   std::optional<BoundViolationPlace> worst_below{};  // that with the smallest angle, in the grid's CRS
-  TriangleFigures inside, outside;
+  TriangleFigures inside, outside;                   // of triangles that are no halves
   DepthReport depth;
 };
 

@@ -9,7 +9,10 @@
 
 namespace coastmesh {
 
-// "1 234 m"; without a unit in a plane.
+// "1,200 triangles", or "800 triangles, 200 quadrilaterals".
+std::string elementText(const Grid& grid);
+
+// "1,234 m"; without a unit in a plane.
 std::string lengthText(double length, const Grid& grid);
 
 // "120 triangles, edges from 90 m to 1 200 m, angles from 31.2 degrees\n"

@@ -5,19 +5,19 @@
 
 namespace coastmesh {
 
-void writeNumberTable(std::span<const std::uint32_t> nodes, std::span<const std::uint32_t> triangles,
-                      const std::string& path, const ItemLoop& loop) {
+void writeNumberTable(std::span<const std::uint32_t> nodes, const Elements& elements,
+                      std::span<const std::uint32_t> sources, const std::string& path, const ItemLoop& loop) {
   TextWriter out(path);
   out << "item,number,source\n";
-  const auto write = [&](const char* item, std::span<const std::uint32_t> sources) {
-    out.rows(loop, sources.size(), [&](TextBlock& row, std::size_t i) {
-      row << item << ',' << i + 1 << ',';
-      if (sources[i] != kNone) row << std::size_t{sources[i]} + 1;
+  const auto write = [&](std::span<const std::uint32_t> all, const auto& itemAt) {
+    out.rows(loop, all.size(), [&](TextBlock& row, std::size_t i) {
+      row << itemAt(i) << ',' << i + 1 << ',';
+      if (all[i] != kNone) row << std::size_t{all[i]} + 1;
       row << '\n';
     });
   };
-  write("node", nodes);
-  write("triangle", triangles);
+  write(nodes, [](std::size_t) { return "node"; });
+  write(sources, [&](std::size_t i) { return elements.nameOf(i); });
   out.close();
 }
 

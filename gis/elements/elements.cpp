@@ -35,6 +35,14 @@ Elements::Nodes Elements::nodesOf(std::size_t element) const {
   return {{a, b, c, kNone}, 3};
 }
 
+std::vector<std::uint32_t> elementNumbers(const Grid& grid) {
+  const Elements elements(grid);
+  std::vector<std::uint32_t> numbers;
+  if (elements.quads() > 0)
+    for (std::uint32_t t = 0; t < grid.triangles.size(); ++t) numbers.push_back(elements.elementOf(t));
+  return numbers;
+}
+
 std::string elementCount(const Grid& grid) {
   const std::size_t quads = quadsOf(grid).size(), triangles = grid.triangles.size() - 2 * quads;
   std::string text = std::to_string(triangles) + forCount(triangles, " triangle", " triangles");

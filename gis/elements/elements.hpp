@@ -38,6 +38,7 @@ class Elements {
     return of_triangles[triangleOf(element)] + (isQuad(element) ? of_triangles[secondHalfOf(element)] : 0.0);
   }
   Nodes nodesOf(std::size_t element) const;
+  const char* nameOf(std::size_t element) const { return isQuad(element) ? "quadrilateral" : "triangle"; }
   std::uint32_t elementOf(std::uint32_t triangle) const {
     return of_triangle_.empty() ? triangle : of_triangle_[triangle];
   }
@@ -50,6 +51,9 @@ class Elements {
   std::vector<std::uint32_t> second_;                // likewise
   std::vector<std::uint32_t> of_triangle_;           // the element of each triangle
 };
+
+// For each triangle the number of its element, from 0; empty if the grid has triangles only.
+std::vector<std::uint32_t> elementNumbers(const Grid& grid);
 
 // "120 triangles", or "80 triangles, 20 quadrilaterals".
 std::string elementCount(const Grid& grid);

@@ -109,11 +109,17 @@ TEST_F(Quads, AreConverted) {
 }
 
 TEST_F(Quads, StayInPartsThatAreCutOut) {
-  run({"cut", file("mixed.gr3"), "--bbox=1050,990,1172,1200", "-o", file("part.gr3")});
+  run({"cut", file("mixed.gr3"), "--bbox=1050,990,1172,1200", "-o", file("part.gr3"), "--numbers",
+       file("numbers.csv")});
   const Gr3 part = read("part.gr3");
   EXPECT_EQ(part.quads.size(), 40u);  // the middles of five columns are in the box
   EXPECT_THAT(part.quads, IsSubsetOf(read("mixed.gr3").quads));
   EXPECT_THAT(part.triangles, IsSubsetOf(read("mixed.gr3").triangles));
+  // The first row of the whole has 24 triangles, then 12 quadrilaterals; the part begins in its sixth column.
+  const std::string numbers = readText(file("numbers.csv"));
+  EXPECT_THAT(numbers, HasSubstr("\ntriangle,1,11\n"));
+  EXPECT_THAT(numbers, HasSubstr("\nquadrilateral,15,25\n"));
+  EXPECT_THAT(numbers, HasSubstr("\ntriangle,20,47\n"));
   run({"check", file("part.gr3"), "--target", "schism"});
 }
 

@@ -369,6 +369,21 @@ class RunTest(EditTest):
         for mesh in meshes:
             self.assert_same(mesh, expected)
 
+    def test_quadrilaterals(self):
+        with open(self.path("quads.gr3"), "w", encoding="utf-8") as file:
+            file.write("quads\n6 9\n")
+            for i in range(9):
+                file.write(f"{i + 1} {10 * (i % 3)} {10 * (i // 3)} 5\n")
+            file.write("1 4 1 2 5 4\n2 3 2 3 6\n3 3 2 6 5\n4 4 5 8 7 4\n5 3 5 6 9\n6 3 5 9 8\n")
+        mesh = coastmesh.read(self.path("quads.gr3"), assume_crs="plane")
+        self.assertEqual(mesh.quadrilaterals.tolist(), [[0, 1, 4, 3], [4, 7, 6, 3]])
+        self.assertEqual(len(mesh.triangles), 8)
+        part = coastmesh.cut(mesh, bbox=(0, 0, 10, 20))
+        self.assertEqual(len(part.quadrilaterals), 2)
+        self.assertEqual(len(part.triangles), 4)
+        self.assertIn("0 of 4 triangles, 2 of 2 quadrilaterals", part.summary)
+        self.assertEqual(coastmesh.mesh(LAKE, size=20000, coast="follow").quadrilaterals.shape, (0, 4))
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=2)

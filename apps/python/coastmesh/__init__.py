@@ -39,6 +39,12 @@ class Mesh:
         return self._made.triangles
 
     @property
+    def quadrilaterals(self):
+        """uint32 array (q, 4): the points around each quadrilateral of a mesh that was read; both halves of it are among
+        the triangles."""
+        return self._made.quadrilaterals
+
+    @property
     def z(self):
         """float64 array (n,): metres, positive up, NaN where unknown; None where there is no depth."""
         return self._made.z
