@@ -47,7 +47,8 @@ bool mayBeDegrees(const Grid& grid) {
 // Files for models have no CRS, and models read degrees from many of them.
 void warnOfDegrees(const MeshFile& file, const Grid& grid, const Warn& warn) {
   const GridFormat* const format = gridFormatOf(file.path);
-  if (!file.crs.empty() || !grid.crs.isPlane() || format == nullptr || !format->says_depth) return;
+  if (!file.crs.empty() || !grid.crs.isPlane() || format == nullptr) return;
+  if (!format->says_depth && !format->lengths_in_metres) return;
   if (!mayBeDegrees(grid)) return;
   warn("'" + file.path +
        "' does not say its CRS, so coordinates are lengths in a plane; all lie within ±360, ±90: if they are "

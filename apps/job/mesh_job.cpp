@@ -117,6 +117,17 @@ void noteRaisedShore(MeshJobResult& result) {
                               "; a shorter step allows smaller elements");
 }
 
+// A model's grid whose sizes are bounds only: its coast stays as it is in the data.
+void noteKeptCoast(const MeshJob& job, MeshJobResult& result) {
+  constexpr double kFarShorter = 0.01;
+  const SizeOptions& sizes = job.sizes;
+  if (job.finish.targets.empty() || sizes.coast != CoastDetail::Keep || sizes.any()) return;
+  if (!std::isfinite(sizes.most_m) || !(result.step.step.shortest_edge_m < kFarShorter * sizes.most_m)) return;
+  result.read.notes.push_back("--size-max " + amount("%g", sizes.most_m) +
+                              " leaves the coast as it is in the data, with edges far shorter; --size or --size-shore "
+                              "with --coast follow make it as coarse as the sizes");
+}
+
 // In the coordinates that are written: orientation in the working plane may differ.
 void findTurned(MeshJobResult& result, const ItemLoop& loop) {
   for (const std::uint32_t t : turnedTriangles(result.grid, result.grid.area_m2, loop)) {
@@ -317,6 +328,7 @@ MeshJobResult runOnThreads(const MeshJob& given, const JobControl& control) {
   result.step = measureOutcome(result.grid, job.sizes, loop, job.mesh.refine.goal, result.waters.too_small.count,
                                result.finish.repairs.repairs);
   std::ranges::copy(result.step.notes, std::back_inserter(result.read.notes));
+  noteKeptCoast(job, result);
   result.rasters_read = rasters.use();
   result.log.append(recorder.finish("grid"));
   result.seconds.total = whole.seconds();

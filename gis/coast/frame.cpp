@@ -469,7 +469,9 @@ FrameReport frameCoastline(Coastline& coastline, const FrameOptions& options) {
       (coastline.framed_by_box ? frame.source : sourceInWords(frame.source)) + ": nothing of the input lies in it";
   if (!coastline.framed_by_box) reason += ", which reaches over " + inWords(boundsOfFrames(coastline));
   if (!given.empty()) reason += "; the input reaches over " + inWords(given);
-  throw InputError(reason + " (west, south, east, north, in " + nameOf(coastline.crs) + ")");
+  reason += " (west, south, east, north, in " + nameOf(coastline.crs) + ")";
+  if (options.side == DomainSide::Outside) reason += "; if all of it is water, mesh a polygon of it instead";
+  throw InputError(reason);
 }
 
 }  // namespace coastmesh

@@ -147,7 +147,8 @@ void noteFollowing(FollowNotes&& notes, const ShoreGuides& guides, const FollowO
     const std::string name = nameOf("barrier", guides.barriers, line);
     if (end) {
       texts.push_back(name + " ends in the water, at " + placeText(*end, projection) +
-                      ", an element or more from the shore: the water goes round it");
+                      ", an element or more from the shore: the water goes round it, unless the gap there is so "
+                      "narrow that it is closed");
     } else {
       report.idle.push_back(name + kNoEffect);
     }

@@ -290,7 +290,7 @@ class TargetCheck {
   };
   // What takes long to find out about a segment.
   struct SegmentSearch {
-    std::vector<SegmentEdge> edges, back;  // along its nodes, and those across
+    std::vector<SegmentEdge> edges, back;  // along its nodes; those across, and from these to those at a weir's ends
     BoundaryRole by_shape = BoundaryRole::Land;
   };
 
@@ -317,7 +317,12 @@ class TargetCheck {
       for (std::size_t b = first; b < last; ++b) {
         const Boundary& boundary = grid_.boundaries[b];
         searches[b].edges = placesOf(edgesOf(boundary));
-        searches[b].back = placesOf(edgesOf(Boundary{boundary.role, boundary.closed, boundary.back_nodes}));
+        std::vector<NodePair> back = edgesOf(Boundary{boundary.role, boundary.closed, boundary.back_nodes});
+        if (!boundary.back_nodes.empty() && !boundary.closed) {
+          back.push_back({boundary.nodes.front(), boundary.back_nodes.front()});
+          back.push_back({boundary.nodes.back(), boundary.back_nodes.back()});
+        }
+        searches[b].back = placesOf(back);
         if (isLoop(boundary)) searches[b].by_shape = roleOfLoop(grid_.nodes, boundary.nodes, grid_.crs);
       }
     };

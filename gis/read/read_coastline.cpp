@@ -3,12 +3,15 @@
 #include <ogr_spatialref.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <memory>
 
 #include "gis/coast/feature_names.hpp"
 #include "gis/coast/join_gaps.hpp"
 #include "gis/coast/nest_rings.hpp"
+#include "gis/crs/geodesy.hpp"
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
 #include "gis/for_count.hpp"
@@ -78,6 +81,54 @@ class Reprojection {
   std::unique_ptr<OGRCoordinateTransformation> transformation_;
 };
 
+// Where the edges of chains lie in the new CRS: straight, while they are bent there if they are straight in the old one.
+struct Bend {
+  double offset = 0.0;  // the largest distance between the middles of both, in the new CRS
+  std::array<Point, 2> middles{};
+
+  void measure(const std::vector<Point>& before, const std::vector<Point>& after, const Reprojection& reprojection,
+               std::int64_t fid) {
+    if (after.size() < 2) return;
+    std::vector<Point> middles_before;
+    for (std::size_t i = 1; i < before.size(); ++i)
+      middles_before.push_back({(before[i - 1].x + before[i].x) / 2, (before[i - 1].y + before[i].y) / 2});
+    reprojection.apply(middles_before, fid);
+    for (std::size_t i = 1; i < after.size(); ++i) {
+      const Point straight{(after[i - 1].x + after[i].x) / 2, (after[i - 1].y + after[i].y) / 2};
+      const Point& bent = middles_before[i - 1];
+      const double here = std::hypot(bent.x - straight.x, bent.y - straight.y);
+      const double length = std::hypot(after[i].x - after[i - 1].x, after[i].y - after[i - 1].y);
+      constexpr double kNoted = 0.005;                                          // of the edge's length
+      if (here < kNoted * length || here <= offset || here > length) continue;  // beyond: longitudes that jump
+      offset = here;
+      middles = {bent, straight};
+    }
+  }
+};
+
+// The sides of a frame are where the mesh ends: how far they are from where the user sees them in its own CRS.
+std::string bendWarning(const RawLayer& frame, const std::vector<Feature>& before, const Reprojection& reprojection,
+                        const Crs& crs) {
+  Bend bend;
+  const auto closed = [](Ring ring) {
+    if (!ring.empty()) ring.push_back(ring.front());
+    return ring;
+  };
+  for (std::size_t f = 0; f < before.size(); ++f)
+    for (std::size_t p = 0; p < before[f].polygons.size(); ++p)
+      bend.measure(closed(before[f].polygons[p].outer), closed(frame.features[f].polygons[p].outer), reprojection,
+                   before[f].fid);
+  if (bend.offset == 0.0) return {};
+  const double metres = chainLengths({{bend.middles[0], bend.middles[1]}}, crs).front();
+  char distance[40];
+  std::snprintf(distance, sizeof distance, metres < 1000.0 ? "%.3g m" : "%.3g km",
+                metres < 1000.0 ? metres : metres / 1000.0);
+  return sourceInWords(frame.source) + ": its sides are straight in " + nameOf(crs) +
+         ", the CRS of the first source, " + "and up to " + distance + " from where they are in its own, " +
+         nameOf(*frame.crs) + ", at " + placeInWords(bend.middles[1]) +
+         "; points along them keep them in place (ogr2ogr -segmentize)";
+}
+
 void bringTo(const Crs& crs, const RawLayer& first, RawLayer& layer, ReadReport& report) {
   if (!layer.crs) {
     if (crs.geographic && !looksGeographic(layer.bounds)) {
@@ -100,6 +151,8 @@ void bringTo(const Crs& crs, const RawLayer& first, RawLayer& layer, ReadReport&
                      nameOf(first_lacks ? *layer.crs : crs) + ": give both a CRS");
   }
   const Reprojection reprojection(layer.source, *layer.crs, crs);
+  const bool is_frame = layer.use == FeatureUse::Frame;
+  const std::vector<Feature> before = is_frame ? layer.features : std::vector<Feature>();
   for (Feature& feature : layer.features) {
     for (Polygon& polygon : feature.polygons) {
       reprojection.apply(polygon.outer, feature.fid);
@@ -108,6 +161,9 @@ void bringTo(const Crs& crs, const RawLayer& first, RawLayer& layer, ReadReport&
     for (auto& line : feature.lines) reprojection.apply(line, feature.fid);
     reprojection.apply(feature.vertex_order, feature.fid);
   }
+  if (is_frame)
+    if (std::string warning = bendWarning(layer, before, reprojection, crs); !warning.empty())
+      report.warnings.push_back(std::move(warning));
   for (Feature& feature : layer.line_features) reprojection.apply(feature.points, feature.fid);
   for (RawLayer::Line& line : layer.lines) {
     reprojection.apply(line.points, layer.line_features[line.feature].fid);

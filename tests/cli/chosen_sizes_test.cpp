@@ -165,5 +165,15 @@ TEST_F(ChosenSizes, DoNotExcuseWhatTheCoastIgnores) {
   EXPECT_THAT(free.errors, HasSubstr("--courant has no effect without --time-step"));
 }
 
+// A bound alone says nothing of the coast, whose short edges a model would pay for.
+TEST_F(ChosenSizes, ABoundAloneLeavesTheCoastWhichIsSaid) {
+  LonLatRing fine = squareAt(0, 50, 2, 1);
+  fine.insert(fine.begin() + 2, {{2, 50.5}, {1.99999, 50.50001}});
+  const std::string note = "leaves the coast as it is in the data";
+  EXPECT_THAT(meshWithoutDepths({{fine}}, {"--size-max", "20000"}).output, HasSubstr("--size-max 20000 " + note));
+  EXPECT_THAT(meshWithoutDepths(sea(), {"--size-max", "20000"}).output, Not(HasSubstr(note)));
+  EXPECT_THAT(meshWithoutDepths({{fine}}, {"--size", "20000", "--coast", "follow"}).output, Not(HasSubstr(note)));
+}
+
 }  // namespace
 }  // namespace coastmesh::test

@@ -589,6 +589,8 @@ TEST_F(Coordinates, OfAModelsFileMayBeDegrees) {
   // Flumes of 30 m by 2 m, with a corner at the origin, and of 5 m around it.
   for (const std::string flume : {"1 0 0 1\n2 30 0 1\n3 0 2 1\n", "1 -2.5 -1 1\n2 2.5 -1 1\n3 0 1 1\n"})
     EXPECT_EQ(runProgram({"info", write("flume.14", "a flume\n1 3\n" + flume + "1 3 1 2 3\n0\n0\n0\n0\n")}).errors, "");
+  const std::string cards = write("sea.2dm", "MESH2D\nND 1 5 53 -5\nND 2 6 53 -5\nND 3 6 54 -5\nE3T 1 1 2 3 1\n");
+  EXPECT_THAT(runProgram({"info", cards}).errors, HasSubstr("give --assume-crs EPSG:4326"));
   for (const std::string command : {"info", "check"}) {
     EXPECT_THAT(runProgram({command, degrees}).errors, HasSubstr("give --assume-crs EPSG:4326")) << command;
     EXPECT_EQ(runProgram({command, metres}).errors, "") << command;

@@ -230,6 +230,9 @@ TEST(Frame, OddBoxesAreRefused) {
   FrameOptions outside;
   outside.side = DomainSide::Outside;
   EXPECT_NE(refusalOf(lake, outside).find("--bbox"), std::string::npos);
+  FrameOptions at_sea = boxOf(20, 20, 30, 30);
+  at_sea.side = DomainSide::Outside;
+  EXPECT_NE(refusalOf(lake, at_sea).find("if all of it is water, mesh a polygon of it instead"), std::string::npos);
 }
 
 }  // namespace

@@ -593,6 +593,30 @@ TEST(CheckTarget, RepairKeepsWhatTrianglesTell) {
   EXPECT_NEAR(area, 16e6, 1.0);
 }
 
+// Between two shores with pairs of nodes; the edges that join the pairs at its ends are in no list.
+TEST(CheckTarget, TheEndsOfAWeirAreItsOwn) {
+  const auto isWater = [](int i, int j) { return j != 3 || i < 2 || i > 5; };
+  const TriMesh mesh = lattice(8, 7, isWater, [](int i, int j) { return Point{1000.0 * i, 1000.0 * j}; });
+  Grid grid;
+  grid.nodes = mesh.points;
+  for (const Triangle& t : mesh.triangles) grid.triangles.push_back(t.v);
+  for (Boundary& boundary : findBoundaries(mesh))
+    if (boundary.role == BoundaryRole::Land) grid.boundaries.push_back(std::move(boundary));
+  Boundary weir{BoundaryRole::Land, false, {}, 24};
+  for (std::uint32_t i = 2; i <= 6; ++i) {
+    weir.nodes.push_back(3 * 9 + i);
+    weir.back_nodes.push_back(4 * 9 + i);
+    for (const double value : {1.5, 1.0, 1.0}) weir.weir.push_back(value);
+  }
+  std::ranges::reverse(weir.nodes);
+  std::ranges::reverse(weir.back_nodes);
+  grid.boundaries.push_back(weir);
+  EXPECT_EQ(kindsIn(grid, Target::Adcirc), Kinds{});
+  // The shore across is part of it too.
+  grid.boundaries.back().back_nodes.clear();
+  EXPECT_EQ(kindsIn(grid, Target::Adcirc), Kinds{TargetDefectKind::NoBoundary});
+}
+
 // Nodes joined by a weir cannot be separated, so meshes with weirs are not repaired.
 TEST(Targets, DefectsOfAMeshWithWeirsAreNamedAndCountsAreNone) {
   Grid grid = soundGrid();

@@ -304,6 +304,24 @@ TEST_F(ReadCoastline, BringsAllToTheCrsOfTheFirst) {
   EXPECT_LT(other_way.features[1].polygons[0].outer[1].x, 500000);
 }
 
+// A frame in degrees around a coast in metres: its sides are where the mesh ends.
+TEST_F(ReadCoastline, SidesOfAFrameThatBendInAnotherCrsAreNamed) {
+  const std::string polar = layer("polar.gpkg", "GPKG", "EPSG:3995",
+                                  {"POLYGON((500000 -900000,600000 -900000,600000 -800000,500000 -900000))"});
+  const auto warningsOf = [&](const std::string& name, const std::string& ring) {
+    const std::string frame = geojson(name, {R"({"type":"Polygon","coordinates":[[)" + ring + "]]}"});
+    ReadReport report;
+    readCoastline({{polar}, {frame, FeatureUse::Frame}}, {}, report);
+    return report.warnings;
+  };
+  const std::vector<std::string> far = warningsOf("far.geojson", "[8,76],[33,76],[33,81.5],[8,81.5],[8,76]");
+  ASSERT_EQ(far.size(), 1u);
+  EXPECT_NE(far[0].find("far.geojson"), std::string::npos);
+  EXPECT_NE(far[0].find("up to 36.7 km from where they are in its own, EPSG:4326"), std::string::npos) << far[0];
+  EXPECT_NE(far[0].find("-segmentize"), std::string::npos);
+  EXPECT_TRUE(warningsOf("near.geojson", "[20,78],[20.5,78],[20.5,78.1],[20,78.1],[20,78]").empty());
+}
+
 TEST_F(ReadCoastline, WithoutACrs) {
   // Looks like degrees: taken as WGS 84, with a warning.
   const std::string degrees = layer("degrees.shp", "ESRI Shapefile", nullptr, {"POLYGON((0 0,0 1,1 1,0 0))"});
