@@ -81,7 +81,8 @@ class Reprojection {
   std::unique_ptr<OGRCoordinateTransformation> transformation_;
 };
 
-// Where the edges of chains lie in the new CRS: straight, while they are bent there if they are straight in the old one.
+// Edges are straight in the new CRS, between points that are on straight edges of the old one: how far they are from
+// those.
 struct Bend {
   double offset = 0.0;  // the largest distance between the middles of both, in the new CRS
   std::array<Point, 2> middles{};
