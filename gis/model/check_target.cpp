@@ -101,7 +101,7 @@ class TargetCheck {
     if (target_ == Target::Fvcom) checkOpenCells();
     if (target_ == Target::Fvcom || target_ == Target::Telemac) checkLoneWalls();
     if (target_ == Target::Dflowfm) checkFlowLinks();
-    if (!acceptsQuads(target_)) checkQuads();
+    checkQuads();
     if (options_.time_step_s > 0.0 && isOfLongWaves(target_) && !grid_.z.empty()) checkCourant();
     std::ranges::stable_sort(defects_, {},
                              [](const TargetDefect& defect) { return std::pair(defect.advice, defect.kind); });
@@ -390,8 +390,14 @@ class TargetCheck {
   }
 
   void checkQuads() {
-    for (const Quad& quad : quads_)
-      add(TargetDefectKind::Quadrilateral, middle(quad.nodes[0], quad.nodes[2]), quad.halves[0]);
+    const bool refused = !acceptsQuads(target_);
+    for (const Quad& quad : quads_) {
+      const Point place = middle(quad.nodes[0], quad.nodes[2]);
+      if (refused) add(TargetDefectKind::Quadrilateral, place, quad.halves[0]);
+      std::ptrdiff_t sides = 0;  // with a neighbour, the diagonal from both halves
+      for (const std::uint32_t t : quad.halves) sides += 3 - std::ranges::count(mesh_.triangles[t].adj, kNone);
+      if (sides == 2) add(TargetDefectKind::OrphanCell, place, quad.halves[0]);
+    }
   }
 
   // Links lead from element to element: none crosses a diagonal.

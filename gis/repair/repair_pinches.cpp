@@ -7,6 +7,7 @@
 #include <functional>
 #include <set>
 
+#include "gis/elements/quads.hpp"
 #include "gis/grid/local_plane.hpp"
 
 namespace coastmesh {
@@ -80,11 +81,18 @@ void doublePinchedNode(RepairState& state, const FoundDefect& found) {
 
 void takeOutOrphan(RepairState& state, const FoundDefect& found) {
   const auto t = static_cast<std::uint32_t>(found.defect.triangle);
-  if (state.touched[t] || state.grid.triangles.size() < 2) return;
-  state.touched[t] = state.dead[t] = true;
-  const GridCorners& v = state.grid.triangles[t];
-  for (unsigned i = 0; i < 3; ++i) state.links.kinds.erase(edgeKey(v[i], v[next3(i)]));
-  addRepair(state, found, state.grid.nodes[v[0]], "triangle removed");
+  std::vector<std::uint32_t> halves{t};
+  const bool may_be_half = !state.grid.quad_of.empty() && state.grid.quad_of[t] != kNone;
+  for (const Quad& quad : may_be_half ? quadsOf(state.grid) : std::vector<Quad>())
+    if (std::ranges::count(quad.halves, t) > 0) halves.assign(quad.halves.begin(), quad.halves.end());
+  if (state.anyTaken(halves) || state.grid.triangles.size() <= halves.size()) return;
+  for (const std::uint32_t half : halves) {
+    state.touched[half] = state.dead[half] = true;
+    const GridCorners& v = state.grid.triangles[half];
+    for (unsigned i = 0; i < 3; ++i) state.links.kinds.erase(edgeKey(v[i], v[next3(i)]));
+  }
+  addRepair(state, found, state.grid.nodes[state.grid.triangles[t][0]],
+            halves.size() == 1 ? "triangle removed" : "quadrilateral removed");
 }
 
 }  // namespace coastmesh

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "gis/grid/grid_edit.hpp"
 #include "gis/model/check_target.hpp"
 #include "gis/model/flow_links.hpp"
 #include "gis/repair/repair_target.hpp"
@@ -89,6 +90,25 @@ TEST(RepairQuads, ModelsOfTrianglesGetTriangles) {
   EXPECT_THAT(report.repairs.front().what, HasSubstr("12 split into two triangles each"));
   EXPECT_THAT(quadsOf(grid), IsEmpty());
   EXPECT_EQ(countOf(grid, Target::Adcirc, TargetDefectKind::Quadrilateral), 0u);
+}
+
+// A pond of one quadrilateral is taken out whole.
+TEST(RepairQuads, WithoutANeighbourTheyAreOrphans) {
+  Grid grid = mixedGrid(6, 2, [](int i, int j) { return i == 5 && j == 1; });
+  std::vector<bool> gone(grid.triangles.size(), false);
+  for (std::uint32_t t = 0; t < grid.triangles.size(); ++t)
+    for (const std::uint32_t node : grid.triangles[t])
+      if (grid.quad_of[t] == kNone && grid.nodes[node].x > 8.0) gone[t] = true;
+  removeTriangles(grid, gone);
+  removeUnusedNodes(grid);
+  grid.boundaries = findBoundaries(linkGrid(grid).mesh);
+  ASSERT_EQ(quadsOf(grid).size(), 1u);
+  EXPECT_EQ(countOf(grid, Target::Schism, TargetDefectKind::OrphanCell), 1u);
+  const std::size_t triangles = grid.triangles.size();
+  const RepairReport report = repairForTargets(grid, std::vector{Target::Schism});
+  EXPECT_TRUE(std::ranges::any_of(report.repairs, [](const Repair& r) { return r.what == "quadrilateral removed"; }));
+  EXPECT_EQ(grid.triangles.size(), triangles - 2);
+  EXPECT_THAT(checkTarget(grid, Target::Schism), IsEmpty());
 }
 
 }  // namespace
