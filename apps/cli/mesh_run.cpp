@@ -24,6 +24,7 @@
 #include "apps/process/progress.hpp"
 #include "apps/report/mesh_report.hpp"
 #include "apps/report/mesh_warnings.hpp"
+#include "apps/report/report_sections.hpp"
 #include "apps/usage/grid_usage.hpp"
 #include "apps/usage/mesh_usage.hpp"
 #include "cluster/cluster.hpp"
@@ -351,7 +352,11 @@ int runMesh(const MeshRunUsage& usage, Run& run) {
   ProgressDisplay display(ProgressDisplay::styleFor(usage.progress, usage.quiet));
   const JobControl control{
       [&interrupt = run.interrupt, &display] { return interrupt.requested() || display.abandoned(); },
-      [&display](std::string_view phase, double share) { display.show(phase, share); }};
+      [&display](std::string_view phase, double share) { display.show(phase, share); },
+      [&display](double vertices) {
+        display.note("about " + grouped(static_cast<std::uint64_t>(std::min(vertices, 1e18))) +
+                     " vertices are expected from these sizes");
+      }};
   MeshJobResult result = runKeeping(kept, job, control);
   display.clear();
   for (const std::string& warning : warningsOf(result)) run.warn(warning);

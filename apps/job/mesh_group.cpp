@@ -354,6 +354,7 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
     std::unique_ptr<SizeFunction> made = globeSizes(task, domain, loop, demand);
     result.estimated_vertices = demand.vertices;
     if (demand.vertices > most) throw TooManyVertices(demand);
+    if (room.expects) room.expects(demand.vertices);
     result.size_s = sizing.seconds();
     result.log.append(recorder.finish());
     return made;
@@ -401,6 +402,7 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
                                         domain.projection.surface(), loop);
   result.estimated_vertices = demand.vertices;
   if (demand.vertices > most) throw TooManyVertices(demand);
+  if (room.expects) room.expects(demand.vertices);
   result.size_s = sizing.seconds();
   result.log.append(recorder.finish());
   return std::move(sized.function);

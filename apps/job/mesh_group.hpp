@@ -52,6 +52,8 @@ FollowOptions followOptionsOf(const MeshJob& job);
 struct GroupRoom {
   std::uint64_t vertices = 0;  // its share of `--max-vertices`
   double memory = 0.0;         // bytes; changes nothing but whether the group is refused
+  // Called with the number of vertices that its sizes need, before meshing; may be empty.
+  std::function<void(double vertices)> expects{};
 };
 
 // Projects, cleans, meshes and checks a group. Reasons why it cannot be meshed go to `refusal`. Sizes that require many

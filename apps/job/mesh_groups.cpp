@@ -312,12 +312,16 @@ std::vector<MergedGroup> meshGroups(const MeshJob& job, const JobInput& input, c
   const std::size_t own_points = std::accumulate(weights.begin(), weights.end(), std::size_t{0});
   GroupMemory memory(job.memory ? *job.memory : availableMemory(),
                      {order.size(), own_points, static_cast<std::size_t>(threadCount())});
+  constexpr double kWorthSaying = 3e6;  // vertices: some ten seconds
+  const auto expects = [&control](double vertices) {
+    if (control.expects && vertices >= kWorthSaying) control.expects(vertices);
+  };
   // Returns false if the group lacks memory, unless `in_the_end`: then it is refused.
   const auto make = [&](std::size_t g, double room, bool in_the_end) {
     const std::uint64_t budget = vertexBudget(job.mesh.refine.max_vertices, points[g], all_points);
     const RunControl inner{control.cancelled, [&progress, g](double share) { progress.report(g, share); }};
     const bool taken = exchange.take && (!exchange.has || exchange.has(g));
-    GroupResult part = taken ? exchange.take(g) : meshGroup(job, input, sizes, g, {budget, room}, inner);
+    GroupResult part = taken ? exchange.take(g) : meshGroup(job, input, sizes, g, {budget, room, expects}, inner);
     if (part.lacks_memory && !in_the_end) return false;
     if (exchange.keep) exchange.keep(g, part);
     memory.hold(part.grid);

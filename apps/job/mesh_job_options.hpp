@@ -28,11 +28,13 @@ struct MeshJob {
   std::optional<double> memory;    // bytes that it may take; nullopt: `availableMemory()`
 };
 
-// Communication of a job with its caller. Either function may be empty; `progress` is called from one thread at a time,
-// with the phases "read", "refine" and "finish" and the completed share of the phase.
+// Communication of a job with its caller. Each function may be empty; `progress` is called from one thread at a time,
+// with the phases "read", "refine" and "finish" and the completed share of the phase. `expects` is called before
+// features are meshed whose sizes need so many vertices that it takes a while, from any thread.
 struct JobControl {
   std::function<bool()> cancelled;
   std::function<void(std::string_view, double)> progress;
+  std::function<void(double vertices)> expects{};
 };
 
 }  // namespace coastmesh

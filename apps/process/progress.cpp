@@ -81,6 +81,7 @@ ProgressDisplay::Style ProgressDisplay::styleFor(const std::string& name, bool q
 
 void ProgressDisplay::show(std::string_view phase, double share) {
   if (style_ == Style::None) return;
+  const std::lock_guard lock(mutex_);
   const auto now = Clock::now();
   const bool same_phase = phase == phase_;
   const bool finished = share >= 1.0;
@@ -126,6 +127,18 @@ bool ProgressDisplay::abandoned() {
 }
 
 void ProgressDisplay::clear() {
+  const std::lock_guard lock(mutex_);
+  clearBar();
+}
+
+void ProgressDisplay::note(const std::string& text) {
+  if (style_ != Style::Bar && style_ != Style::Log) return;
+  const std::lock_guard lock(mutex_);
+  clearBar();
+  std::fprintf(stderr, "coastmesh: %s\n", text.c_str());
+}
+
+void ProgressDisplay::clearBar() {
   if (!bar_visible_) return;
   std::fputs("\r\033[K", stderr);
   std::fflush(stderr);

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <mutex>
 #include <string>
 #include <string_view>
 
@@ -29,14 +30,18 @@ class ProgressDisplay {
   bool abandoned();
   // Erases the bar, so that a message gets its own line.
   void clear();
+  // Prints a line on stderr where there is a bar or a log. May be called from any thread.
+  void note(const std::string& text);
 
  private:
   using Clock = std::chrono::steady_clock;
 
   void showBar();
+  void clearBar();
   double secondsSoFar() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
   Style style_;
+  std::mutex mutex_;  // of all that is shown
   Clock::time_point start_ = Clock::now();
   std::string phase_;
   double shown_ = -1.0;
