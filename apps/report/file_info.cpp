@@ -132,7 +132,7 @@ MeshInfo describeMesh(const Grid& grid, SurfaceKind surface) {
   for (std::size_t t = 0; t < grid.triangles.size(); ++t)
     for (unsigned i = 0; i < 3; ++i)
       if (diagonals.empty() || diagonals[t] != i)
-        edges.add(grid.nodes[grid.triangles[t][i]], grid.nodes[grid.triangles[t][(i + 1) % 3]]);
+        edges.add(grid.nodes[grid.triangles[t][next3(i)]], grid.nodes[grid.triangles[t][prev3(i)]]);
   info.step = measureStep(grid);
   info.plane = grid.crs.isPlane();
   info.longest_edge_m = edges.longest();

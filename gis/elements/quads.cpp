@@ -96,9 +96,9 @@ std::vector<std::uint8_t> diagonalsOf(const Grid& grid) {
     if (side.empty()) side.assign(grid.triangles.size(), kNoDiagonal);
     const Corners &v = grid.triangles[quad.halves[0]], &w = grid.triangles[quad.halves[1]];
     const auto sideOf = [](const Corners& corners, const Corners& other) {
-      std::uint8_t i = 0;  // the side behind the corner that the other half does not have
+      std::uint8_t i = 0;  // the corner that the other half does not have
       while (std::ranges::count(other, corners[i]) > 0) ++i;
-      return static_cast<std::uint8_t>((i + 1) % 3);
+      return i;
     };
     side[quad.halves[0]] = sideOf(v, w);
     side[quad.halves[1]] = sideOf(w, v);
@@ -111,7 +111,7 @@ std::vector<NodePair> diagonalEdges(const Grid& grid) {
   const std::vector<std::uint8_t> diagonals = diagonalsOf(grid);
   for (std::uint32_t t = 0; t < diagonals.size(); ++t) {
     if (diagonals[t] == kNoDiagonal) continue;
-    const std::uint32_t from = grid.triangles[t][diagonals[t]], to = grid.triangles[t][(diagonals[t] + 1) % 3];
+    const std::uint32_t from = grid.triangles[t][next3(diagonals[t])], to = grid.triangles[t][prev3(diagonals[t])];
     if (from < to) edges.push_back({from, to});  // the other half has it from `to`
   }
   std::ranges::sort(edges);

@@ -26,8 +26,8 @@ std::vector<Quad> quadsOf(const Grid& grid);
 // third or the first is left out. REQUIRES: three or four nodes, which the grid has.
 void addElement(Grid& grid, std::span<const std::uint32_t> nodes);
 
-// For each triangle the side that is a diagonal of a quadrilateral: 0 for that from the first corner to the second,
-// kNoDiagonal if it has none. Empty if the grid has no quadrilateral.
+// For each triangle the side that is a diagonal of a quadrilateral, numbered by the corner opposite to it as in
+// `edgeRef`; kNoDiagonal if it has none. Empty if the grid has no quadrilateral.
 inline constexpr std::uint8_t kNoDiagonal = 3;
 std::vector<std::uint8_t> diagonalsOf(const Grid& grid);
 

@@ -17,6 +17,7 @@
 #include "apps/plot/plot_globe.hpp"
 #include "apps/plot/plot_style.hpp"
 #include "apps/usage/command_line.hpp"
+#include "gis/elements/quads.hpp"
 #include "gis/error.hpp"
 #include "tests/gis/globe_samples.hpp"
 #include "tests/support/gis_shapes.hpp"
@@ -218,6 +219,41 @@ TEST_F(PlotMesh, DegreesAreDotsWhereNeighboursAreNotSix) {
   grid.triangles.push_back({b, d, e});
   grid.triangles.push_back({d, a, e});
   EXPECT_TRUE(dots(true)[2]);
+}
+
+// Two by two squares: of quadrilaterals the sides show, and not the diagonals, whichever corner is the first.
+TEST_F(PlotMesh, SidesOfQuadrilateralsShowAndDiagonalsDoNot) {
+  const auto edgesAt = [&](const Grid& grid) {
+    PlotOptions options;
+    options.color = PlotColor::None;
+    options.size_px = 400;
+    const auto picture = drawn(grid, options);
+    const int x = cairo_image_surface_get_width(picture.get()) / 2;
+    const int y = (cairo_image_surface_get_height(picture.get()) - static_cast<int>(kStripPx)) / 2;
+    const int stride = cairo_image_surface_get_stride(picture.get());
+    const auto at = [&](int dx, int dy) {
+      const unsigned char* row = cairo_image_surface_get_data(picture.get()) + (y + dy) * stride;
+      return reinterpret_cast<const std::uint32_t*>(row)[x + dx] & 0xffffff;
+    };
+    // A pixel beside the line, and two that are nearest to it.
+    const auto isLine = [&](int dx, int dy) {
+      const std::uint32_t water = at(60, 30);
+      return at(dx, dy) != water || at(dx - 1, dy) != water || at(dx, dy - 1) != water;
+    };
+    std::array<bool, 5> found{isLine(0, -60), isLine(0, 60), isLine(-60, 0), isLine(60, 0), isLine(60, -60)};
+    return found;
+  };
+  EXPECT_EQ(edgesAt(board(2)), (std::array{true, true, true, true, true}));
+  for (std::size_t first = 0; first < 4; ++first) {
+    Grid grid;
+    grid.nodes = board(2).nodes;
+    for (const std::uint32_t a : {0u, 1u, 3u, 4u}) {
+      std::array<std::uint32_t, 4> nodes{a, a + 1, a + 4, a + 3};
+      std::ranges::rotate(nodes, nodes.begin() + static_cast<std::ptrdiff_t>(first));
+      addElement(grid, nodes);
+    }
+    EXPECT_EQ(edgesAt(grid), (std::array{true, true, true, true, false})) << first;
+  }
 }
 
 TEST_F(PlotMesh, OpenBoundariesShow) {

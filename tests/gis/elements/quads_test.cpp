@@ -121,7 +121,7 @@ TEST(Quads, EdgesAndDiagonals) {
   const std::vector<std::uint8_t> sides = diagonalsOf(grid);
   for (std::uint32_t t = 0; t < sides.size(); ++t) {
     if (sides[t] == kNoDiagonal) continue;
-    const NodePair edge = edgeKey(grid.triangles[t][sides[t]], grid.triangles[t][(sides[t] + 1) % 3]);
+    const NodePair edge = edgeKey(grid.triangles[t][(sides[t] + 1) % 3], grid.triangles[t][(sides[t] + 2) % 3]);
     EXPECT_TRUE(std::ranges::binary_search(diagonalEdges(grid), edge));
   }
   EXPECT_EQ(std::ranges::count_if(sides, [](std::uint8_t side) { return side != kNoDiagonal; }), 8);
