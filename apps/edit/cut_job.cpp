@@ -38,9 +38,11 @@ std::string textOf(const CutReport& report, std::size_t quads, std::size_t quads
       grouped(report.boundaries_cut) + " along the cut\n";
   const auto [loose, teeth] = report.tidied;
   if (loose + teeth > 0)
-    text += "left out at the cut: " + grouped(teeth) + forCount(teeth, " triangle", " triangles") +
-            " with two sides along it or without a neighbour, " + grouped(loose) +
-            " that only a node would connect to the others\n";
+    text +=
+        "left out at the cut: " + grouped(teeth) +
+        forCount(teeth, quads_before > 0 ? " element" : " triangle", quads_before > 0 ? " elements" : " triangles") +
+        " with two sides along it or without a neighbour, " + grouped(loose) +
+        " that only a node would connect to the others\n";
   if (report.waters > 1)
     text += grouped(report.waters) + " waters without a connection" +
             (options.largest_water ? ": only the largest is kept\n" : "; --keep-water largest keeps one\n");

@@ -39,7 +39,7 @@ InsertedMesh putIn(Grid& grid, const std::string& name, const MeshToInsert& mesh
   findMissingBoundaries(inserted);
   matchCrs(inserted, grid, mesh.name);
   if (const std::string warning = depthWarning(grid, inserted, mesh.name); !warning.empty()) warn(warning);
-  InsertedMesh done{mesh.name, elementText(inserted), elementNumbers(inserted), {}};
+  InsertedMesh done{mesh.name, elementCount(inserted, grouped), elementNumbers(inserted), {}};
   try {
     done.result = mergeMesh(grid, std::move(inserted), options, control, loop);
   } catch (const InputError& error) {
@@ -119,7 +119,7 @@ EditedMesh runMergeJob(Grid& grid, const std::string& name, const std::vector<Me
       edit.sources.elements_before.push_back(std::move(done.element_numbers));
     }
     edit.text = [text](const Grid& finished) {
-      return text + grouped(finished.nodes.size()) + " nodes, " + elementText(finished) + "\n";
+      return text + grouped(finished.nodes.size()) + " nodes, " + elementCount(finished, grouped) + "\n";
     };
     return edit;
   };

@@ -54,7 +54,9 @@ std::string textOf(const RemeshReport& report, const DepthOptions& depth, const 
             "; in " + amount("%.0f", 100.0 * report.rim.share) + " % of the part they differ from those asked for\n";
   const auto [loose, teeth] = report.tidied;
   if (loose + teeth > 0)
-    text += "kept at the edge of the part: " + grouped(teeth) + forCount(teeth, " triangle", " triangles") +
+    text += "kept at the edge of the part: " + grouped(teeth) +
+            forCount(teeth, report.quads_before > 0 ? " element" : " triangle",
+                     report.quads_before > 0 ? " elements" : " triangles") +
             " with two sides along it or without a neighbour, " + grouped(loose) +
             " that only a node connects to the others\n";
   if (report.taken_in > 0)

@@ -5,17 +5,9 @@
 
 #include "apps/job/places.hpp"
 #include "apps/report/report_sections.hpp"
-#include "gis/elements/quads.hpp"
 #include "gis/for_count.hpp"
 
 namespace coastmesh {
-
-std::string elementText(const Grid& grid) {
-  const std::size_t quads = quadsOf(grid).size(), triangles = grid.triangles.size() - 2 * quads;
-  std::string text = grouped(triangles) + forCount(triangles, " triangle", " triangles");
-  if (quads > 0) text += ", " + grouped(quads) + forCount(quads, " quadrilateral", " quadrilaterals");
-  return text;
-}
 
 std::string lengthText(double length, const Grid& grid) {
   constexpr double kWhole = 1000.0;  // without decimals from here on

@@ -9,9 +9,6 @@
 
 namespace coastmesh {
 
-// "1,200 triangles", or "800 triangles, 200 quadrilaterals".
-std::string elementText(const Grid& grid);
-
 // "1,234 m"; without a unit in a plane.
 std::string lengthText(double length, const Grid& grid);
 

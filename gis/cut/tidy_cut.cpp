@@ -104,7 +104,7 @@ std::size_t leaveOutLoose(const Halves& halves, std::vector<std::uint8_t>& taken
         for (const TriId gone : {t, halves.otherOf(t)}) {
           if (gone == kNone || taken[gone] == 0) continue;
           taken[gone] = 0;
-          ++left_out;
+          if (gone == t) ++left_out;
           for (unsigned i = 0; i < 3; ++i) corners.push_back({gone, i});
         }
       }
@@ -138,6 +138,16 @@ Sides sidesOf(const Halves& halves, const std::vector<std::uint8_t>& taken, TriI
   return sides;
 }
 
+// Returns how many elements the triangles are. REQUIRES: both halves of a quadrilateral are among them.
+std::size_t leaveOut(const Halves& halves, std::span<const TriId> triangles, std::vector<std::uint8_t>& taken) {
+  std::size_t elements = 0;
+  for (const TriId t : triangles) {
+    taken[t] = 0;
+    if (t < halves.otherOf(t)) ++elements;  // kNone is the largest
+  }
+  return elements;
+}
+
 std::size_t leaveOutTeeth(const Halves& halves, std::vector<std::uint8_t>& taken, const ItemLoop& loop) {
   const auto isTooth = [&](TriId t) {
     const Sides sides = sidesOf(halves, taken, t);
@@ -152,8 +162,7 @@ std::size_t leaveOutTeeth(const Halves& halves, std::vector<std::uint8_t>& taken
     }
     return found;
   }));
-  for (const TriId t : teeth) taken[t] = 0;
-  return teeth.size();
+  return leaveOut(halves, teeth, taken);
 }
 
 // Those without a neighbour, of which leaving out teeth may leave some.
@@ -167,8 +176,7 @@ std::size_t leaveOutAlone(const Halves& halves, std::vector<std::uint8_t>& taken
     }
     return found;
   }));
-  for (const TriId t : alone) taken[t] = 0;
-  return alone.size();
+  return leaveOut(halves, alone, taken);
 }
 
 }  // namespace

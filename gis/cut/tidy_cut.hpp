@@ -10,7 +10,7 @@
 
 namespace coastmesh {
 
-// Triangles left out for the sake of models.
+// Elements left out for the sake of models.
 struct TidiedCut {
   std::size_t loose = 0;  // connected to the others around a node only through that node
   std::size_t teeth = 0;  // stuck out of the cut with two sides, or had no neighbour left: before, or without these

@@ -43,10 +43,10 @@ std::vector<std::uint32_t> elementNumbers(const Grid& grid) {
   return numbers;
 }
 
-std::string elementCount(const Grid& grid) {
+std::string elementCount(const Grid& grid, std::string (*number)(std::uint64_t)) {
   const std::size_t quads = quadsOf(grid).size(), triangles = grid.triangles.size() - 2 * quads;
-  std::string text = std::to_string(triangles) + forCount(triangles, " triangle", " triangles");
-  if (quads > 0) text += ", " + std::to_string(quads) + forCount(quads, " quadrilateral", " quadrilaterals");
+  std::string text = number(triangles) + forCount(triangles, " triangle", " triangles");
+  if (quads > 0) text += ", " + number(quads) + forCount(quads, " quadrilateral", " quadrilaterals");
   return text;
 }
 

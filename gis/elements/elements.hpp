@@ -52,11 +52,13 @@ class Elements {
   std::vector<std::uint32_t> of_triangle_;           // the element of each triangle
 };
 
+inline std::string digitsOf(std::uint64_t number) { return std::to_string(number); }
+
 // For each triangle the number of its element, from 0; empty if the grid has triangles only.
 std::vector<std::uint32_t> elementNumbers(const Grid& grid);
 
-// "120 triangles", or "80 triangles, 20 quadrilaterals".
-std::string elementCount(const Grid& grid);
+// "120 triangles", or "80 triangles, 20 quadrilaterals", with `number` as the text of a number.
+std::string elementCount(const Grid& grid, std::string (*number)(std::uint64_t) = digitsOf);
 
 // Arrays of a grid that were read with one value for each element get one for each triangle; the areas of halves are
 // measured.

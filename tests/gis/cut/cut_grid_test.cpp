@@ -440,8 +440,9 @@ TEST(CutGrid, TeethOfQuadrilaterals) {
   };
   take(0, 0, 4, 2);  // two by two
   take(4, 1, 6, 2);  // and one more beside them
-  cutGrid(grid, taken, {});
+  const CutReport report = cutGrid(grid, taken, {});
   EXPECT_EQ(quadsOf(grid).size(), 4u);
+  EXPECT_EQ(report.tidied.teeth, 1u);
 }
 
 }  // namespace
