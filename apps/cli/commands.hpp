@@ -38,6 +38,7 @@ Command declareClean(CLI::App& root);
 Command declareCut(CLI::App& root);
 Command declareRemesh(CLI::App& root);
 Command declareMerge(CLI::App& root);
+Command declareRivers(CLI::App& root);
 Command declarePartition(CLI::App& root);
 Command declareGather(CLI::App& root);
 

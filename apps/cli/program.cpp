@@ -90,8 +90,9 @@ int runProgram(int argc, char** argv, Interrupt& interrupt, Cluster* cluster) {
          "print usage for other programs: bash, zsh, fish (completion), man, man:COMMAND, markdown")
       ->type_name("FORM")
       ->trigger_on_parse();
-  for (const auto declare : {declareMesh, declareCheck, declareInfo, declarePlot, declareConvert, declareCut,
-                             declareRemesh, declareMerge, declareClean, declarePartition, declareGather}) {
+  for (const auto declare :
+       {declareMesh, declareCheck, declareInfo, declarePlot, declareConvert, declareCut, declareRemesh, declareMerge,
+        declareRivers, declareClean, declarePartition, declareGather}) {
     commands.push_back(declare(app));
   }
   if (argc < 2) {

@@ -41,10 +41,38 @@ class GapTidier {
       }
       left_out += before;
     }
-    return left_out;
+    return left_out - takeEnclosed();
   }
 
  private:
+  // Triangles that were left out, and that what is taken encloses, would be an island that neither mesh has: they are
+  // taken after all. Returns how many.
+  std::size_t takeEnclosed() {
+    const auto isLeft = [&](TriId t) { return t >= gap_.first_gap && taken_[t] == 0; };
+    std::vector<std::uint8_t> seen(mesh_.triangles.size() - gap_.first_gap, 0);
+    std::size_t count = 0;
+    for (TriId first = gap_.first_gap; first < mesh_.triangles.size(); ++first) {
+      if (!isLeft(first) || seen[first - gap_.first_gap] != 0) continue;
+      std::vector<TriId> part(1, first);
+      seen[first - gap_.first_gap] = 1;
+      bool is_enclosed = true;
+      for (std::size_t i = 0; i < part.size(); ++i) {
+        for (const EdgeRef across : mesh_.triangles[part[i]].adj) {
+          if (across == kNone || (triOf(across) < gap_.first_gap && taken_[triOf(across)] == 0)) {
+            is_enclosed = false;
+          } else if (isLeft(triOf(across)) && seen[triOf(across) - gap_.first_gap] == 0) {
+            seen[triOf(across) - gap_.first_gap] = 1;
+            part.push_back(triOf(across));
+          }
+        }
+      }
+      if (!is_enclosed) continue;
+      for (const TriId t : part) taken_[t] = 1;
+      count += part.size();
+    }
+    return count;
+  }
+
   std::size_t leaveOut(TriId t) {
     taken_[t] = 0;
     return 1;

@@ -22,7 +22,8 @@ struct Gap {
 // Clears the flags in `taken` of triangles of the gap that models would reject, or beside which no good ones fit: with
 // two sides, other than those of `shore`, where nothing taken lies across; connected to the others around a node only
 // through it; around a corner of the water, or between a shore and an edge of the inserted mesh, with too small an
-// angle. Those of the other mesh that only a changed node connects to the rest go too. Returns how many.
+// angle. Those of the other mesh that only a changed node connects to the rest go too. No island is made:
+// what the others enclose stays. Returns how many.
 std::size_t tidyGap(const TriMesh& mesh, const Gap& gap, std::vector<std::uint8_t>& taken);
 
 }  // namespace coastmesh

@@ -17,6 +17,7 @@
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
 #include "gis/geometry/box_tree.hpp"
+#include "gis/read/number_attribute.hpp"
 #include "gis/read/ogr_geometry.hpp"
 #include "gis/read/open_source.hpp"
 
@@ -169,24 +170,6 @@ void collectPoints(const OGRGeometry& geometry, std::vector<std::vector<Point>>&
   }
 }
 
-// The attribute's value; nullopt if it is null. Throws InputError if it is not a number of at least `least`.
-std::optional<double> numberOf(const OGRFeature& feature, int field, double least, const std::string& what) {
-  if (field < 0 || !feature.IsFieldSetAndNotNull(field)) return std::nullopt;
-  double value = feature.GetFieldAsDouble(field);
-  if (feature.GetFieldDefnRef(field)->GetType() == OFTString) {
-    // OGR accepts a text that begins with a number: 1 for "1 km".
-    const std::string text = feature.GetFieldAsString(field);
-    char* end = nullptr;
-    value = CPLStrtod(text.c_str(), &end);
-    while (*end == ' ') ++end;
-    if (text.empty() || *end != '\0') value = std::numeric_limits<double>::quiet_NaN();
-  }
-  if (std::isfinite(value) && value >= least) return value;
-  throw InputError(what + ": its attribute '" + feature.GetFieldDefnRef(field)->GetNameRef() + "' is " +
-                   feature.GetFieldAsString(field) + ", not a number " + (least > 0.0 ? "above 0" : "of 0 or more") +
-                   "; correct it, or leave it empty");
-}
-
 class FeatureReader {
  public:
   FeatureReader(const Crs& crs, double usual_rate, SizedFeatures& features)
@@ -213,13 +196,14 @@ class FeatureReader {
     for (const OGRFeatureUniquePtr& feature : layer) {
       const OGRGeometry* geometry = feature->GetGeometryRef();
       const std::string what = "'" + source + "', feature " + std::to_string(feature->GetFID());
-      const std::optional<double> size = numberOf(*feature, size_field, std::numeric_limits<double>::min(), what);
+      const std::optional<double> size =
+          numberAttribute(*feature, size_field, std::numeric_limits<double>::min(), what);
       if (!geometry || geometry->IsEmpty() || !size) continue;
       GeometryParts parts;
       takeApart(*geometry, what, parts);
       SizedFeatures::Part part;
       part.size_m = *size;
-      part.rate = numberOf(*feature, rate_field, 0.0, what).value_or(usual_rate_);
+      part.rate = numberAttribute(*feature, rate_field, 0.0, what).value_or(usual_rate_);
       part.polygons = std::move(parts.polygons);
       part.lines = std::move(parts.lines);
       collectPoints(*geometry, part.lines);

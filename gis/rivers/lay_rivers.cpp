@@ -1,0 +1,267 @@
+#include "gis/rivers/lay_rivers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <utility>
+
+#include "core/metric.hpp"
+#include "gis/elements/quads.hpp"
+#include "gis/error.hpp"
+#include "gis/rivers/mesh_water.hpp"
+#include "gis/rivers/river_connection.hpp"
+#include "gis/rivers/river_course.hpp"
+#include "gis/rivers/river_grid.hpp"
+#include "gis/rivers/river_junctions.hpp"
+#include "gis/rivers/river_network.hpp"
+#include "gis/rivers/river_overlaps.hpp"
+#include "gis/rivers/river_plane.hpp"
+#include "gis/rivers/river_rows.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+std::string placeText(const Point& p) { return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")"; }
+
+// The lines in the turn of longitudes in which the mesh is.
+std::vector<RiverLine> besideMesh(std::vector<RiverLine> lines, const Grid& mesh) {
+  if (!mesh.crs.geographic) return lines;
+  constexpr double kTurn = 360.0;
+  const Box box = boxAround(mesh.nodes, inOrder);
+  for (RiverLine& line : lines) {
+    const Box own = boxAround(line.points, inOrder);
+    const double turns = kTurn * std::round((box.xmin + box.xmax - own.xmin - own.xmax) / (2.0 * kTurn));
+    for (Point& p : line.points) p.x += turns;
+  }
+  return lines;
+}
+
+// The lines' box with room for what is beside them.
+Box boxOf(const std::vector<RiverLine>& lines, const Crs& crs) {
+  constexpr double kWidths = 10.0;
+  constexpr double kMetresOfDegree = 111e3;
+  Box box;
+  for (const RiverLine& line : lines) {
+    const Box own = boxAround(line.points, inOrder);
+    double room = kWidths * line.width_m;
+    if (crs.geographic) {
+      const double polewards = std::min(89.0, std::max(std::abs(own.ymin), std::abs(own.ymax)));
+      room /= kMetresOfDegree * std::cos(polewards * std::numbers::pi / 180.0);
+    }
+    box.add(own.grownBy(room));
+  }
+  return box;
+}
+
+class RiverLayer {
+ public:
+  RiverLayer(const std::vector<RiverLine>& lines, const Grid& mesh, const RiverOptions& options,
+             const RunControl& control, const ItemLoop& loop)
+      : lines_(besideMesh(lines, mesh)),
+        mesh_(mesh),
+        options_(options),
+        control_(control),
+        loop_(loop),
+        plane_(lines_, mesh.crs),
+        water_(mesh, plane_, boxOf(lines_, mesh.crs), loop) {}
+
+  LaidRivers lay() {
+    for (const RiverLine& line : lines_) rivers_.push_back(inPlane(line));
+    network_ = riverNetwork(rivers_);
+    connection_ = connectRivers(network_, rivers_, water_);
+    report_.extended = connection_.extended;
+    barred_.assign(network_.reaches.size(), 0);
+    followCourses();
+    loseApart();
+    makeRows();
+    loseApart();
+    chooseRows();
+    RiverGrid made = makeGrid();
+    LaidRivers laid;
+    report_.inflows = made.grid.triangles.empty() ? 0 : setRiverBoundaries(made, water_, plane_);
+    report_.quads = quadsOf(made.grid).size();
+    report_.triangles = made.grid.triangles.size() - 2 * report_.quads;
+    laid.grid = std::move(made.grid);
+    for (const Point& place : laid.grid.nodes) laid.mesh_z.push_back(water_.zAt(plane_.forward(place)));
+    laid.report = std::move(report_);
+    return laid;
+  }
+
+ private:
+  PlaneRiver inPlane(const RiverLine& line) const {
+    PlaneRiver river;
+    for (const Point& p : line.points) {
+      const Point place = plane_.forward(p);
+      if (!std::isfinite(place.x) || !std::isfinite(place.y))
+        throw InputError(nameOf(line) + " has a place, " + placeText(p) + ", that cannot be projected");
+      if (river.points.empty() || !(river.points.back() == place)) river.points.push_back(place);
+    }
+    if (river.points.size() < 2)
+      throw InputError(nameOf(line) + " has a line of no length at " + placeText(line.points.front()) +
+                       "; take it out");
+    river.width = line.width_m * plane_.scaleAt(river.points.front());
+    return river;
+  }
+
+  void followCourses() {
+    for (const RiverReach& reach : network_.reaches) {
+      control_.checkpoint(0.0);
+      courses_.emplace_back(reach, rivers_);
+      const RiverCourse& course = courses_.back();
+      const Point middle = course.sectionAt(0.5 * course.length()).place;
+      const double scale = plane_.scaleAt(middle);
+      const double wanted = std::ceil(course.maxWidth() / scale / options_.most_cell_width_m);
+      cells_.push_back(std::max(options_.cells, static_cast<std::size_t>(wanted)));
+      const double cell = course.meanWidth() / static_cast<double>(cells_.back());
+      shapes_.push_back({0.5 * options_.aspect * cell, cell});
+      if (course.moved() / scale <= report_.moved_m) continue;
+      report_.moved_m = course.moved() / scale;
+      report_.moved_place = plane_.inverse(course.movedPlace());
+    }
+  }
+
+  void lose(std::uint32_t reach, RiverLoss why, const Point& place, double distance = 0.0) {
+    barred_[reach] = 1;
+    const std::vector<std::uint32_t>& line_of = network_.reaches[reach].line_of;
+    report_.lost.push_back({why, nameOf(lines_[line_of[line_of.size() / 2]]), plane_.inverse(place), distance});
+  }
+
+  Point middleOf(std::uint32_t reach) const { return courses_[reach].sectionAt(0.5 * courses_[reach].length()).place; }
+
+  void loseApart() {
+    const std::vector<std::uint8_t> connected = connectedReaches(network_, connection_.touches, barred_);
+    for (std::uint32_t r = 0; r < network_.reaches.size(); ++r)
+      if (barred_[r] == 0 && connected[r] == 0)
+        lose(r, RiverLoss::Apart, middleOf(r), connection_.gap[r] / plane_.scaleAt(middleOf(r)));
+  }
+
+  // Rows of all reaches that have room; each turn but the last takes some reach away.
+  void makeRows() {
+    for (bool again = true; again;) {
+      control_.checkpoint(0.0);
+      plan_ = planJunctions(network_, courses_, shapes_, barred_);
+      again = false;
+      for (std::uint32_t r = 0; r < network_.reaches.size(); ++r) {
+        if (barred_[r] != 0 || plan_.left_out[r] == 0) continue;
+        const bool is_alone = plan_.trim_start[r] == 0.0 && plan_.trim_end[r] == 0.0;
+        lose(r, is_alone ? RiverLoss::Short : RiverLoss::Crowded, middleOf(r));
+      }
+      rows_.assign(network_.reaches.size(), {});
+      for (std::uint32_t r = 0; r < network_.reaches.size(); ++r) {
+        if (barred_[r] != 0 || plan_.in_junction[r] != 0) continue;
+        rows_[r] = riverRows(courses_[r], plan_.trim_start[r], courses_[r].length() - plan_.trim_end[r], cells_[r],
+                             options_.aspect);
+        if (!rows_[r].sections.empty()) continue;
+        lose(r, RiverLoss::Crowded, middleOf(r));
+        again = true;
+      }
+      if (!again) again = loseOverlaps();
+    }
+  }
+
+  // Of two reaches that overlap, the narrower one is left out.
+  bool loseOverlaps() {
+    bool any = false;
+    for (const RiverOverlap& overlap : overlapsOf(rows_, plan_.junctions)) {
+      const auto [a, b] = std::pair(overlap.first, overlap.second);
+      if (barred_[a] != 0 || barred_[b] != 0) continue;
+      if (a == b)
+        throw InputError(nameOf(lines_[network_.reaches[a].line_of.front()]) + " comes closer to itself than its " +
+                         "width near " + placeText(plane_.inverse(overlap.place)) +
+                         "; give it a smaller width there, or cut the bend off");
+      lose(courses_[a].meanWidth() < courses_[b].meanWidth() ? a : b, RiverLoss::Crowded, overlap.place);
+      any = true;
+    }
+    return any;
+  }
+
+  bool isWithin(const RiverRows& rows, std::size_t row) const {
+    for (std::size_t i = 0; i <= rows.cells; ++i)
+      if (!water_.holds(rows.node(row, i))) return false;
+    return true;
+  }
+
+  // Junctions stay if they are not all in the water of the mesh, and those rows of which this holds, or of which it
+  // holds for a row or junction beside them.
+  void chooseRows() {
+    const std::size_t n = network_.reaches.size();
+    std::vector<std::vector<std::uint8_t>> outside(n);  // of each section: not all of it is in the water
+    for (std::uint32_t r = 0; r < n; ++r) {
+      outside[r].assign(rows_[r].sections.size(), 1);
+      if (options_.extent == RiverExtent::Outside)
+        forEachByStretches(loop_, outside[r].size(),
+                           [&](std::size_t row) { outside[r][row] = isWithin(rows_[r], row) ? 0 : 1; });
+    }
+    std::vector<std::uint8_t> begins(n, 0), ends(n, 0);  // a junction that stays is there
+    std::erase_if(plan_.junctions, [&](const RiverJunction& junction) {
+      bool stays = false;
+      for (const RiverBranch& branch : junction.branches)
+        if (barred_[branch.reach] == 0)
+          stays = stays || (branch.at_end ? outside[branch.reach].back() : outside[branch.reach].front()) != 0;
+      for (const RiverBranch& branch : junction.branches)
+        if (stays) (branch.at_end ? ends : begins)[branch.reach] = 1;
+      return !stays;
+    });
+    for (std::uint32_t r = 0; r < n; ++r) {
+      const std::size_t count = rows_[r].sections.empty() ? 0 : rows_[r].sections.size() - 1;
+      has_row_.emplace_back(count, 0);
+      const auto isOutside = [&](std::size_t row) { return outside[r][row] != 0 || outside[r][row + 1] != 0; };
+      for (std::size_t row = 0; row < count; ++row)
+        if (isOutside(row) || (row > 0 ? isOutside(row - 1) : begins[r] != 0) ||
+            (row + 1 < count ? isOutside(row + 1) : ends[r] != 0))
+          has_row_[r][row] = 1;
+      if (barred_[r] != 0) rows_[r] = {}, has_row_[r].clear();
+      if (count > 0 && barred_[r] == 0 && std::ranges::count(has_row_[r], 1) == 0)
+        lose(r, RiverLoss::InWater, middleOf(r));
+      else if (!has_row_[r].empty())
+        ++report_.reaches;
+    }
+    report_.junctions = plan_.junctions.size();
+  }
+
+  RiverGrid makeGrid() {
+    std::vector<std::uint32_t> degree(network_.nodes.size(), 0);
+    for (std::uint32_t r = 0; r < network_.reaches.size(); ++r) {
+      if (rows_[r].sections.empty() && plan_.in_junction[r] == 0) continue;
+      ++degree[network_.reaches[r].from];
+      ++degree[network_.reaches[r].to];
+    }
+    std::vector<std::uint8_t> is_free;
+    for (const RiverReach& reach : network_.reaches)
+      is_free.push_back(
+          static_cast<std::uint8_t>((degree[reach.from] == 1 ? 1u : 0u) | (degree[reach.to] == 1 ? 2u : 0u)));
+    return riverGrid({rows_, has_row_, plan_.junctions, is_free}, lines_, plane_, mesh_.crs, options_.junctions,
+                     !mesh_.size_m.empty());
+  }
+
+  const std::vector<RiverLine> lines_;
+  const Grid& mesh_;
+  const RiverOptions& options_;
+  const RunControl& control_;
+  const ItemLoop& loop_;
+  const RiverPlane plane_;
+  const MeshWater water_;
+  std::vector<PlaneRiver> rivers_;  // by line
+  RiverNetwork network_;
+  RiverConnection connection_;
+  // Of each reach.
+  std::vector<RiverCourse> courses_;
+  std::vector<std::size_t> cells_;
+  std::vector<ReachShape> shapes_;
+  std::vector<std::uint8_t> barred_;
+  std::vector<RiverRows> rows_;
+  std::vector<std::vector<std::uint8_t>> has_row_;
+  JunctionPlan plan_;
+  RiverReport report_;
+};
+
+}  // namespace
+
+LaidRivers layRivers(const std::vector<RiverLine>& lines, const Grid& mesh, const RiverOptions& options,
+                     const RunControl& control, const ItemLoop& loop) {
+  return RiverLayer(lines, mesh, options, control, loop).lay();
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/point.hpp"
+#include "gis/rivers/river_network.hpp"
+
+namespace coastmesh {
+
+// A place along a river, with what crosses it there.
+struct RiverSection {
+  Point place;
+  Point left;          // unit vector across the river, to the left of its direction
+  double width = 0.0;  // plane units
+  std::uint32_t line = 0;
+  double bend = 0.0;  // radius of the bend, infinite if it is straight
+
+  // A place across the river: 0 at the right bank, 1 at the left one.
+  Point at(double share) const {
+    const double offset = (share - 0.5) * width;
+    return {place.x + offset * left.x, place.y + offset * left.y};
+  }
+};
+
+// The course of a reach: its centre line without turns that are too sharp for its width, and widths without jumps.
+class RiverCourse {
+ public:
+  RiverCourse(const RiverReach& reach, std::span<const PlaneRiver> rivers);
+
+  double length() const { return along_.back(); }
+  double meanWidth() const { return mean_width_; }
+  double maxWidth() const { return max_width_; }
+  // How far the centre line was moved at most, where it turned too sharply.
+  double moved() const { return moved_; }
+  const Point& movedPlace() const { return moved_place_; }
+  // The section at a distance from the start, from 0 to `length()`.
+  RiverSection sectionAt(double along) const;
+
+ private:
+  void sample(const RiverReach& reach, std::span<const PlaneRiver> rivers);
+  void smooth();
+  void measure();
+  double radiusAt(std::size_t i) const;
+  Point placeAt(double along) const;
+  std::size_t indexAt(double along) const;
+
+  std::vector<Point> points_;
+  std::vector<double> along_;  // distance from the start, for each point
+  std::vector<double> width_;
+  std::vector<std::uint32_t> line_;
+  double mean_width_ = 0.0, max_width_ = 0.0, moved_ = 0.0;
+  Point moved_place_;
+};
+
+}  // namespace coastmesh

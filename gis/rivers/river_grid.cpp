@@ -1,0 +1,154 @@
+#include "gis/rivers/river_grid.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/metric.hpp"
+#include "gis/elements/quads.hpp"
+#include "gis/grid/boundary_kinds.hpp"
+#include "gis/grid/grid_edit.hpp"
+#include "gis/rivers/fill_junction.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+class GridMaker {
+ public:
+  GridMaker(const RiverParts& parts, const std::vector<RiverLine>& lines, const RiverPlane& plane,
+            const RefineOptions& options)
+      : parts_(parts), lines_(lines), plane_(plane), options_(options) {}
+
+  RiverGrid make(const Crs& crs, bool sizes) {
+    Grid& grid = made_.grid;
+    grid.crs = crs;
+    for (const RiverLine& line : lines_) {
+      GridFeature& feature = grid.features.emplace_back(GridFeature{line.fid, line.source, {}});
+      if (!line.name.empty()) feature.attributes.emplace_back("name", line.name);
+    }
+    for (std::uint32_t reach = 0; reach < parts_.rows.size(); ++reach) addRows(reach);
+    for (const RiverJunction& junction : parts_.junctions) addJunction(junction);
+    if (sizes) setSizes();
+    const std::vector<std::uint32_t> number = removeUnusedNodes(grid);
+    for (NodePair& edge : made_.ends) edge = edgeKey(number[edge[0]], number[edge[1]]);
+    std::ranges::sort(made_.ends);
+    sortFeatures(grid);
+    return std::move(made_);
+  }
+
+ private:
+  std::uint32_t nodeOf(std::uint32_t reach, std::size_t row, std::size_t i) const {
+    return first_node_[reach] + static_cast<std::uint32_t>(row * (parts_.rows[reach].cells + 1) + i);
+  }
+
+  void addPlace(const Point& place) {
+    places_.push_back(place);
+    made_.grid.nodes.push_back(plane_.inverse(place));
+  }
+
+  void addRows(std::uint32_t reach) {
+    const RiverRows& rows = parts_.rows[reach];
+    first_node_.push_back(static_cast<std::uint32_t>(places_.size()));
+    for (const RiverSection& section : rows.sections) {
+      const double depth = lines_[section.line].depth_m;
+      made_.grid.z.insert(made_.grid.z.end(), rows.cells + 1, -depth);
+    }
+    for (const Point& place : rows.nodes) addPlace(place);
+    for (std::size_t row = 0; row + 1 < rows.sections.size(); ++row) {
+      if (parts_.has_row[reach][row] == 0) continue;
+      for (std::size_t i = 0; i < rows.cells; ++i) {
+        const std::array corners{nodeOf(reach, row, i), nodeOf(reach, row + 1, i), nodeOf(reach, row + 1, i + 1),
+                                 nodeOf(reach, row, i + 1)};
+        addElement(made_.grid, corners);
+        made_.grid.feature_of.resize(made_.grid.triangles.size(), rows.sections[row].line);
+      }
+    }
+    if (rows.sections.empty()) return;
+    const std::size_t last = rows.sections.size() - 1;
+    const std::uint8_t is_free = parts_.is_free[reach];
+    if ((is_free & 1u) != 0 && parts_.has_row[reach].front() != 0) addEnd(reach, 0);
+    if ((is_free & 2u) != 0 && parts_.has_row[reach].back() != 0) addEnd(reach, last);
+  }
+
+  void addEnd(std::uint32_t reach, std::size_t row) {
+    for (std::size_t i = 0; i < parts_.rows[reach].cells; ++i)
+      made_.ends.push_back({nodeOf(reach, row, i), nodeOf(reach, row, i + 1)});
+  }
+
+  void addJunction(const RiverJunction& junction) {
+    JunctionOutline outline;
+    std::vector<std::uint32_t> nodes;
+    for (const RiverBranch& branch : junction.branches) {
+      const RiverRows& rows = parts_.rows[branch.reach];
+      const std::size_t row = branch.at_end ? rows.sections.size() - 1 : 0;
+      for (std::size_t i = 0; i <= rows.cells; ++i) {
+        nodes.push_back(nodeOf(branch.reach, row, branch.at_end ? rows.cells - i : i));
+        outline.points.push_back(places_[nodes.back()]);
+        outline.keeps.push_back(i < rows.cells ? 1 : 0);
+      }
+    }
+    const JunctionMesh mesh = fillJunction(outline, options_);
+    for (std::size_t i = nodes.size(); i < mesh.points.size(); ++i) {
+      nodes.push_back(static_cast<std::uint32_t>(places_.size()));
+      addPlace(mesh.points[i]);
+      made_.grid.z.push_back(std::numeric_limits<double>::quiet_NaN());
+    }
+    const std::uint32_t line = parts_.rows[junction.branches.front().reach].sections.front().line;
+    for (const auto& corners : mesh.triangles) {
+      addElement(made_.grid, std::array{nodes[corners[0]], nodes[corners[1]], nodes[corners[2]]});
+      made_.grid.feature_of.push_back(line);
+    }
+  }
+
+  void setSizes() {
+    const Grid& grid = made_.grid;
+    std::vector<double> sum(places_.size(), 0.0), count(places_.size(), 0.0);
+    const std::vector<std::uint8_t> diagonals = diagonalsOf(grid);
+    for (std::size_t t = 0; t < grid.triangles.size(); ++t) {
+      for (unsigned i = 0; i < 3; ++i) {
+        if (!diagonals.empty() && diagonals[t] == i) continue;
+        const std::uint32_t a = grid.triangles[t][(i + 1) % 3], b = grid.triangles[t][(i + 2) % 3];
+        const double length = distance(places_[a], places_[b]) / plane_.scaleAt(places_[a]);
+        for (const std::uint32_t node : {a, b}) {
+          sum[node] += length;
+          count[node] += 1.0;
+        }
+      }
+    }
+    for (std::size_t i = 0; i < sum.size(); ++i) made_.grid.size_m.push_back(sum[i] / std::max(1.0, count[i]));
+  }
+
+  const RiverParts& parts_;
+  const std::vector<RiverLine>& lines_;
+  const RiverPlane& plane_;
+  const RefineOptions& options_;
+  std::vector<std::uint32_t> first_node_;  // of each reach
+  std::vector<Point> places_;              // of nodes, in the plane
+  RiverGrid made_;
+};
+
+}  // namespace
+
+RiverGrid riverGrid(const RiverParts& parts, const std::vector<RiverLine>& lines, const RiverPlane& plane,
+                    const Crs& crs, const RefineOptions& triangle_options, bool sizes) {
+  return GridMaker(parts, lines, plane, triangle_options).make(crs, sizes);
+}
+
+std::size_t setRiverBoundaries(RiverGrid& rivers, const MeshWater& water, const RiverPlane& plane) {
+  Grid& grid = rivers.grid;
+  const auto kindOf = [&](std::uint32_t a, std::uint32_t b) {
+    const Point from = plane.forward(grid.nodes[a]), to = plane.forward(grid.nodes[b]);
+    if (water.holds(from) || water.holds(to) || water.holds(midpoint(from, to)))
+      return BoundaryKind{BoundaryRole::Open};
+    const bool is_end = std::ranges::binary_search(rivers.ends, edgeKey(a, b));
+    return BoundaryKind{is_end ? BoundaryRole::River : BoundaryRole::Land};
+  };
+  grid.boundaries = cutLoops(grid, boundaryLoops(grid), kindOf);
+  return static_cast<std::size_t>(
+      std::ranges::count_if(grid.boundaries, [](const Boundary& b) { return b.role == BoundaryRole::River; }));
+}
+
+}  // namespace coastmesh

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/refine/refine_options.hpp"
+#include "gis/grid/boundary_chains.hpp"
+#include "gis/grid/grid.hpp"
+#include "gis/rivers/mesh_water.hpp"
+#include "gis/rivers/river_junctions.hpp"
+#include "gis/rivers/river_lines.hpp"
+#include "gis/rivers/river_plane.hpp"
+#include "gis/rivers/river_rows.hpp"
+
+namespace coastmesh {
+
+// What is to become a grid.
+struct RiverParts {
+  std::span<const RiverRows> rows;                     // of each reach; those without sections are not there
+  std::span<const std::vector<std::uint8_t>> has_row;  // of each reach: a flag for each of its rows
+  std::span<const RiverJunction> junctions;            // all of whose branches have rows
+  std::span<const std::uint8_t> is_free;  // of each reach: 1 if it begins, 2 if it ends at a free end, 3 both
+};
+
+struct RiverGrid {
+  Grid grid;
+  std::vector<NodePair> ends;  // by `edgeKey`, ascending: the edges of sections at free ends
+};
+
+// The rows and junctions as a grid without boundaries; its features are the lines. `triangle_options`: of junctions.
+// `sizes`: set the requested length of each node, the mean of the sides of its cells.
+RiverGrid riverGrid(const RiverParts& parts, const std::vector<RiverLine>& lines, const RiverPlane& plane,
+                    const Crs& crs, const RefineOptions& triangle_options, bool sizes);
+
+// Sets the boundaries of such a grid: free ends outside the mesh are rivers; edges that touch its water are open, all
+// others land. Returns the number of river boundaries.
+std::size_t setRiverBoundaries(RiverGrid& rivers, const MeshWater& water, const RiverPlane& plane);
+
+}  // namespace coastmesh

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "gis/rivers/river_course.hpp"
+#include "gis/rivers/river_network.hpp"
+
+namespace coastmesh {
+
+// A reach where it leaves a junction.
+struct RiverBranch {
+  std::uint32_t reach = 0;
+  bool at_end = false;  // the reach ends here; otherwise it begins here
+  double trim = 0.0;    // its rows begin at this distance from the node
+};
+
+// Branches of two reaches or more, counter-clockwise. Between their last sections, and straight banks that connect
+// these, is a polygon that does not cross itself, and that no rows overlap.
+struct RiverJunction {
+  std::vector<RiverBranch> branches;
+};
+
+// What there is to know of a reach before its ends are trimmed.
+struct ReachShape {
+  double least_length = 0.0;  // of its rows
+  double cell = 0.0;          // mean width of its cells
+};
+
+struct JunctionPlan {
+  std::vector<RiverJunction> junctions;
+  std::vector<double> trim_start, trim_end;  // of each reach
+  std::vector<std::uint8_t> in_junction;     // of each reach: 1 if it is so short that it is part of a junction
+  std::vector<std::uint8_t> left_out;        // of each reach: 1 if it has no room beside the others at a junction
+};
+
+// Finds where rows have to end so that those of other reaches have room. Junctions become one if the reach between them
+// is too short. `barred`: reaches that are not there, one flag for each.
+JunctionPlan planJunctions(const RiverNetwork& network, std::span<const RiverCourse> courses,
+                           std::span<const ReachShape> shapes, std::span<const std::uint8_t> barred);
+
+// The section of a branch at a distance from its node, with `left` as seen from the junction.
+RiverSection sectionOf(const RiverCourse& course, const RiverBranch& branch, double distance);
+
+}  // namespace coastmesh

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/point.hpp"
+
+namespace coastmesh {
+
+// A centre line in the working plane.
+struct PlaneRiver {
+  std::vector<Point> points;  // at least two, no two that follow one another are equal
+  double width = 0.0;         // plane units
+};
+
+// Centre lines between two nodes of the network, joined end to end.
+struct RiverReach {
+  std::uint32_t from = 0, to = 0;
+  std::vector<Point> points;           // both nodes included
+  std::vector<std::uint32_t> line_of;  // for each edge: the river that it belongs to
+};
+
+// Where reaches end: free ends, with one reach, and junctions. A ring of reaches without any has one node of two.
+struct RiverNetwork {
+  std::vector<Point> nodes;
+  std::vector<RiverReach> reaches;
+};
+
+// Lines become a network where they cross, and where one ends within half a width of another, of which the larger
+// counts. Lines shorter than half their width, at such places, are dropped.
+RiverNetwork riverNetwork(std::span<const PlaneRiver> rivers);
+
+}  // namespace coastmesh
