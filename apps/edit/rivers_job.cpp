@@ -32,7 +32,7 @@ std::vector<RiverLine> readLines(const std::vector<std::string>& paths, const Cr
 std::string whyText(RiverLoss why) {
   switch (why) {
     case RiverLoss::Apart:
-      return "not connected with the water of the mesh";
+      return "not connected with the water of the mesh (--reach continues ends farther)";
     case RiverLoss::InWater:
       return "in the water of the mesh (--extent all has rows there too)";
     case RiverLoss::Crowded:
@@ -71,9 +71,10 @@ std::string setRiverDepths(LaidRivers& laid, const Grid& mesh, const DepthOption
                            const ItemLoop& loop) {
   Grid& grid = laid.grid;
   const auto isKnown = [](double z) { return !std::isnan(z); };
-  if (mesh.z.empty() && options.files.empty() && std::ranges::none_of(grid.z, isKnown)) {
+  if (mesh.z.empty()) {
+    const bool had_any = !options.files.empty() || std::ranges::any_of(grid.z, isKnown);
     grid.z.clear();
-    return {};
+    return had_any ? "the mesh has no depths, and those of rivers are left out" : "";
   }
   const std::vector<double> of_lines = grid.z;
   if (!options.files.empty()) {
@@ -87,7 +88,6 @@ std::string setRiverDepths(LaidRivers& laid, const Grid& mesh, const DepthOption
   }
   fillFromNeighbours(grid, loop);
   const auto unknown = grid.z.size() - static_cast<std::size_t>(std::ranges::count_if(grid.z, isKnown));
-  if (mesh.z.empty()) return "only rivers have depths: unknown for all other nodes";
   if (unknown == 0) return {};
   return grouped(unknown) + forCount(unknown, " node of rivers has", " nodes of rivers have") + " no depth";
 }
@@ -122,6 +122,36 @@ std::string reportText(const RiverReport& report, const Grid& grid) {
   return text;
 }
 
+std::string narrowedText(const RiverReport& report) {
+  if (report.narrowed == 0) return {};
+  return grouped(report.narrowed) +
+         forCount(report.narrowed, " reach comes closer to itself than its width, and is",
+                  " reaches come closer to themselves than their width, and are") +
+         " narrower there: near " + pointText(report.narrowed_place);
+}
+
+std::vector<std::string> mergeWarnings(const MergedMesh& merged, const DepthOptions& depth) {
+  std::vector<std::string> all;
+  if (merged.merged.cut_off > 0)
+    all.push_back("rivers cut waters off from the rest, which are left out: " + grouped(merged.merged.cut_off) +
+                  forCount(merged.merged.cut_off, " triangle", " triangles"));
+  if (merged.merged.partition_dropped)
+    all.emplace_back("the assignment to processes is of the mesh before, and left out; partition makes a new one");
+  if (merged.band) std::ranges::move(newNodeWarnings(*merged.band, depth), std::back_inserter(all));
+  return all;
+}
+
+MergedMesh putIn(Grid& grid, const std::string& name, Grid&& rivers, const MergeOptions& options,
+                 const RunControl& control, const ItemLoop& loop) {
+  try {
+    MergedMesh merged = mergeMesh(grid, std::move(rivers), options, control, loop);
+    closeBanks(grid, merged.nodes);
+    return merged;
+  } catch (const InputError& error) {
+    throw InputError("the rivers cannot be added to '" + name + "': " + error.what());
+  }
+}
+
 }  // namespace
 
 EditedMesh runRiversJob(Grid& grid, const std::string& name, const std::vector<std::string>& lines,
@@ -134,28 +164,13 @@ EditedMesh runRiversJob(Grid& grid, const std::string& name, const std::vector<s
     if (laid.grid.triangles.empty()) throw InputError("no river can be added to '" + name + "': " + lost.front());
     for (const std::string& text : lost) warn(text);
     MeshEdit edit;
-    edit.warnings.push_back(setRiverDepths(laid, grid, job.merge.depth, of_edit, loop));
-    MergedMesh merged;
-    try {
-      merged = mergeMesh(grid, std::move(laid.grid), job.merge, of_edit, loop);
-    } catch (const InputError& error) {
-      throw InputError("the rivers cannot be added to '" + name + "': " + error.what());
-    }
-    closeBanks(grid, merged.nodes);
-    if (merged.merged.cut_off > 0)
-      edit.warnings.push_back(
-          "rivers cut waters off from the rest, which are left out: " + grouped(merged.merged.cut_off) +
-          forCount(merged.merged.cut_off, " triangle", " triangles"));
-    if (merged.merged.partition_dropped)
-      edit.warnings.emplace_back(
-          "the assignment to processes is of the mesh before, and left out; partition makes a "
-          "new one");
+    edit.warnings = {narrowedText(laid.report), setRiverDepths(laid, grid, job.merge.depth, of_edit, loop)};
+    const MergedMesh merged = putIn(grid, name, std::move(laid.grid), job.merge, of_edit, loop);
+    std::ranges::move(mergeWarnings(merged, job.merge.depth), std::back_inserter(edit.warnings));
     std::string text = reportText(laid.report, grid);
-    if (merged.band) {
-      std::ranges::move(newNodeWarnings(*merged.band, job.merge.depth), std::back_inserter(edit.warnings));
+    if (merged.band)
       text += "beside them: " + figuresText(merged.band->inside, grid) + "in place of " +
               grouped(merged.replaced + merged.merged.covered) + "\n";
-    }
     edit.sources.nodes = numbersBefore(merged.nodes);
     edit.sources.triangles = numbersBefore(merged.triangles);
     edit.text = [text](const Grid& finished) {

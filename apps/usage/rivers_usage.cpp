@@ -29,6 +29,8 @@ void declareRiversOptions(OptionTable& table, RiversUsage& usage) {
       },
       "which parts of rivers get rows: outside: where MESH has no water, and one row into it; all: in its water too, "
       "as in a flood plain or for a dredged channel");
+  table.number({"--reach", "Reach of ends"}, rivers.reach_m, "M", {0.0, kInfinity},
+               "rivers that end this close to the water of MESH are continued to it; default: three times their width");
   table.section(Section::Triangles);
   table.integer({"--elements", "Elements across"}, usage.elements, "N", 1, 1000,
                 "quadrilaterals across each river, at least");

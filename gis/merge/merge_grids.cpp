@@ -57,8 +57,9 @@ std::vector<NodePair> cutOut(Grid& grid, const JoinedMeshes& joined, const ItemL
   return cut;
 }
 
-// Appends the gap's triangles, with the feature of the grid's triangle that is nearest through the gap, else of the
-// inserted mesh's. Borders between features are edges that stay.
+// Appends the gap's triangles, with the feature of the grid's triangle that is nearest through the gap. A part of it
+// that only the inserted mesh surrounds has the feature of one triangle of that: borders between features are edges
+// that stay, so none may wind through the gap.
 void appendGap(Grid& grid, const JoinedMeshes& joined) {
   const auto triangles = static_cast<TriId>(joined.taken.size());
   std::vector<std::uint32_t> source(triangles, kNone);  // a triangle of the merged grid
@@ -70,18 +71,28 @@ void appendGap(Grid& grid, const JoinedMeshes& joined) {
       reached.push_back(t);
     }
   };
-  const auto spread = [&] {
-    for (TriId t = joined.first_gap; t < triangles; ++t) reach(t);
-    for (std::size_t i = 0; i < reached.size(); ++i)
-      for (const EdgeRef across : joined.whole.triangles[reached[i]].adj)
-        if (across != kNone && triOf(across) >= joined.first_gap) reach(triOf(across));
+  const auto isDue = [&](EdgeRef e) {
+    return e != kNone && triOf(e) >= joined.first_gap && joined.isTaken(triOf(e)) && source[triOf(e)] == kNone;
+  };
+  const auto spreadFrom = [&](std::size_t first) {
+    for (std::size_t i = first; i < reached.size(); ++i)
+      for (const EdgeRef across : joined.whole.triangles[reached[i]].adj) {
+        if (!isDue(across)) continue;
+        source[triOf(across)] = source[reached[i]];
+        reached.push_back(triOf(across));
+      }
   };
   std::uint32_t number = 0;
   for (TriId t = 0; t < joined.first_inserted; ++t)
     if (joined.isTaken(t)) source[t] = number++;
-  spread();
+  for (TriId t = joined.first_gap; t < triangles; ++t) reach(t);
+  spreadFrom(0);
   for (TriId t = joined.first_inserted; t < joined.first_gap; ++t) source[t] = number++;
-  spread();
+  for (TriId t = joined.first_gap; t < triangles; ++t) {
+    const std::size_t before = reached.size();
+    reach(t);
+    spreadFrom(before);
+  }
   for (TriId t = joined.first_gap; t < triangles; ++t)
     if (joined.isTaken(t)) copyTriangle(grid, source[t], joined.whole.triangles[t].v);
 }

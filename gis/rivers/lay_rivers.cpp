@@ -17,11 +17,19 @@
 #include "gis/rivers/river_network.hpp"
 #include "gis/rivers/river_overlaps.hpp"
 #include "gis/rivers/river_plane.hpp"
+#include "gis/rivers/river_room.hpp"
 #include "gis/rivers/river_rows.hpp"
 
 namespace coastmesh {
 
 namespace {
+
+// A river that comes closer to itself than its width gets this share of it there, several times if need be.
+constexpr double kNarrowing = 0.8;
+constexpr int kMostNarrowings = 12;
+
+// In water, rivers as far apart as this share of a row leave no room for triangles between them.
+constexpr double kClearance = 0.08;
 
 std::string placeText(const Point& p) { return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")"; }
 
@@ -39,13 +47,13 @@ std::vector<RiverLine> besideMesh(std::vector<RiverLine> lines, const Grid& mesh
 }
 
 // The lines' box with room for what is beside them.
-Box boxOf(const std::vector<RiverLine>& lines, const Crs& crs) {
+Box boxOf(const std::vector<RiverLine>& lines, const Crs& crs, double reach_m) {
   constexpr double kWidths = 10.0;
   constexpr double kMetresOfDegree = 111e3;
   Box box;
   for (const RiverLine& line : lines) {
     const Box own = boxAround(line.points, inOrder);
-    double room = kWidths * line.width_m;
+    double room = kWidths * line.width_m + (std::isfinite(reach_m) ? 2.0 * reach_m : 0.0);
     if (crs.geographic) {
       const double polewards = std::min(89.0, std::max(std::abs(own.ymin), std::abs(own.ymax)));
       room /= kMetresOfDegree * std::cos(polewards * std::numbers::pi / 180.0);
@@ -65,14 +73,16 @@ class RiverLayer {
         control_(control),
         loop_(loop),
         plane_(lines_, mesh.crs),
-        water_(mesh, plane_, boxOf(lines_, mesh.crs), loop) {}
+        water_(mesh, plane_, boxOf(lines_, mesh.crs, options.reach_m), loop) {}
 
   LaidRivers lay() {
     for (const RiverLine& line : lines_) rivers_.push_back(inPlane(line));
     network_ = riverNetwork(rivers_);
-    connection_ = connectRivers(network_, rivers_, water_);
+    const double scale = plane_.scaleAt(rivers_.front().points.front());
+    connection_ = connectRivers(network_, rivers_, water_, options_.reach_m * scale);
     report_.extended = connection_.extended;
     barred_.assign(network_.reaches.size(), 0);
+    narrowed_.assign(network_.reaches.size(), 0);
     followCourses();
     loseApart();
     makeRows();
@@ -120,6 +130,10 @@ class RiverLayer {
       report_.moved_m = course.moved() / scale;
       report_.moved_place = plane_.inverse(course.movedPlace());
     }
+    if (options_.extent == RiverExtent::Outside) return;
+    std::vector<double> longest;
+    for (const ReachShape& shape : shapes_) longest.push_back(options_.aspect * shape.cell);
+    limitRows(courses_, longest, [this](const Point& place) { return water_.holds(place); });
   }
 
   void lose(std::uint32_t reach, RiverLoss why, const Point& place, double distance = 0.0) {
@@ -161,20 +175,29 @@ class RiverLayer {
     }
   }
 
-  // Of two reaches that overlap, the narrower one is left out.
+  // Of two reaches that overlap, the narrower one is left out. A reach that overlaps itself becomes narrower there.
   bool loseOverlaps() {
     bool any = false;
-    for (const RiverOverlap& overlap : overlapsOf(rows_, plan_.junctions)) {
+    const double clearance = options_.extent == RiverExtent::All ? kClearance : 0.0;
+    for (const RiverOverlap& overlap : overlapsOf(rows_, plan_.junctions, clearance)) {
       const auto [a, b] = std::pair(overlap.first, overlap.second);
       if (barred_[a] != 0 || barred_[b] != 0) continue;
-      if (a == b)
-        throw InputError(nameOf(lines_[network_.reaches[a].line_of.front()]) + " comes closer to itself than its " +
-                         "width near " + placeText(plane_.inverse(overlap.place)) +
-                         "; give it a smaller width there, or cut the bend off");
-      lose(courses_[a].meanWidth() < courses_[b].meanWidth() ? a : b, RiverLoss::Crowded, overlap.place);
+      if (a != b || overlap.rows.empty() || ++narrowed_[a] > kMostNarrowings)
+        lose(courses_[a].meanWidth() < courses_[b].meanWidth() ? a : b, RiverLoss::Crowded, overlap.place);
+      else
+        narrow(a, overlap);
       any = true;
     }
     return any;
+  }
+
+  void narrow(std::uint32_t reach, const RiverOverlap& overlap) {
+    if (narrowed_[reach] == 1) {
+      ++report_.narrowed;
+      report_.narrowed_place = plane_.inverse(overlap.place);
+    }
+    for (const std::size_t row : overlap.rows)
+      courses_[reach].narrow(rows_[reach].sections[row].along, rows_[reach].sections[row + 1].along, kNarrowing);
   }
 
   bool isWithin(const RiverRows& rows, std::size_t row) const {
@@ -251,6 +274,7 @@ class RiverLayer {
   std::vector<std::size_t> cells_;
   std::vector<ReachShape> shapes_;
   std::vector<std::uint8_t> barred_;
+  std::vector<int> narrowed_;  // how often
   std::vector<RiverRows> rows_;
   std::vector<std::vector<std::uint8_t>> has_row_;
   JunctionPlan plan_;

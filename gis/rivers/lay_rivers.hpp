@@ -25,6 +25,8 @@ struct RiverOptions {
   double most_cell_width_m = std::numeric_limits<double>::infinity();  // wider rivers get more cells
   double aspect = 3.0;                                                 // length of a cell over its width
   RiverExtent extent = RiverExtent::Outside;
+  // Rivers that end this close to the water are continued to it; infinite: three widths.
+  double reach_m = std::numeric_limits<double>::infinity();
   RefineOptions junctions{};  // bounds on the triangles at junctions
 };
 
@@ -49,6 +51,8 @@ struct RiverReport {
   std::size_t extended = 0;  // ends that were continued to the water of the mesh
   double moved_m = 0.0;      // the farthest that a centre line was moved in a turn that was too sharp for its width
   Point moved_place;         // near it
+  std::size_t narrowed = 0;  // reaches that come closer to themselves than their width, and are narrower there
+  Point narrowed_place;      // the last of these places
   std::vector<LostRiver> lost;
 };
 
@@ -61,7 +65,7 @@ struct LaidRivers {
 };
 
 // Makes rows of quadrilaterals along centre lines, to be put into `mesh`, which is not changed. The grid is empty if
-// all rivers are lost. Throws InputError for a river that comes closer to itself than its width; Cancelled.
+// all rivers are lost. Throws InputError for a line that has no length, or that cannot be projected; Cancelled.
 LaidRivers layRivers(const std::vector<RiverLine>& lines, const Grid& mesh, const RiverOptions& options,
                      const RunControl& control = {}, const ItemLoop& loop = inOrder);
 

@@ -56,42 +56,44 @@ void extend(RiverNetwork& network, const NearEnd& end, double width) {
 
 }  // namespace
 
-RiverConnection connectRivers(RiverNetwork& network, std::span<const PlaneRiver> rivers, const MeshWater& water) {
+RiverConnection connectRivers(RiverNetwork& network, std::span<const PlaneRiver> rivers, const MeshWater& water,
+                              double reach) {
   RiverConnection connection;
   UnionFind sets = networksOf(network, {});
   std::vector<std::uint32_t> degree(network.nodes.size(), 0);
   std::vector<std::uint8_t> has_water(network.nodes.size(), 0);  // by root
-  for (const RiverReach& reach : network.reaches) {
-    ++degree[reach.from];
-    ++degree[reach.to];
-    connection.touches.push_back(touchesWater(reach, water) ? 1 : 0);
-    if (connection.touches.back() != 0) has_water[sets.find(reach.from)] = 1;
+  for (const RiverReach& own : network.reaches) {
+    ++degree[own.from];
+    ++degree[own.to];
+    connection.touches.push_back(touchesWater(own, water) ? 1 : 0);
+    if (connection.touches.back() != 0) has_water[sets.find(own.from)] = 1;
   }
   std::map<std::uint32_t, NearEnd> nearest;  // by root
   for (std::uint32_t r = 0; r < network.reaches.size(); ++r) {
-    const RiverReach& reach = network.reaches[r];
-    const std::uint32_t root = sets.find(reach.from);
+    const RiverReach& own = network.reaches[r];
+    const std::uint32_t root = sets.find(own.from);
     if (has_water[root] != 0) continue;
     NearEnd& best = nearest[root];
     for (const bool at_end : {false, true}) {
-      if (degree[at_end ? reach.to : reach.from] != 1) continue;
-      const Point end = at_end ? reach.points.back() : reach.points.front();
-      const double width = rivers[at_end ? reach.line_of.back() : reach.line_of.front()].width;
-      const auto shore = water.nearest(end, std::min(best.gap, kFar * width));
+      if (degree[at_end ? own.to : own.from] != 1) continue;
+      const Point end = at_end ? own.points.back() : own.points.front();
+      const double width = rivers[at_end ? own.line_of.back() : own.line_of.front()].width;
+      const double far = std::isfinite(reach) ? std::max(reach, kFar * width) : kFar * width;
+      const auto shore = water.nearest(end, std::min(best.gap, far));
       if (shore && distance(end, *shore) < best.gap) best = {distance(end, *shore), r, at_end, *shore};
     }
   }
   for (const auto& [root, end] : nearest) {
     if (end.reach == kNone) continue;
-    const RiverReach& reach = network.reaches[end.reach];
-    const double width = rivers[end.at_end ? reach.line_of.back() : reach.line_of.front()].width;
-    if (end.gap > kClose * width || !(end.gap > 0.0)) continue;
+    const RiverReach& own = network.reaches[end.reach];
+    const double width = rivers[end.at_end ? own.line_of.back() : own.line_of.front()].width;
+    if (end.gap > (std::isfinite(reach) ? reach : kClose * width) || !(end.gap > 0.0)) continue;
     extend(network, end, width);
     ++connection.extended;
     connection.touches[end.reach] = 1;
   }
-  for (const RiverReach& reach : network.reaches) {
-    const auto found = nearest.find(sets.find(reach.from));
+  for (const RiverReach& own : network.reaches) {
+    const auto found = nearest.find(sets.find(own.from));
     connection.gap.push_back(found == nearest.end() ? 0.0 : found->second.gap);
   }
   return connection;

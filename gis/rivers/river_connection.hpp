@@ -18,9 +18,10 @@ struct RiverConnection {
   std::vector<double> gap;
 };
 
-// Continues networks that end close to the water: straight, from the free end nearest to it, and a width into it.
-// "Close" is three widths of the river.
-RiverConnection connectRivers(RiverNetwork& network, std::span<const PlaneRiver> rivers, const MeshWater& water);
+// Continues networks that end within `reach` of the water, in plane units, or three widths of the river if that is
+// infinite: straight, from the free end nearest to it, and a width into it.
+RiverConnection connectRivers(RiverNetwork& network, std::span<const PlaneRiver> rivers, const MeshWater& water,
+                              double reach);
 
 // Of each reach: 1 if it is connected with one that touches the water, through reaches that are not barred.
 std::vector<std::uint8_t> connectedReaches(const RiverNetwork& network, std::span<const std::uint8_t> touches,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/metric.hpp"
 
@@ -21,6 +22,8 @@ constexpr double kLeastBend = 0.8;
 constexpr int kMostSweeps = 4000;
 // How fast widths grow along the river where features of different widths meet.
 constexpr double kWidening = 0.2;
+// How fast the longest row grows along the river.
+constexpr double kRowGrowth = 0.5;
 constexpr std::size_t kMostPoints = 4'000'000;
 
 double radiusThrough(const Point& a, const Point& b, const Point& c) {
@@ -64,8 +67,6 @@ void RiverCourse::sample(const RiverReach& reach, std::span<const PlaneRiver> ri
   }
   points_.front() = reach.points.front();
   points_.back() = reach.points.back();
-  for (std::size_t i = 1; i <= count; ++i) width_[i] = std::min(width_[i], width_[i - 1] + kWidening * step);
-  for (std::size_t i = count; i-- > 0;) width_[i] = std::min(width_[i], width_[i + 1] + kWidening * step);
 }
 
 double RiverCourse::radiusAt(std::size_t i) const {
@@ -108,6 +109,25 @@ void RiverCourse::measure() {
   along_.assign(1, 0.0);
   for (std::size_t i = 0; i + 1 < points_.size(); ++i)
     along_.push_back(along_.back() + distance(points_[i], points_[i + 1]));
+  limitWidening();
+}
+
+void RiverCourse::narrow(double from, double to, double factor) {
+  for (std::size_t i = indexAt(from); i < points_.size() && along_[i] <= to; ++i) width_[i] *= factor;
+  limitWidening();
+}
+
+void RiverCourse::limitRows(std::vector<double> room) {
+  room_ = std::move(room);
+  const auto growth = [&](std::size_t i) { return kRowGrowth * (along_[i + 1] - along_[i]); };
+  for (std::size_t i = 0; i + 1 < room_.size(); ++i) room_[i + 1] = std::min(room_[i + 1], room_[i] + growth(i));
+  for (std::size_t i = room_.size() - 1; i-- > 0;) room_[i] = std::min(room_[i], room_[i + 1] + growth(i));
+}
+
+void RiverCourse::limitWidening() {
+  const auto room = [&](std::size_t i) { return kWidening * (along_[i + 1] - along_[i]); };
+  for (std::size_t i = 0; i + 1 < width_.size(); ++i) width_[i + 1] = std::min(width_[i + 1], width_[i] + room(i));
+  for (std::size_t i = width_.size() - 1; i-- > 0;) width_[i] = std::min(width_[i], width_[i + 1] + room(i));
   double sum = 0.0;
   for (const double width : width_) sum += width;
   mean_width_ = sum / static_cast<double>(width_.size());
@@ -132,8 +152,10 @@ RiverSection RiverCourse::sectionAt(double along) const {
   const double edge = along_[i + 1] - along_[i];
   const double share = edge > 0.0 ? std::clamp((along - along_[i]) / edge, 0.0, 1.0) : 0.0;
   RiverSection section;
+  section.along = along;
   section.place = placeAt(along);
   section.width = width_[i] + share * (width_[i + 1] - width_[i]);
+  section.room = room_.empty() ? kInfinity : std::min(room_[i], room_[i + 1]);
   section.line = line_[share < 0.5 ? i : i + 1];
   section.bend = std::min(radiusAt(i), radiusAt(i + 1));
   const double arm = 0.5 * section.width;

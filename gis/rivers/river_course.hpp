@@ -15,7 +15,9 @@ struct RiverSection {
   Point left;          // unit vector across the river, to the left of its direction
   double width = 0.0;  // plane units
   std::uint32_t line = 0;
-  double bend = 0.0;  // radius of the bend, infinite if it is straight
+  double bend = 0.0;   // radius of the bend, infinite if it is straight
+  double along = 0.0;  // distance from the start of the reach
+  double room = 0.0;   // the longest row beside other water
 
   // A place across the river: 0 at the right bank, 1 at the left one.
   Point at(double share) const {
@@ -37,8 +39,17 @@ class RiverCourse {
   const Point& movedPlace() const { return moved_place_; }
   // The section at a distance from the start, from 0 to `length()`.
   RiverSection sectionAt(double along) const;
+  // Points along it, about a quarter of the width apart.
+  std::span<const Point> points() const { return points_; }
+  double widthAt(std::size_t point) const { return width_[point]; }
+  double alongAt(std::size_t point) const { return along_[point]; }
+  // Sets the longest row at each of these points; it grows by at most half the distance from one to another.
+  void limitRows(std::vector<double> room);
+  // Multiplies widths between two places by `factor`, below 1, and more gradually those around.
+  void narrow(double from, double to, double factor);
 
  private:
+  void limitWidening();
   void sample(const RiverReach& reach, std::span<const PlaneRiver> rivers);
   void smooth();
   void measure();
@@ -49,6 +60,7 @@ class RiverCourse {
   std::vector<Point> points_;
   std::vector<double> along_;  // distance from the start, for each point
   std::vector<double> width_;
+  std::vector<double> room_;  // empty: no limit
   std::vector<std::uint32_t> line_;
   double mean_width_ = 0.0, max_width_ = 0.0, moved_ = 0.0;
   Point moved_place_;

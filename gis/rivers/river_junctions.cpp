@@ -8,7 +8,7 @@
 #include "core/metric.hpp"
 #include "core/predicates.hpp"
 #include "core/union_find.hpp"
-#include "gis/geometry/chain_index.hpp"
+#include "gis/geometry/near_segments.hpp"
 #include "gis/geometry/ring_area.hpp"
 
 namespace coastmesh {
@@ -20,19 +20,12 @@ constexpr double kStep = 0.15, kMargin = 0.25;
 constexpr double kMostWidths = 40.0;
 // The least distance between banks of different branches, as a share of a cell's width.
 constexpr double kLeastBank = 0.5;
+// The least angle of land between the bank of a branch and that between it and the next.
+constexpr double kLeastAngleDeg = 25.0;
 // Branches are compared over this many steps of half a width.
 constexpr int kLadder = 5;
 
 using Edge = std::pair<Point, Point>;
-
-bool areNear(const Edge& p, const Edge& q, double least) {
-  if (segmentsMeet(p.first, p.second, q.first, q.second)) return true;
-  const double squared = least * least;
-  return squaredDistanceToSegment(p.first, q.first, q.second) < squared ||
-         squaredDistanceToSegment(p.second, q.first, q.second) < squared ||
-         squaredDistanceToSegment(q.first, p.first, p.second) < squared ||
-         squaredDistanceToSegment(q.second, p.first, p.second) < squared;
-}
 
 bool meetElsewhere(const Edge& p, const Edge& q) {
   if (p.first == q.first || p.first == q.second || p.second == q.first || p.second == q.second) return false;
@@ -158,6 +151,7 @@ class JunctionPlanner {
     std::vector<std::vector<Edge>> ladders;
     for (const RiverBranch& branch : branches) ladders.push_back(ladderOf(branch));
     if (const Clash clash = clashOfBanks(branches, ladders)) return clash;
+    if (const Clash clash = clashOfCorners(ring, ladders)) return clash;
     return clashOfRing(ring, ladders);
   }
 
@@ -167,8 +161,21 @@ class JunctionPlanner {
         const double least = kLeastBank * std::min(shapes_[branches[i].reach].cell, shapes_[branches[j].reach].cell);
         for (const Edge& p : ladders[i])
           for (const Edge& q : ladders[j])
-            if (areNear(p, q, least)) return {{i, j}};
+            if (areNear(p.first, p.second, q.first, q.second, least)) return {{i, j}};
       }
+    return std::nullopt;
+  }
+
+  // The banks between two branches must not run along one of them.
+  static Clash clashOfCorners(const std::vector<Point>& ring, const std::vector<std::vector<Edge>>& ladders) {
+    const std::size_t n = ring.size();
+    for (std::size_t i = 0; i < ladders.size(); ++i) {
+      if (ladders[i].size() < 4) continue;
+      const Edge &right = ladders[i][2], &left = ladders[i][3];
+      const double at_right = angleAt(right.first, right.second, ring[(2 * i + n - 1) % n]);
+      const double at_left = angleAt(left.first, left.second, ring[(2 * i + 2) % n]);
+      if (std::min(at_right, at_left) < toRadians(kLeastAngleDeg)) return {{i, i}};
+    }
     return std::nullopt;
   }
 

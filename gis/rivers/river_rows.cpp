@@ -12,7 +12,8 @@ namespace {
 
 // In a bend a row is at most this share of its radius long, about 29 degrees.
 constexpr double kOfBend = 0.5;
-constexpr double kShortest = 0.25;  // as a share of a cell's width
+// The shortest row, as a share of the width of its cells.
+constexpr double kShortest = 0.25;
 constexpr double kMostRows = 50e6;
 
 // Places of sections: where the integral of rows over length is whole.
@@ -20,7 +21,8 @@ std::vector<double> sectionPlaces(const RiverCourse& course, double from, double
   const auto lengthAt = [&](double along) {
     const RiverSection section = course.sectionAt(along);
     const double cell = section.width / static_cast<double>(cells);
-    return std::min(aspect * cell, std::max(kOfBend * section.bend, kShortest * cell));
+    const double beside_water = std::max(section.room, cell);
+    return std::min({aspect * cell, beside_water, std::max(kOfBend * section.bend, kShortest * cell)});
   };
   const double step_wanted = 0.25 * course.meanWidth();
   const auto steps = static_cast<std::size_t>(std::clamp(std::ceil((to - from) / step_wanted), 8.0, kMostRows));

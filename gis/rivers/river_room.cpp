@@ -1,0 +1,77 @@
+#include "gis/rivers/river_room.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "core/metric.hpp"
+#include "gis/geometry/box_tree.hpp"
+
+namespace coastmesh {
+
+namespace {
+
+// Parts of one course are remote if they are so many widths apart along it.
+constexpr double kRemote = 3.0;
+
+struct Piece {  // between two points of a course
+  std::uint32_t course = 0;
+  std::size_t point = 0;
+};
+
+class RoomFinder {
+ public:
+  RoomFinder(std::span<const RiverCourse> courses, std::span<const double> longest)
+      : courses_(courses), longest_(longest) {
+    std::vector<Box> boxes;
+    for (std::uint32_t c = 0; c < courses.size(); ++c) {
+      widest_ = std::max(widest_, courses[c].maxWidth());
+      const std::span<const Point> points = courses[c].points();
+      for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+        pieces_.push_back({c, i});
+        boxes.push_back(Box::of(points[i], points[i + 1]));
+      }
+    }
+    tree_ = BoxTree(boxes, BoxTree::Order::Hilbert);
+  }
+
+  double roomAt(std::uint32_t of_course, std::size_t i) const {
+    const RiverCourse& own = courses_[of_course];
+    const Point& place = own.points()[i];
+    const double half = 0.5 * own.widthAt(i);
+    double room = longest_[of_course];
+    tree_.visit(Box::of(place, place).grownBy(room + half + 0.5 * widest_), [&](std::uint32_t p) {
+      const auto& [c, k] = pieces_[p];
+      const RiverCourse& other = courses_[c];
+      if (c == of_course && std::abs(own.alongAt(i) - own.alongAt(k)) < kRemote * own.widthAt(i)) return;
+      const double gap = std::sqrt(squaredDistanceToSegment(place, other.points()[k], other.points()[k + 1]));
+      room = std::min(room, gap - half - 0.5 * std::max(other.widthAt(k), other.widthAt(k + 1)));
+    });
+    return std::max(0.0, room);
+  }
+
+ private:
+  std::span<const RiverCourse> courses_;
+  std::span<const double> longest_;
+  double widest_ = 0.0;
+  std::vector<Piece> pieces_;
+  BoxTree tree_;
+};
+
+}  // namespace
+
+void limitRows(std::span<RiverCourse> courses, std::span<const double> longest,
+               const std::function<bool(const Point&)>& in_water) {
+  const RoomFinder finder(courses, longest);
+  for (std::uint32_t c = 0; c < courses.size(); ++c) {
+    const std::span<const Point> points = courses[c].points();
+    std::vector<double> room(points.size(), std::numeric_limits<double>::infinity());
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (in_water(points[i])) room[i] = finder.roomAt(c, i);
+    courses[c].limitRows(std::move(room));
+  }
+}
+
+}  // namespace coastmesh
