@@ -28,6 +28,9 @@ namespace {
 constexpr double kNarrowing = 0.8;
 constexpr int kMostNarrowings = 12;
 
+// Shorter reaches between two others, in their widths, may be left out without notice.
+constexpr double kSpur = 4.0;
+
 // In water, rivers as far apart as this share of a row leave no room for triangles between them.
 constexpr double kClearance = 0.08;
 
@@ -136,8 +139,26 @@ class RiverLayer {
     limitRows(courses_, longest, [this](const Point& place) { return water_.holds(place); });
   }
 
+  // True for a short reach between two places of others, as where a line crosses the river that it ends in.
+  bool isSpur(std::uint32_t reach) const {
+    const RiverReach& own = network_.reaches[reach];
+    bool from_other = false, to_other = false;
+    double widest = courses_[reach].maxWidth();
+    for (std::uint32_t r = 0; r < network_.reaches.size(); ++r) {
+      if (r == reach) continue;
+      const RiverReach& other = network_.reaches[r];
+      const bool at_from = other.from == own.from || other.to == own.from;
+      const bool at_to = other.from == own.to || other.to == own.to;
+      from_other = from_other || at_from;
+      to_other = to_other || at_to;
+      if (at_from || at_to) widest = std::max(widest, courses_[r].maxWidth());
+    }
+    return from_other && to_other && courses_[reach].length() < kSpur * widest;
+  }
+
   void lose(std::uint32_t reach, RiverLoss why, const Point& place, double distance = 0.0) {
     barred_[reach] = 1;
+    if (why == RiverLoss::Crowded && isSpur(reach)) return;
     const std::vector<std::uint32_t>& line_of = network_.reaches[reach].line_of;
     report_.lost.push_back({why, nameOf(lines_[line_of[line_of.size() / 2]]), plane_.inverse(place), distance});
   }

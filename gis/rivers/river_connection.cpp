@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 #include "core/ids.hpp"
 #include "core/metric.hpp"
@@ -25,12 +24,10 @@ bool touchesWater(const RiverReach& reach, const MeshWater& water) {
   return false;
 }
 
-// A free end beside the water.
-struct NearEnd {
-  double gap = kInfinity;
+// A free end of a reach.
+struct FreeEnd {
   std::uint32_t reach = kNone;
   bool at_end = false;
-  Point shore;
 };
 
 UnionFind networksOf(const RiverNetwork& network, std::span<const std::uint8_t> barred) {
@@ -40,10 +37,24 @@ UnionFind networksOf(const RiverNetwork& network, std::span<const std::uint8_t> 
   return sets;
 }
 
-void extend(RiverNetwork& network, const NearEnd& end, double width) {
+std::vector<FreeEnd> freeEnds(const RiverNetwork& network) {
+  std::vector<std::uint32_t> degree(network.nodes.size(), 0);
+  for (const RiverReach& reach : network.reaches) {
+    ++degree[reach.from];
+    ++degree[reach.to];
+  }
+  std::vector<FreeEnd> ends;
+  for (std::uint32_t r = 0; r < network.reaches.size(); ++r)
+    for (const bool at_end : {false, true})
+      if (degree[at_end ? network.reaches[r].to : network.reaches[r].from] == 1) ends.push_back({r, at_end});
+  return ends;
+}
+
+// Continues the reach to a place and beyond, by `farther`.
+void extend(RiverNetwork& network, const FreeEnd& end, const Point& shore, double farther) {
   RiverReach& reach = network.reaches[end.reach];
   const Point from = end.at_end ? reach.points.back() : reach.points.front();
-  const Point place = end.shore + (width / end.gap) * (end.shore - from);
+  const Point place = shore + (farther / distance(from, shore)) * (shore - from);
   network.nodes[end.at_end ? reach.to : reach.from] = place;
   if (end.at_end) {
     reach.points.push_back(place);
@@ -59,43 +70,25 @@ void extend(RiverNetwork& network, const NearEnd& end, double width) {
 RiverConnection connectRivers(RiverNetwork& network, std::span<const PlaneRiver> rivers, const MeshWater& water,
                               double reach) {
   RiverConnection connection;
+  for (const RiverReach& own : network.reaches) connection.touches.push_back(touchesWater(own, water) ? 1 : 0);
   UnionFind sets = networksOf(network, {});
-  std::vector<std::uint32_t> degree(network.nodes.size(), 0);
-  std::vector<std::uint8_t> has_water(network.nodes.size(), 0);  // by root
-  for (const RiverReach& own : network.reaches) {
-    ++degree[own.from];
-    ++degree[own.to];
-    connection.touches.push_back(touchesWater(own, water) ? 1 : 0);
-    if (connection.touches.back() != 0) has_water[sets.find(own.from)] = 1;
-  }
-  std::map<std::uint32_t, NearEnd> nearest;  // by root
-  for (std::uint32_t r = 0; r < network.reaches.size(); ++r) {
-    const RiverReach& own = network.reaches[r];
-    const std::uint32_t root = sets.find(own.from);
-    if (has_water[root] != 0) continue;
-    NearEnd& best = nearest[root];
-    for (const bool at_end : {false, true}) {
-      if (degree[at_end ? own.to : own.from] != 1) continue;
-      const Point end = at_end ? own.points.back() : own.points.front();
-      const double width = rivers[at_end ? own.line_of.back() : own.line_of.front()].width;
-      const double far = std::isfinite(reach) ? std::max(reach, kFar * width) : kFar * width;
-      const auto shore = water.nearest(end, std::min(best.gap, far));
-      if (shore && distance(end, *shore) < best.gap) best = {distance(end, *shore), r, at_end, *shore};
-    }
-  }
-  for (const auto& [root, end] : nearest) {
-    if (end.reach == kNone) continue;
+  std::vector<double> gap(network.nodes.size(), kInfinity);  // by root
+  for (const FreeEnd& end : freeEnds(network)) {
     const RiverReach& own = network.reaches[end.reach];
+    const Point place = end.at_end ? own.points.back() : own.points.front();
+    if (water.holds(place)) continue;
     const double width = rivers[end.at_end ? own.line_of.back() : own.line_of.front()].width;
-    if (end.gap > (std::isfinite(reach) ? reach : kClose * width) || !(end.gap > 0.0)) continue;
-    extend(network, end, width);
+    const double close = std::isfinite(reach) ? reach : kClose * width;
+    const auto shore = water.nearest(place, std::max(close, kFar * width));
+    if (!shore) continue;
+    const double distance_to_water = distance(place, *shore);
+    gap[sets.find(own.from)] = std::min(gap[sets.find(own.from)], distance_to_water);
+    if (!(distance_to_water > 0.0) || distance_to_water > close) continue;
+    extend(network, end, *shore, width);
     ++connection.extended;
     connection.touches[end.reach] = 1;
   }
-  for (const RiverReach& own : network.reaches) {
-    const auto found = nearest.find(sets.find(own.from));
-    connection.gap.push_back(found == nearest.end() ? 0.0 : found->second.gap);
-  }
+  for (const RiverReach& own : network.reaches) connection.gap.push_back(gap[sets.find(own.from)]);
   return connection;
 }
 

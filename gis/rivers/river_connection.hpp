@@ -13,13 +13,13 @@ namespace coastmesh {
 struct RiverConnection {
   std::vector<std::uint8_t> touches;  // of each reach: 1 if a place of it is in the water
   std::size_t extended = 0;           // free ends that were continued
-  // Of each reach: of its network, if no reach of that is connected, the distance of the nearest free end from the
-  // water, plane units; infinite if it is far.
+  // Of each reach: of its network, the distance of the nearest free end outside the water from it, plane units;
+  // infinite if it is far.
   std::vector<double> gap;
 };
 
-// Continues networks that end within `reach` of the water, in plane units, or three widths of the river if that is
-// infinite: straight, from the free end nearest to it, and a width into it.
+// Continues free ends within `reach` of the water, in plane units, or three widths of the river if that is infinite:
+// straight, and a width into it.
 RiverConnection connectRivers(RiverNetwork& network, std::span<const PlaneRiver> rivers, const MeshWater& water,
                               double reach);
 
