@@ -1,0 +1,218 @@
+#include "gis/rivers/lay_rivers.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <set>
+
+#include "apps/merge/merge_mesh.hpp"
+#include "gis/elements/quads.hpp"
+#include "gis/error.hpp"
+#include "tests/gis/merge/merged.hpp"
+
+namespace coastmesh {
+namespace {
+
+using namespace coastmesh::testing;
+
+RiverLine lineOf(std::vector<Point> points, double width, const std::string& name = "R") {
+  RiverLine line;
+  line.points = std::move(points);
+  line.width_m = width;
+  line.name = name;
+  line.source = "rivers";
+  return line;
+}
+
+// 4 km by 4 km of water.
+Grid sea() { return gridOf({20, 20, 200.0}); }
+
+std::size_t boundariesOf(const Grid& grid, BoundaryRole role) {
+  std::size_t count = 0;
+  for (const Boundary& boundary : grid.boundaries) count += boundary.role == role ? 1 : 0;
+  return count;
+}
+
+std::vector<RiverLoss> lossesOf(const LaidRivers& laid) {
+  std::vector<RiverLoss> losses;
+  for (const LostRiver& lost : laid.report.lost) losses.push_back(lost.why);
+  return losses;
+}
+
+TEST(LayRivers, ARiverEndsARowIntoTheWater) {
+  const LaidRivers laid = layRivers({lineOf({{-3000, 2050}, {2000, 2050}}, 100.0)}, sea(), {});
+  requireConsistent(laid.grid);
+  EXPECT_EQ(laid.report.reaches, 1u);
+  EXPECT_EQ(laid.report.quads, quadsOf(laid.grid).size());
+  EXPECT_EQ(laid.report.triangles, 0u);
+  double most = -1e9;
+  for (const Point& p : laid.grid.nodes) most = std::max(most, p.x);
+  EXPECT_GT(most, 0.0);
+  EXPECT_LT(most, 2.0 * 150.0 + 1.0);  // rows are 150 m long
+  EXPECT_NEAR(areaOf(laid.grid), (3000.0 + most) * 100.0, 1e-3);
+  EXPECT_EQ(boundariesOf(laid.grid, BoundaryRole::River), 1u);
+  EXPECT_TRUE(lossesOf(laid).empty());
+}
+
+TEST(LayRivers, AllOfARiverGetsRowsOnRequest) {
+  RiverOptions options;
+  options.extent = RiverExtent::All;
+  const LaidRivers laid = layRivers({lineOf({{-3000, 2050}, {2000, 2050}}, 100.0)}, sea(), options);
+  EXPECT_NEAR(areaOf(laid.grid), 5000.0 * 100.0, 1e-3);
+}
+
+TEST(LayRivers, CellsFollowTheWidth) {
+  RiverOptions options;
+  options.most_cell_width_m = 30.0;
+  options.aspect = 2.0;
+  const LaidRivers laid = layRivers({lineOf({{-3000, 2050}, {100, 2050}}, 100.0)}, sea(), options);
+  std::set<double> across;
+  for (const Point& p : laid.grid.nodes) across.insert(std::round(p.y));
+  EXPECT_EQ(across.size(), 5u);  // four of 25 m
+  EXPECT_NEAR(double(laid.report.quads), 4.0 * 3100.0 / 50.0, 8.0);
+}
+
+TEST(LayRivers, BranchesAreJoinedByTriangles) {
+  const LaidRivers laid = layRivers(
+      {lineOf({{-3000, 2050}, {100, 2050}}, 120.0, "main"), lineOf({{-1500, 4000}, {-1000, 2060}}, 60.0, "tributary")},
+      sea(), {});
+  requireConsistent(laid.grid);
+  EXPECT_EQ(laid.report.junctions, 1u);
+  EXPECT_EQ(laid.report.reaches, 3u);
+  EXPECT_GT(laid.report.triangles, 3u);
+  EXPECT_EQ(boundariesOf(laid.grid, BoundaryRole::River), 2u);
+  const TriMesh mesh = linkGrid(laid.grid).mesh;
+  EXPECT_EQ(boundaryLoops(mesh).size(), 1u);
+  EXPECT_TRUE(triangleOverlaps(laid.grid, mesh).empty());
+  for (const GridCorners& v : laid.grid.triangles)
+    EXPECT_GT(leastAngleDeg(laid.grid.nodes[v[0]], laid.grid.nodes[v[1]], laid.grid.nodes[v[2]]), 15.0);
+}
+
+TEST(LayRivers, JunctionsWithAReachBetweenThatIsTooShortAreOne) {
+  const LaidRivers laid =
+      layRivers({lineOf({{-3000, 2050}, {100, 2050}}, 120.0), lineOf({{-1500, 4000}, {-1000, 2060}}, 60.0),
+                 lineOf({{-900, 100}, {-950, 2040}}, 60.0)},
+                sea(), {});
+  EXPECT_EQ(laid.report.junctions, 1u);
+  EXPECT_EQ(laid.report.reaches, 4u);
+  EXPECT_TRUE(lossesOf(laid).empty());
+  EXPECT_TRUE(triangleOverlaps(laid.grid, linkGrid(laid.grid).mesh).empty());
+}
+
+TEST(LayRivers, WhatIsNotConnectedIsLostByName) {
+  const LaidRivers laid = layRivers(
+      {lineOf({{-3000, 2050}, {100, 2050}}, 100.0, "kept"), lineOf({{-3000, 3000}, {-1000, 3000}}, 100.0, "far"),
+       lineOf({{1000, 1000}, {3000, 1000}}, 100.0, "within")},
+      sea(), {});
+  EXPECT_THAT(lossesOf(laid), ::testing::UnorderedElementsAre(RiverLoss::Apart, RiverLoss::InWater));
+  for (const LostRiver& lost : laid.report.lost) {
+    EXPECT_EQ(lost.name, lost.why == RiverLoss::Apart ? "'far'" : "'within'");
+    if (lost.why == RiverLoss::Apart) {
+      EXPECT_NEAR(lost.distance, 1000.0, 1.0);
+    }
+  }
+}
+
+TEST(LayRivers, EndsCloseToTheWaterAreContinued) {
+  const std::vector<RiverLine> lines{lineOf({{-3000, 2050}, {-250, 2050}}, 100.0)};
+  const LaidRivers near = layRivers(lines, sea(), {});
+  EXPECT_EQ(near.report.extended, 1u);
+  EXPECT_TRUE(lossesOf(near).empty());
+  const std::vector<RiverLine> farther{lineOf({{-3000, 2050}, {-450, 2050}}, 100.0)};
+  EXPECT_THAT(lossesOf(layRivers(farther, sea(), {})), ::testing::ElementsAre(RiverLoss::Apart));
+  RiverOptions options;
+  options.reach_m = 500.0;
+  EXPECT_EQ(layRivers(farther, sea(), options).report.extended, 1u);
+}
+
+TEST(LayRivers, TheNarrowerOfTwoThatOverlapIsLost) {
+  const LaidRivers laid = layRivers({lineOf({{-3000, 2050}, {100, 2050}}, 200.0, "wide"),
+                                     lineOf({{-3000, 2250}, {-1000, 2165}, {-800, 2350}, {100, 2400}}, 80.0, "narrow")},
+                                    sea(), {});
+  ASSERT_EQ(laid.report.lost.size(), 1u);
+  EXPECT_EQ(laid.report.lost[0].why, RiverLoss::Crowded);
+  EXPECT_EQ(laid.report.lost[0].name, "'narrow'");
+}
+
+TEST(LayRivers, ARiverThatComesCloseToItselfIsNarrowerThere) {
+  // It comes back, and runs 80 m beside itself.
+  const std::vector<Point> loop{{-3000, 2000}, {-1500, 2000}, {-1500, 3200}, {-700, 3200},
+                                {-700, 2800},  {-1420, 2800}, {-1420, 2300}, {100, 2300}};
+  const LaidRivers laid = layRivers({lineOf(loop, 100.0)}, sea(), {});
+  EXPECT_EQ(laid.report.narrowed, 1u);
+  EXPECT_TRUE(lossesOf(laid).empty());
+  EXPECT_TRUE(triangleOverlaps(laid.grid, linkGrid(laid.grid).mesh).empty());
+}
+
+TEST(LayRivers, DepthsAreThoseOfTheLines) {
+  RiverLine line = lineOf({{-3000, 2050}, {100, 2050}}, 100.0);
+  line.depth_m = 3.5;
+  const LaidRivers laid = layRivers({line}, sea(), {});
+  EXPECT_THAT(laid.grid.z, ::testing::Each(-3.5));
+  // The mesh has depths only where it is.
+  for (std::size_t i = 0; i < laid.mesh_z.size(); ++i) {
+    const Point& p = laid.grid.nodes[i];
+    if (p.x < 0.0) {
+      EXPECT_TRUE(std::isnan(laid.mesh_z[i]));
+    }
+    if (p.x > 0.0) {
+      EXPECT_NEAR(laid.mesh_z[i], -10.0 - 0.25 * p.x + 0.125 * p.y, 1e-6);
+    }
+  }
+}
+
+TEST(LayRivers, LinesWithoutLengthAreErrors) {
+  EXPECT_THROW(layRivers({lineOf({{-30, 20}, {-30, 20}}, 10.0)}, sea(), {}), InputError);
+}
+
+// Random networks, in the water and beside it, make sound meshes.
+TEST(LayRivers, MergedWithTheMeshTheyAreSound) {
+  std::size_t merged = 0;
+  for (unsigned seed = 1; seed <= 30; ++seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> turn(0.0, 0.15);
+    std::uniform_real_distribution<double> share(0.0, 1.0);
+    std::vector<RiverLine> lines;
+    std::vector<Point> places;
+    for (int i = 0; i < 3; ++i) {
+      const double from_x = share(random), from_y = share(random), pick = share(random);
+      Point p{-2000.0 * from_x, 4000.0 * from_y};
+      if (i > 0) p = places[static_cast<std::size_t>(pick * static_cast<double>(places.size() - 1))];
+      double heading = 6.3 * share(random);
+      RiverLine& line = lines.emplace_back(lineOf({p}, 30.0 + 100.0 * share(random)));
+      for (int k = 0; k < 40; ++k) {
+        heading += turn(random);
+        p = p + 80.0 * Point{std::cos(heading), std::sin(heading)};
+        line.points.push_back(p);
+        places.push_back(p);
+      }
+    }
+    RiverOptions options;
+    options.extent = seed % 2 == 0 ? RiverExtent::All : RiverExtent::Outside;
+    options.cells = 1 + seed % 3;
+    Grid grid = sea();
+    LaidRivers laid = layRivers(lines, grid, options);
+    if (laid.grid.triangles.empty()) continue;
+    ++merged;
+    const Grid rivers = laid.grid, before = grid;
+    EXPECT_TRUE(triangleOverlaps(rivers, linkGrid(rivers).mesh).empty()) << "seed " << seed;
+    for (const Quad& quad : quadsOf(rivers))
+      for (const double angle : anglesOf(rivers, quad)) EXPECT_LT(angle, 180.0);
+    const MergedMesh result = mergeMesh(grid, std::move(laid.grid), {});
+    SCOPED_TRACE(seed);
+    requireConsistent(grid);
+    const LinkedGrid linked = linkGrid(grid);
+    EXPECT_TRUE(linked.conflicts.empty());
+    EXPECT_TRUE(triangleOverlaps(grid, linked.mesh).empty());
+    EXPECT_EQ(quadsOf(grid).size(), quadsOf(rivers).size());
+    std::set<VertexId> nodes;
+    for (const std::vector<VertexId>& loop : boundaryLoops(linked.mesh))
+      for (const VertexId v : loop) EXPECT_TRUE(nodes.insert(v).second) << "pinched";
+  }
+  EXPECT_GT(merged, 15u);
+}
+
+}  // namespace
+}  // namespace coastmesh
