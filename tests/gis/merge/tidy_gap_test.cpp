@@ -108,7 +108,7 @@ TEST(TidyGap, FlatTrianglesBesideAShoreGo) {
 
 TEST(TidyGap, WhatTheRestEnclosesStays) {
   // A corner of 14 degrees between two edges of the inserted mesh, with water of the other one in front of it.
-  const BulkList<Point> points{{0.0, 0.0}, {4.0, 0.0}, {4.0, 1.0}, {2.0, -3.0}, {2.0, 4.0}, {7.0, 0.5}};
+  const BulkList<Point> points{{0.0, 0.0}, {4.0, 0.0}, {4.0, 1.0}, {2.0, -6.0}, {2.0, 7.0}, {12.0, 0.5}};
   std::size_t left_out = 0;
   const Whole enclosed = wholeOf(points, {{1, 5, 2}}, {{0, 3, 1}, {0, 2, 4}}, {{0, 1, 2}, {3, 5, 1}, {2, 5, 4}});
   EXPECT_EQ(tidied(enclosed, left_out)[3], 1);
