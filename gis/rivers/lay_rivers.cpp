@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -87,6 +88,7 @@ class RiverLayer {
     barred_.assign(network_.reaches.size(), 0);
     narrowed_.assign(network_.reaches.size(), 0);
     followCourses();
+    planner_.emplace(network_, courses_, shapes_);
     loseApart();
     makeRows();
     loseApart();
@@ -158,6 +160,7 @@ class RiverLayer {
 
   void lose(std::uint32_t reach, RiverLoss why, const Point& place, double distance = 0.0) {
     barred_[reach] = 1;
+    planner_->bar(reach);
     if (why == RiverLoss::Crowded && isSpur(reach)) return;
     const std::vector<std::uint32_t>& line_of = network_.reaches[reach].line_of;
     report_.lost.push_back({why, nameOf(lines_[line_of[line_of.size() / 2]]), plane_.inverse(place), distance});
@@ -172,20 +175,27 @@ class RiverLayer {
         lose(r, RiverLoss::Apart, middleOf(r), connection_.gap[r] / plane_.scaleAt(middleOf(r)));
   }
 
-  // Rows of all reaches that have room; each turn but the last takes some reach away.
+  // Rows of all reaches that have room; each turn but the last takes some reach away, or narrows it.
   void makeRows() {
+    rows_.assign(network_.reaches.size(), {});
     for (bool again = true; again;) {
       control_.checkpoint(0.0);
-      plan_ = planJunctions(network_, courses_, shapes_, barred_);
+      JunctionPlan plan = planner_->plan();
+      std::swap(plan_, plan);
       again = false;
       for (std::uint32_t r = 0; r < network_.reaches.size(); ++r) {
         if (barred_[r] != 0 || plan_.left_out[r] == 0) continue;
         const bool is_alone = plan_.trim_start[r] == 0.0 && plan_.trim_end[r] == 0.0;
         lose(r, is_alone ? RiverLoss::Short : RiverLoss::Crowded, middleOf(r));
       }
-      rows_.assign(network_.reaches.size(), {});
       for (std::uint32_t r = 0; r < network_.reaches.size(); ++r) {
-        if (barred_[r] != 0 || plan_.in_junction[r] != 0) continue;
+        if (barred_[r] != 0 || plan_.in_junction[r] != 0) {
+          rows_[r] = {};
+          continue;
+        }
+        const bool is_as_before = !rows_[r].sections.empty() && plan.trim_start[r] == plan_.trim_start[r] &&
+                                  plan.trim_end[r] == plan_.trim_end[r];
+        if (is_as_before) continue;
         rows_[r] = riverRows(courses_[r], plan_.trim_start[r], courses_[r].length() - plan_.trim_end[r], cells_[r],
                              options_.aspect);
         if (!rows_[r].sections.empty()) continue;
@@ -219,6 +229,8 @@ class RiverLayer {
     }
     for (const std::size_t row : overlap.rows)
       courses_[reach].narrow(rows_[reach].sections[row].along, rows_[reach].sections[row + 1].along, kNarrowing);
+    rows_[reach] = {};
+    planner_->look(reach);
   }
 
   bool isWithin(const RiverRows& rows, std::size_t row) const {
@@ -298,6 +310,7 @@ class RiverLayer {
   std::vector<int> narrowed_;  // how often
   std::vector<RiverRows> rows_;
   std::vector<std::vector<std::uint8_t>> has_row_;
+  std::optional<JunctionPlanner> planner_;
   JunctionPlan plan_;
   RiverReport report_;
 };

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "core/union_find.hpp"
 #include "gis/rivers/river_course.hpp"
 #include "gis/rivers/river_network.hpp"
 
@@ -36,9 +39,44 @@ struct JunctionPlan {
 };
 
 // Finds where rows have to end so that those of other reaches have room. Junctions become one if the reach between them
-// is too short. `barred`: reaches that are not there, one flag for each.
-JunctionPlan planJunctions(const RiverNetwork& network, std::span<const RiverCourse> courses,
-                           std::span<const ReachShape> shapes, std::span<const std::uint8_t> barred);
+// is too short.
+class JunctionPlanner {
+ public:
+  // REQUIRES: the arguments outlive it.
+  JunctionPlanner(const RiverNetwork& network, std::span<const RiverCourse> courses,
+                  std::span<const ReachShape> shapes);
+
+  // From now on the reach is not there.
+  void bar(std::uint32_t reach);
+  // The course of the reach has changed.
+  void look(std::uint32_t reach);
+  // Only junctions that are concerned are planned anew.
+  JunctionPlan plan();
+
+ private:
+  using Clash = std::optional<std::pair<std::size_t, std::size_t>>;
+  using Edge = std::pair<Point, Point>;
+
+  double& trimOf(const RiverBranch& branch);
+  double roomOf(std::uint32_t reach) const;
+  std::optional<std::uint32_t> trim(std::vector<RiverBranch>& branches);
+  void grow(RiverBranch& branch, double share);
+  std::vector<RiverSection> order(std::vector<RiverBranch>& branches) const;
+  Clash findClash(std::vector<RiverBranch>& branches) const;
+  Clash clashOfBanks(const std::vector<RiverBranch>& branches, const std::vector<std::vector<Edge>>& ladders) const;
+  std::vector<Edge> ladderOf(const RiverBranch& branch) const;
+  void takeAway(std::uint32_t reach);
+  void removeBranches(std::uint32_t reach);
+
+  const RiverNetwork& network_;
+  std::span<const RiverCourse> courses_;
+  std::span<const ReachShape> shapes_;
+  UnionFind sets_;
+  std::vector<std::vector<RiverBranch>> branches_;  // by root
+  std::vector<std::uint8_t> is_due_;                // nodes whose branches have changed
+  std::vector<std::uint8_t> gone_;
+  JunctionPlan plan_;
+};
 
 // The section of a branch at a distance from its node, with `left` as seen from the junction.
 RiverSection sectionOf(const RiverCourse& course, const RiverBranch& branch, double distance);
