@@ -167,6 +167,23 @@ TEST(LayRivers, LinesWithoutLengthAreErrors) {
   EXPECT_THROW(layRivers({lineOf({{-30, 20}, {-30, 20}}, 10.0)}, sea(), {}), InputError);
 }
 
+TEST(LayRivers, NoBorderOfFeaturesWindsThroughTheWaterBetweenRivers) {
+  RiverOptions options;
+  options.extent = RiverExtent::All;
+  Grid grid = sea();
+  LaidRivers laid = layRivers({lineOf({{300, 1000}, {3700, 1000}}, 60.0, "straight"),
+                               lineOf({{600, 1000}, {1000, 1140}, {3000, 1140}, {3400, 1000}}, 60.0, "arm")},
+                              grid, options);
+  ASSERT_EQ(laid.report.junctions, 2u);
+  const MergedMesh result = mergeMesh(grid, std::move(laid.grid), {});
+  const TriMesh mesh = linkGrid(grid).mesh;
+  for (TriId t = 0; t < mesh.triangles.size(); ++t)
+    for (const EdgeRef across : mesh.triangles[t].adj) {
+      if (across == kNone || result.triangles[t].mesh == 1 || result.triangles[triOf(across)].mesh == 1) continue;
+      EXPECT_EQ(grid.feature_of[t], grid.feature_of[triOf(across)]);
+    }
+}
+
 // Random networks, in the water and beside it, make sound meshes.
 TEST(LayRivers, MergedWithTheMeshTheyAreSound) {
   std::size_t merged = 0;
