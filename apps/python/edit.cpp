@@ -15,6 +15,7 @@
 #include "apps/usage/merge_usage.hpp"
 #include "apps/usage/option_keywords.hpp"
 #include "apps/usage/remesh_usage.hpp"
+#include "apps/usage/rivers_usage.hpp"
 
 namespace py = pybind11;
 
@@ -79,13 +80,12 @@ using Settle = std::function<std::vector<std::string>()>;  // returns warnings
 using Edit =
     std::function<EditedMesh(Grid& grid, const std::string& name, const Warn& warn, const JobControl& control)>;
 
-// `crs`: an option that is set once `settle` is called.
+// `crs`: an option that is set once `settle` is called. `files`: those that `edit` reads besides; options add theirs.
 MeshResult runEdit(OptionTable& options, const EditArguments& given, const std::string& crs, const Settle& settle,
-                   const Edit& edit) {
+                   const Edit& edit, MemoryFiles& files) {
   MeshResult result;
   std::vector<std::string>& warnings = result.warnings;
   setFromKeywords(options, given.keywords, warnings);
-  MemoryFiles files;
   for (const auto& [keyword, texts] : given.texts)
     for (const std::string& text : texts)
       options.set(optionOf(keyword, options)->entry->name, files.add(text), MemoryFiles::kName);
@@ -112,6 +112,12 @@ MeshResult runEdit(OptionTable& options, const EditArguments& given, const std::
   result.complete = edited.complete();
   if (!edited.finish.mended) setSources(result, edited.sources);
   return result;
+}
+
+MeshResult runEdit(OptionTable& options, const EditArguments& given, const std::string& crs, const Settle& settle,
+                   const Edit& edit) {
+  MemoryFiles files;
+  return runEdit(options, given, crs, settle, edit, files);
 }
 
 // The usage of a function whose options `declare` declares.
@@ -169,6 +175,23 @@ MeshResult mergeFromPython(const EditArguments& given, const py::list& inserted)
       options, given, usage.mesh.crs, [] { return std::vector<std::string>(); }, merge);
 }
 
+MeshResult riversFromPython(const EditArguments& given, const GivenLines& given_lines) {
+  RiversUsage usage;
+  OptionTable options("rivers", "");
+  declareRiversOptions(options, usage);
+  MemoryFiles files;
+  std::vector<std::string> lines = given_lines.paths;
+  for (const std::string& text : given_lines.texts) lines.push_back(files.add(text));
+  const auto settled = [&] {
+    settle(usage);
+    return std::vector<std::string>();
+  };
+  const auto add = [&](Grid& grid, const std::string& name, const Warn& warn, const JobControl& control) {
+    return runRiversJob(grid, name, lines, usage.job, warn, control);
+  };
+  return runEdit(options, given, usage.mesh.crs, settled, add, files);
+}
+
 MeshResult readFromPython(const std::string& path, const py::object& crs) {
   MeshFile file{path, {}};
   OptionTable options("read", "");
@@ -189,5 +212,6 @@ MeshResult readFromPython(const std::string& path, const py::object& crs) {
 std::string usageOfCut() { return usageOf("cut", declareCutOptions); }
 std::string usageOfRemesh() { return usageOf("remesh", declareRemeshOptions); }
 std::string usageOfMerge() { return usageOf("merge", declareMergeOptions); }
+std::string usageOfRivers() { return usageOf("rivers", declareRiversOptions); }
 
 }  // namespace coastmesh

@@ -18,12 +18,18 @@ struct EditArguments {
   pybind11::object progress;
 };
 
-// The functions `cut`, `remesh` and `merge`: what the commands of these names do, but for writing. They run like
+// Lines that a function reads.
+struct GivenLines {
+  std::vector<std::string> paths, texts;  // files and GeoJSON
+};
+
+// The functions `cut`, `remesh`, `merge` and `rivers`: what the commands of these names do, but for writing. They run like
 // `runInBackground`. Throw OptionError, InputError.
 MeshResult cutFromPython(const EditArguments& given);
 MeshResult remeshFromPython(const EditArguments& given);
 // `inserted`: as EditArguments::mesh, with a name for messages.
 MeshResult mergeFromPython(const EditArguments& given, const pybind11::list& inserted);
+MeshResult riversFromPython(const EditArguments& given, const GivenLines& given_lines);
 
 // A mesh from a file. `crs`: that of a file without one, as for the keyword assume_crs. Throws OptionError, InputError.
 MeshResult readFromPython(const std::string& path, const pybind11::object& crs);
@@ -32,5 +38,6 @@ MeshResult readFromPython(const std::string& path, const pybind11::object& crs);
 std::string usageOfCut();
 std::string usageOfRemesh();
 std::string usageOfMerge();
+std::string usageOfRivers();
 
 }  // namespace coastmesh

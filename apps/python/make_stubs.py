@@ -78,6 +78,7 @@ ARGUMENTS = {
     "cut": [f"mesh: {MESH}"],
     "remesh": [f"mesh: {MESH}"],
     "merge": [f"mesh: {MESH}", f"inserted: Union[{MESH}, Sequence[{MESH}]]"],
+    "rivers": [f"mesh: {MESH}", "lines: Any"],
 }
 PROGRESS = "progress: Optional[Callable[[str, float], object]] = None"
 SHAPES = ("within", "outside")  # besides paths

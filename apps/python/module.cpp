@@ -213,11 +213,16 @@ PYBIND11_MODULE(_coastmesh, m) {
                     const py::list& inserted) {
     return mergeFromPython({keywords, texts, mesh, progress}, inserted);
   });
+  m.def("rivers", [](const py::dict& keywords, const Texts& texts, const py::object& mesh, const py::object& progress,
+                     const std::vector<std::string>& paths, const std::vector<std::string>& lines) {
+    return riversFromPython({keywords, texts, mesh, progress}, {paths, lines});
+  });
   m.def("read", &readFromPython);
   m.def("usage", [](const std::string& function) {
     return function == "mesh"     ? usageOfMesh()
            : function == "cut"    ? usageOfCut()
            : function == "remesh" ? usageOfRemesh()
-                                  : usageOfMerge();
+           : function == "merge"  ? usageOfMerge()
+                                  : usageOfRivers();
   });
 }

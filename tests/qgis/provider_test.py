@@ -109,7 +109,7 @@ class ProviderTest(unittest.TestCase):
         provider = QgsApplication.processingRegistry().providerById("coastmesh")
         self.assertEqual(provider.warningMessage(), "")
         self.assertEqual({a.name() for a in provider.algorithms()},
-                         {"mesh", "clean", "check", "convert", "cut", "remesh", "merge"})
+                         {"mesh", "clean", "check", "convert", "cut", "remesh", "merge", "rivers"})
         mesh = provider.algorithm("mesh")
         angle = mesh.parameterDefinition("MIN_ANGLE")
         self.assertEqual((angle.defaultValue(), angle.minimum(), angle.maximum()), (33.0, 0.0, 45.0))
@@ -553,6 +553,31 @@ class ProviderTest(unittest.TestCase):
         self.assertGreater(QgsVectorLayer(results["TRIANGLES"], "", "ogr").featureCount(),
                            QgsVectorLayer(west_only["TRIANGLES"], "", "ogr").featureCount())
         QgsProject.instance().clear()
+
+    def test_rivers_of_a_layer_added_to_a_mesh(self):
+        self.mesh(memory_layer(LAKE))
+        box = QgsMeshLayer(self.path("lake.nc"), "lake", "mdal").extent()
+        x, y, length = box.xMaximum(), box.center().y(), box.width()
+        width = length * 111000 / 40
+        joined = memory_layer(f"LINESTRING({x - length / 20} {y}, {x + length} {y})", kind="LineString")
+        apart = memory_layer(f"LINESTRING({x + 3 * length} {y}, {x + 4 * length} {y})", kind="LineString")
+        joined.setName("joined river")
+        apart.setName("river apart")
+        before = self.run_algorithm("convert", INPUT=self.path("lake.nc"), OUTPUT=self.path("before.gpkg"))
+        for source in (self.path("lake.nc"), QgsMeshLayer(self.path("lake.nc"), "lake", "mdal")):
+            self.log.lines.clear()
+            results = self.run_algorithm("rivers", INPUT=source, LINES=[joined, apart], WIDTH=width, ELEMENTS=3,
+                                         OUTPUT=self.path("both.gpkg"))
+            self.assertIn("--elements=3", self.log.text())
+            self.assertIn("1 reach is left out, not connected with the water of the mesh: 'lake 0' near", self.log.text())
+            triangles = QgsVectorLayer(results["TRIANGLES"], "", "ogr")
+            self.assertGreater(triangles.featureCount(), QgsVectorLayer(before["TRIANGLES"], "", "ogr").featureCount())
+            self.assertAlmostEqual(triangles.extent().xMaximum(), x + length, delta=length / 1000)
+            roles = {feature["role"] for feature in QgsVectorLayer(results["BOUNDARIES"], "", "ogr").getFeatures()}
+            self.assertEqual(roles, {"land", "river"})
+        with self.assertRaisesRegex(QgsProcessingException, "river apart.*has no attribute 'width'"):
+            self.run_algorithm("rivers", INPUT=self.path("lake.nc"), LINES=[apart], OUTPUT=self.path("none.gpkg"))
+        self.assertFalse(os.path.exists(self.path("none.gpkg")))
 
     def test_a_mesh_in_a_crs_without_a_code(self):
         self.mesh(memory_layer(LAKE))

@@ -13,11 +13,11 @@ import numpy as np
 
 from . import _coastmesh
 from ._errors import CoastmeshWarning, Error, InputError, OptionError, OutputError, own_errors as _own_errors
-from ._sources import split as _split, split_polygons as _split_polygons
+from ._sources import split as _split, split_lines as _split_lines, split_polygons as _split_polygons
 from ._usage import options, options_text as _options_text, require_known as _require_known
 
 __all__ = ["Error", "InputError", "OptionError", "OutputError", "CoastmeshWarning", "Mesh", "cut", "merge", "mesh", "options",
-           "read", "remesh"]
+           "read", "remesh", "rivers"]
 __version__ = _coastmesh.version
 
 
@@ -82,8 +82,8 @@ class Mesh:
 
     @property
     def node_source(self):
-        """int64 array (n,): the index of each point in the mesh that was changed by `cut` or `remesh`, or in that of `node_mesh`;
-        -1 for new ones. None for other meshes, and after repairs for a target, which change points and triangles."""
+        """int64 array (n,): the index of each point in the mesh that was changed by `cut`, `remesh` or `rivers`, or in that of
+        `node_mesh`; -1 for new ones. None for other meshes, and after repairs for a target, which change points and triangles."""
         return self._made.node_source
 
     @property
@@ -109,7 +109,7 @@ class Mesh:
 
     @property
     def summary(self):
-        """What `cut`, `remesh` or `merge` did, as lines of text; None for other meshes."""
+        """What `cut`, `remesh`, `merge` or `rivers` did, as lines of text; None for other meshes."""
         return self._made.summary or None
 
     @property
@@ -237,6 +237,27 @@ def merge(mesh, inserted, *, progress=None, **keywords):
     return _edited("merge", mesh, progress, keywords, named)
 
 
+def rivers(mesh, lines, *, progress=None, **keywords):
+    """Adds rivers to a mesh: rows of quadrilaterals along centre lines, joined with it; returns a new Mesh.
+
+    Args:
+        mesh: the Mesh to add rivers to, or its path.
+        lines: centre lines: the path of a vector file that GDAL reads, GeoJSON as a dict or a str, or whatever has a
+            __geo_interface__ (shapely, geopandas), or a list or array of such. GeoJSON is in longitude and latitude unless it,
+            or the `crs` of the object, says otherwise. Widths are attributes, or `width`. Lines that meet, or end in one
+            another, are joined.
+        progress: as for `mesh`; the phases are "read", "rivers" and "finish".
+        **keywords: the options listed below. Lengths are metres on the ground, or the plane's units.
+
+    Raises:
+        OptionError, InputError, KeyboardInterrupt (on Ctrl-C), TypeError for an unknown option.
+
+    Rivers, or parts of them, that cannot be added are a CoastmeshWarning; InputError if none can. `quadrilaterals` of the result
+    has the rows. `node_source` and `triangle_source` are indices in the given mesh, -1 for new ones.
+    """
+    return _edited("rivers", mesh, progress, keywords, *_split_lines(lines))
+
+
 def read(path, assume_crs=None):
     """Reads a mesh from a file in any format that coastmesh reads; returns a Mesh. Raises InputError.
 
@@ -281,6 +302,6 @@ def _warned(made, stacklevel=3):
     return Mesh(made)
 
 
-for _function in (mesh, cut, remesh, merge):
+for _function in (mesh, cut, remesh, merge, rivers):
     if _function.__doc__:  # python -OO drops docstrings
         _function.__doc__ += _options_text(_function.__name__)

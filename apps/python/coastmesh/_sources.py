@@ -42,19 +42,39 @@ def split_polygons(keywords):
     """Options as keywords without shapes, and the GeoJSON texts of those that are polygons, by keyword."""
     texts = {}
     for name in ("within", "outside"):
-        given = keywords.get(name)
-        if isinstance(given, np.ndarray) and given.dtype == object:
-            given = given.tolist()
-        if _is_geojson(given):
-            shapes, others = _geojson_text(_geojson_of(given), getattr(given, "crs", None)), None
-        elif isinstance(given, (list, tuple)) and any(_is_geojson(part) for part in given):
-            shapes = _list_text([part for part in given if _is_geojson(part)])
-            others = [part for part in given if not _is_geojson(part)]
-        else:
-            continue
-        texts[name] = [shapes]
-        keywords = {**keywords, name: others}
+        shapes, others = _split_shapes(keywords.get(name))
+        if shapes is not None:
+            texts[name] = [shapes]
+            keywords = {**keywords, name: others}
     return keywords, texts
+
+
+def split_lines(lines):
+    """The lines of `rivers` as a list of paths and one of GeoJSON texts."""
+    shapes, others = _split_shapes(lines)
+    if others is None:
+        others = []
+    elif not isinstance(others, (list, tuple)):
+        others = [others]
+    for part in others:
+        if not isinstance(part, (str, os.PathLike)):
+            raise TypeError(f"rivers() cannot read lines from a {type(part).__name__}: give a path, or GeoJSON")
+    if shapes is None and not others:
+        raise InputError("there is no line of a river")
+    return [os.fsencode(part) for part in others], [] if shapes is None else [shapes]
+
+
+def _split_shapes(given):
+    """The shapes of what may be paths, shapes or a list of both as one GeoJSON text, and what else is there; each None if
+    there is none."""
+    if isinstance(given, np.ndarray) and given.dtype == object:
+        given = given.tolist()
+    if _is_geojson(given):
+        return _geojson_text(_geojson_of(given), getattr(given, "crs", None)), None
+    if isinstance(given, (list, tuple)) and any(_is_geojson(part) for part in given):
+        shapes = _list_text([part for part in given if _is_geojson(part)])
+        return shapes, [part for part in given if not _is_geojson(part)]
+    return None, given
 
 
 def _is_geojson(part):

@@ -6,12 +6,12 @@ from . import _coastmesh
 from ._errors import OptionError
 
 
-FUNCTIONS = ("mesh", "cut", "remesh", "merge")
+FUNCTIONS = ("mesh", "cut", "remesh", "merge", "rivers")
 
 
 def options(function="mesh"):
-    """The options of a function, "mesh", "cut", "remesh" or "merge": name as a keyword, and what `coastmesh mesh --json-usage`
-    or that of the command of this name says of it."""
+    """The options of a function, "mesh", "cut", "remesh", "merge" or "rivers": name as a keyword, and what
+    `coastmesh mesh --json-usage` or that of the command of this name says of it."""
     if function not in FUNCTIONS:
         raise OptionError(f"function: {function!r} is none of {', '.join(FUNCTIONS)}")
     return {_keyword(option["name"]): option for option in json.loads(_coastmesh.usage(function))["options"]}

@@ -39,6 +39,7 @@ LAYERS = {
     "cut": MESH_LAYERS,
     "remesh": MESH_LAYERS,
     "merge": MESH_LAYERS,
+    "rivers": MESH_LAYERS,
     "clean": [("EDITS", "edits", "Edits"), ("PSLG", "pslg", "Plane graph")],
 }
 SHOWN_LAYERS = ("BOUNDARIES", "TRIANGLES", "EDITS", "PSLG")  # nodes are too many to show
@@ -104,6 +105,11 @@ class CoastmeshAlgorithm(QgsProcessingAlgorithm):
                 inserted.setHelp("in this order, in place of the triangles that they cover; each joins the mesh along "
                                  "its open boundaries, or all around if it has none")
                 self.addParameter(inserted)
+            if self.name() == "rivers":
+                lines = QgsProcessingParameterMultipleLayers("LINES", "Centre lines of rivers",
+                                                             QgsProcessing.TypeVectorLine)
+                lines.setHelp("with their widths; lines that meet, or end in one another, are joined")
+                self.addParameter(lines)
         else:
             kinds = [QgsProcessing.TypeVectorPolygon, QgsProcessing.TypeVectorLine]
             self.addParameter(QgsProcessingParameterFeatureSource("INPUT", "Polygons or closed lines", kinds))
@@ -151,6 +157,9 @@ class CoastmeshAlgorithm(QgsProcessingAlgorithm):
 
     def _outputs_of_merge(self):
         self._add_mesh_file("Merged mesh")
+
+    def _outputs_of_rivers(self):
+        self._add_mesh_file("Mesh with rivers")
 
     def _add_mesh_file(self, title):
         self._add_file("OUTPUT", title, self._filters(first="ugrid"))
@@ -233,17 +242,20 @@ class CoastmeshAlgorithm(QgsProcessingAlgorithm):
         if self.verb.reads_mesh:
             # Extents and points are in the CRS of what the mesh was made from.
             made_from = self.parameterAsLayerList(parameters, "MADE_FROM", context) if self.name() == "check" else []
-            inserted = []
+            added = []  # to the mesh
             if self.name() == "merge":
-                inserted = [sources.path_of_mesh(each)
-                            for each in self.parameterAsLayerList(parameters, "INSERTED", context) or []]
+                added = [sources.path_of_mesh(each)
+                         for each in self.parameterAsLayerList(parameters, "INSERTED", context) or []]
+            if self.name() == "rivers":
+                added = [sources.path_of_layer(each)
+                         for each in self.parameterAsLayerList(parameters, "LINES", context) or []]
             path = self._mesh_file(parameters)
             if path:
-                return [path, *inserted], made_from[0].crs() if made_from else QgsCoordinateReferenceSystem()
+                return [path, *added], made_from[0].crs() if made_from else QgsCoordinateReferenceSystem()
             layer = self.parameterAsLayer(parameters, "INPUT", context)
             if layer is None:
                 raise QgsProcessingException(f"'{parameters.get('INPUT')}' is neither a mesh layer nor a mesh file")
-            arguments = [sources.path_of_mesh(layer), *inserted]
+            arguments = [sources.path_of_mesh(layer), *added]
             if layer.crs().isValid():
                 arguments.append(f"--assume-crs={crs_text(layer.crs())}")
             return arguments, made_from[0].crs() if made_from else layer.crs()
@@ -322,7 +334,7 @@ class CoastmeshAlgorithm(QgsProcessingAlgorithm):
         mesh = outputs.get("OUTPUT", "")
         if mesh.lower().endswith(MESH_ENDINGS):
             self._load_layer(context, mesh, "Mesh", "OUTPUT", QgsProcessingUtils.LayerHint.Mesh)
-        elif self.name() == "mesh" or self.name() in ("convert", "cut", "remesh", "merge") and "TRIANGLES" not in results:
+        elif self.name() == "mesh" or LAYERS.get(self.name()) == MESH_LAYERS and "TRIANGLES" not in results:
             feedback.pushInfo(f"QGIS opens {' and '.join(MESH_ENDINGS)} as mesh layers; '{mesh}' was only written.")
         for name, _, title in reversed(LAYERS.get(self.name(), [])):
             if name in SHOWN_LAYERS and name in results:

@@ -21,6 +21,7 @@ VERBS = {
     "cut": Verb("Cut out a part of a mesh", reads_mesh=True, tags=["clip", "extract", "subset", "grid"]),
     "remesh": Verb("Mesh a part of a mesh anew", reads_mesh=True, tags=["refine", "coarsen", "resolution", "grid"]),
     "merge": Verb("Put meshes into another one", reads_mesh=True, tags=["combine", "join", "insert", "nest", "grid"]),
+    "rivers": Verb("Add rivers to a mesh", reads_mesh=True, tags=["channel", "estuary", "quadrilaterals", "grid"]),
 }
 
 # Options that the provider sets, and options that QGIS covers itself: layers and filters of features.
@@ -31,5 +32,5 @@ NEVER_SHOWN = ("--output", "--overwrite", "--progress", "--quiet", "--assume-crs
 BASIC = (
     "--min-angle", "--domain", "--bbox", "--clip", "--within", "--outside", "--water-at", "--size", "--size-shore", "--size-min", "--size-max", "--grade", "--size-raster",
     "--bathymetry", "--simplify", "--min-island-area", "--input", "--target", "--delaunay", "--pinches",
-    "--format",
+    "--format", "--width-column", "--width", "--extent", "--elements",
 )
