@@ -51,7 +51,7 @@ TEST_F(Commands, EveryOptionOfTheJsonUsageIsInTheHelp) {
     }
   }
   EXPECT_EQ(verbs, (std::set<std::string>{"mesh", "check", "info", "plot", "convert", "cut", "clean", "partition",
-                                          "gather", "remesh", "merge"}));
+                                          "gather", "remesh", "merge", "rivers"}));
 }
 
 // GDAL's error would not help.

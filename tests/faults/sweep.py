@@ -49,6 +49,7 @@ CASES = {
     "merge": (["m.gpkg", "m.14"], ["merge", "../source.nc", "../part.nc"] + WRITE,
               SOURCE + [["mesh", "INPUT", "--size-max", "3000", "-o", "fine.nc", "--quiet"],
                         ["cut", "fine.nc", "--bbox=-180,-90,2.000,90", "-o", "part.nc", "--quiet"]]),
+    "rivers": (["m.gpkg", "m.14"], ["rivers", "../source.nc", "RIVERS"] + WRITE, SOURCE),
     "partition": (["partition.prop"], ["partition", "../source.nc", "3"] + WRITE, SOURCE),
     "check": (["m.gpkg"], ["check", "../source.nc", "--input", "INPUT", "--min-angle", "40"] + WRITE, SOURCE),
     "clean": (["m.gpkg"], ["clean", "INPUT", "--report", REPORT] + WRITE, []),

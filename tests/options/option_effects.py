@@ -93,6 +93,10 @@ def write_inputs(folder):
         [[-87.49, 41.61], [-87.485, 41.605], [-87.485, 41.615], [-87.49, 41.61]]])))
     put("clip.geojson", collection(square(-87.497, 41.602, 0.015)))
     put("passage.geojson", collection(feature("LineString", [[-87.488, 41.61], [-87.472, 41.61]])))
+    # One that flows into the lake from the north-east, and one into that; only the first has a width.
+    put("rivers.geojson", collection(
+        feature("LineString", [[-87.481, 41.613], [-87.47, 41.6175], [-87.46, 41.619]],
+                {"width": 60, "breadth": 40, "depth": 3, "bed": 2, "name": "a", "other": "b"})))
     put("line.geojson", collection(feature("LineString", [[-87.495, 41.613], [-87.482, 41.614]])))
     put("region.geojson", collection(square(-87.496, 41.611, 0.004, {"name": "bay"})))
     put("points.geojson", collection(feature("Point", [-87.48, 41.611], {"size": 30.0})))
@@ -116,7 +120,7 @@ def write_inputs(folder):
     for name in ("dem", "part", "sizes"):
         put(name + ".prj", WGS84)
     put("angle.toml", "[mesh]\nsize-max = 150\n[check]\nmin-angle = 50\n[plot]\nsize = 300\n[info]\njson = true\n"
-        "[convert]\nformat = '2dm'\n[clean]\nsimplify = 300\n[partition]\nformat = 'gmsh'\n[gather]\nformat = '2dm'\n[cut]\nformat = '2dm'\n[remesh]\nformat = '2dm'\n[merge]\nformat = '2dm'\n")
+        "[convert]\nformat = '2dm'\n[clean]\nsimplify = 300\n[partition]\nformat = 'gmsh'\n[gather]\nformat = '2dm'\n[cut]\nformat = '2dm'\n[remesh]\nformat = '2dm'\n[merge]\nformat = '2dm'\n[rivers]\nformat = '2dm'\n")
 
 
 def cases():
@@ -283,17 +287,26 @@ def cases():
              "--numbers": Case("numbers.csv"), "--assume-crs": Case("EPSG:4326", input="bare.2dm")}
     for name in ("--bathymetry", "--depth-method", "--depth-sign", "--water-level", "--min-depth"):
         merge[name] = Case(mesh[name].value, extra=mesh[name].extra)
+    rivers = {**common, "--output": Case("more.2dm"), "--format": Case("2dm"), "--quiet": Case(),
+              "--width-column": Case("breadth"), "--depth-column": Case("bed"), "--name-column": Case("other", input="two.nc"),
+              "--width": Case("50", extra=["--width-column", "none"], because="lines have widths of their own"),
+              "--extent": Case("all"), "--elements": Case("4"), "--max-cell-width": Case("20"), "--aspect": Case("1.5"),
+              "--min-angle": Case("15"), "--max-angle": Case("90"), "--grade": Case("0.02"), "--target": Case("mpas"),
+              "--numbers": Case("numbers.csv"), "--assume-crs": Case("EPSG:4326", input="bare.2dm")}
+    for name in ("--bathymetry", "--depth-method", "--depth-sign", "--water-level", "--min-depth"):
+        rivers[name] = Case(mesh[name].value, extra=[*mesh[name].extra, "--depth-column", "none"])
     return {"mesh": mesh, "check": check, "convert": convert, "clean": clean, "plot": plot, "info": info,
-            "partition": partition, "gather": gather, "cut": cut, "remesh": remesh, "merge": merge}
+            "partition": partition, "gather": gather, "cut": cut, "remesh": remesh, "merge": merge, "rivers": rivers}
 
 
 INPUT = {"mesh": "lake.geojson", "clean": "lake.geojson", "check": "lake.nc", "convert": "lake.nc", "plot": "lake.nc",
-         "info": "lake.nc", "partition": "lake.nc", "gather": "lake.shard", "cut": "lake.nc", "remesh": "lake.nc", "merge": "lake.nc"}
+         "info": "lake.nc", "partition": "lake.nc", "gather": "lake.shard", "cut": "lake.nc", "remesh": "lake.nc", "merge": "lake.nc", "rivers": "lake.nc"}
 OUTPUT = {"mesh": "out.nc", "clean": "out.gpkg", "convert": "out.nc", "plot": "out.svg", "partition": "out.nc", "gather": "out.nc",
-          "cut": "out.nc", "remesh": "out.nc", "merge": "out.nc"}
+          "cut": "out.nc", "remesh": "out.nc", "merge": "out.nc", "rivers": "out.nc"}
 # What has to be given after the file.
 ARGUMENTS = {"partition": ["4"], "cut": ["--outside", "region.geojson"],
-             "remesh": ["--outside", "region.geojson", "--size-features", "points.geojson"], "merge": ["west.nc"]}
+             "remesh": ["--outside", "region.geojson", "--size-features", "points.geojson"], "merge": ["west.nc"],
+             "rivers": ["rivers.geojson"]}
 
 
 class Runs:

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""cut, remesh and merge of the Python module, against the commands of these names. PYTHONPATH finds coastmesh.
+"""cut, remesh, merge and rivers of the Python module, against the commands of these names. PYTHONPATH finds coastmesh.
 
 usage: edit_test.py PROGRAM DATA   (the program coastmesh, the folder data/)
 """
@@ -28,6 +28,10 @@ LAKE = os.path.join(DATA, "lake_superior.geojson")
 BOX = (-91, 46.5, -90, 47)
 RING = [[-91, 46.5], [-90, 46.5], [-90, 47], [-91, 47], [-91, 46.5]]
 POLYGON = {"type": "Polygon", "coordinates": [RING]}
+# A river out of the lake's west, one that flows into it, and one far away.
+RIVERS = [([[-92.05, 46.72], [-92.3, 46.72], [-92.6, 46.72]], {"width": 400, "name": "Long"}),
+          ([[-92.3, 46.72], [-92.4, 46.85]], {"width": 200, "depth": 3, "name": "Short"}),
+          ([[-100, 40], [-100, 41]], {"width": 200, "name": "Apart"})]
 DEPTHS = "ncols 2\nnrows 2\nxllcorner -93\nyllcorner 45\ncellsize 5\n-50 -300\n-50 -300\n"
 
 
@@ -35,6 +39,16 @@ class Shape:
     def __init__(self, ring, crs=None):
         self.__geo_interface__ = {"type": "Polygon", "coordinates": [ring]}
         self.crs = crs
+
+
+class Line:
+    def __init__(self, points, properties, crs=None):
+        self.__geo_interface__ = line(points, properties)
+        self.crs = crs
+
+
+def line(points, properties):
+    return {"type": "Feature", "properties": properties, "geometry": {"type": "LineString", "coordinates": points}}
 
 
 class EditTest(unittest.TestCase):
@@ -52,6 +66,8 @@ class EditTest(unittest.TestCase):
         cls.fine.write(cls.path("fine.nc"))
         with open(cls.path("part.geojson"), "w", encoding="utf-8") as file:
             json.dump(POLYGON, file)
+        with open(cls.path("rivers.geojson"), "w", encoding="utf-8") as file:
+            json.dump({"type": "FeatureCollection", "features": [line(*river) for river in RIVERS]}, file)
 
     @classmethod
     def path(cls, name):
@@ -160,6 +176,37 @@ class CommandsTest(EditTest):
             both, _ = self.caught(coastmesh.merge, files[0], files[1:1 + count], grade=0.3)
             self.assert_same(both, expected)
 
+    def test_rivers(self):
+        path = self.path("rivers.geojson")
+        text, warned, expected, rows = self.run_program("rivers", self.path("coarse.nc"), path, "--elements", "3", "--grade", "0.3")
+        self.assertTrue(any("'Apart' near" in line for line in warned), warned)
+        lines = [line(*river) for river in RIVERS]
+        for mesh, given in ((self.coarse, path), (self.path("coarse.nc"), [path]), (self.coarse, lines),
+                            (self.coarse, {"type": "FeatureCollection", "features": lines})):
+            both, said = self.caught(coastmesh.rivers, mesh, given, elements=3, grade=0.3)
+            self.assert_same(both, expected)
+            np.testing.assert_array_equal(both.quadrilaterals, expected.quadrilaterals)
+            self.assert_sources_of_elements(both, rows)
+            # The program warns of what its file cannot hold, too.
+            self.assertEqual((both.summary, said), (text, [line for line in warned if "cannot hold" not in line]))
+        self.assertGreater(len(both.quadrilaterals), 50)
+        self.assertEqual([one["role"] for one in both.boundaries].count("river"), 2)
+        self.assertEqual(set(both.node_source[both.quadrilaterals].ravel()), {-1})
+        kept = both.node_source >= 0
+        self.assertTrue(kept.any() and not kept.all())
+        np.testing.assert_array_equal(both.points[kept], self.coarse.points[both.node_source[kept]])
+        kept = both.triangle_source >= 0
+        np.testing.assert_array_equal(both.node_source[both.triangles[kept]], self.coarse.triangles[both.triangle_source[kept]])
+        self.assertIsNone(both.node_mesh)
+
+    def assert_sources_of_elements(self, mesh, rows):
+        """As assert_numbers, for meshes with quadrilaterals, which the table counts as elements."""
+        nodes = [int(row["source"] or 0) - 1 for row in rows if row["item"] == "node"]
+        np.testing.assert_array_equal(mesh.node_source, nodes)
+        kept = [int(row["source"]) - 1 for row in rows if row["item"] == "triangle" and row["source"]]
+        np.testing.assert_array_equal(mesh.triangle_source[mesh.triangle_source >= 0], kept)
+        self.assertFalse([row for row in rows if row["item"] == "quadrilateral" and row["source"]])
+
     def test_repairs_are_reported_and_leave_no_numbers(self):
         part, said = self.caught(coastmesh.cut, self.coarse, bbox=BOX, target=["adcirc", "schism"])
         whole = coastmesh.cut(self.coarse, bbox=BOX)
@@ -176,7 +223,7 @@ class CommandsTest(EditTest):
     def test_options_are_those_of_the_commands(self):
         with open(os.path.join(os.path.dirname(coastmesh.__file__), "__init__.pyi"), encoding="utf-8") as file:
             stubs = file.read()
-        for name in ("cut", "remesh", "merge"):
+        for name in ("cut", "remesh", "merge", "rivers"):
             usage = json.loads(subprocess.run([PROGRAM, name, "--json-usage"], capture_output=True, check=True).stdout)
             written = {"output", "format", "numbers", "overwrite", "quiet", "config"}
             keywords = {option["name"][2:].replace("-", "_") for option in usage["options"]} - written
@@ -186,7 +233,7 @@ class CommandsTest(EditTest):
             for keyword in keywords:
                 self.assertIn(f"        {keyword}: ", function.__doc__)
                 self.assertIn(f"    {keyword}: Optional[", stub)
-        with self.assertRaisesRegex(coastmesh.OptionError, "function: 'plot' is none of mesh, cut, remesh, merge"):
+        with self.assertRaisesRegex(coastmesh.OptionError, "function: 'plot' is none of mesh, cut, remesh, merge, rivers"):
             coastmesh.options("plot")
 
 
@@ -214,13 +261,37 @@ class ArgumentsTest(EditTest):
         east = coastmesh.cut(self.coarse, within=POLYGON, outside=Shape(halves[0])).triangle_source
         self.assertTrue(0 < len(east) < len(expected) and set(east) <= set(expected))
 
+    def test_lines_of_any_kind_that_say_the_same_are_the_same(self):
+        points, properties = RIVERS[0]
+        expected = coastmesh.rivers(self.coarse, line(points, properties))
+        self.assertTrue(len(expected.quadrilaterals))
+        radius = 6378137.0
+        mercator = [[radius * math.radians(x), radius * math.log(math.tan(math.pi / 4 + math.radians(y) / 2))] for x, y in points]
+        with open(self.path("long.geojson"), "w", encoding="utf-8") as file:
+            json.dump(line(points, properties), file)
+        for given in (json.dumps(line(points, properties)), Line(points, properties), [Line(points, properties)],
+                      np.array([Line(points, properties)], dtype=object), Line(points, {"width": np.float64(400)}),
+                      self.path("long.geojson"), (self.path("long.geojson"),)):
+            self.assert_same(coastmesh.rivers(self.coarse, given), expected)
+        bare = {"type": "LineString", "coordinates": points}
+        self.assert_same(coastmesh.rivers(self.coarse, bare, width=400), expected)
+        self.assert_same(coastmesh.rivers(self.coarse, line(points, {"breadth": 400}), width_column="breadth"), expected)
+        projected = coastmesh.rivers(self.coarse, Line(mercator, properties, "EPSG:3857"))
+        np.testing.assert_allclose(projected.points, expected.points, atol=1e-9)
+        # Paths and lines at hand in one list.
+        mixed = coastmesh.rivers(self.coarse, [self.path("long.geojson"), Line(*RIVERS[1])])
+        at_hand = coastmesh.rivers(self.coarse, [line(*RIVERS[0]), line(*RIVERS[1])])
+        for name in ("points", "triangles", "quadrilaterals", "z"):
+            np.testing.assert_array_equal(getattr(mixed, name), getattr(at_hand, name))
+
     def test_what_is_given_stays_as_it_was(self):
         before = [pickle.dumps(mesh._made) for mesh in (self.coarse, self.fine)]
         view, first = self.coarse.points, self.coarse.points.copy()
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             for made in (coastmesh.cut(self.coarse, bbox=BOX), coastmesh.remesh(self.coarse, bbox=BOX, size=3000),
-                         coastmesh.merge(self.coarse, self.fine), coastmesh.cut(self.coarse, bbox=BOX, target="adcirc")):
+                         coastmesh.merge(self.coarse, self.fine), coastmesh.cut(self.coarse, bbox=BOX, target="adcirc"),
+                         coastmesh.rivers(self.coarse, line(*RIVERS[0]))):
                 self.assertFalse(np.shares_memory(made.points, self.coarse.points))
         self.assertEqual([pickle.dumps(mesh._made) for mesh in (self.coarse, self.fine)], before)
         np.testing.assert_array_equal(view, first)
@@ -232,7 +303,8 @@ class ArgumentsTest(EditTest):
                 function(*arguments, **options)
             self.assertNotIn("--", str(caught.exception))
 
-        cut, remesh, merge = coastmesh.cut, coastmesh.remesh, coastmesh.merge
+        cut, remesh, merge, rivers = coastmesh.cut, coastmesh.remesh, coastmesh.merge, coastmesh.rivers
+        bare = {"type": "LineString", "coordinates": RIVERS[0][0]}
         refused(TypeError, r"^cut\(\) has no option 'withn'; did you mean 'within'", cut, self.coarse, withn=POLYGON)
         refused(TypeError, r"^remesh\(\) has no option 'numbers'", remesh, self.coarse, numbers="n.csv")
         refused(TypeError, r"^merge\(\) has no option 'bbox'", merge, self.coarse, self.fine, bbox=BOX)
@@ -258,6 +330,18 @@ class ArgumentsTest(EditTest):
         refused(coastmesh.InputError, "^'inserted' cannot be put into 'mesh': ", merge, self.coarse, self.coarse)
         refused(coastmesh.InputError, "nowhere.nc", merge, self.coarse, [self.fine, "nowhere.nc"])
         refused(coastmesh.InputError, "nowhere.nc", cut, "nowhere.nc", bbox=BOX)
+        refused(TypeError, r"^rivers\(\) has no option 'size'", rivers, self.coarse, bare, size=3)
+        refused(TypeError, r"^rivers\(\) cannot change a dict", rivers, bare, bare, width=3)
+        refused(TypeError, r"^rivers\(\) cannot read lines from a int: give", rivers, self.coarse, [bare, 3], width=3)
+        refused(TypeError, r"^rivers\(\) cannot read lines from a NoneType: give", rivers, self.coarse, None)
+        refused(coastmesh.InputError, "^there is no line of a river$", rivers, self.coarse, [])
+        refused(coastmesh.InputError, "^'GeoJSON'.* has no attribute 'width' .*name another with width_column, or give one width ",
+                rivers, self.coarse, bare)
+        refused(coastmesh.InputError, "^'GeoJSON', feature 0: is a polygon", rivers, self.coarse, POLYGON, width=3)
+        refused(coastmesh.InputError, "^no river can be added to 'mesh': .*'Apart' near", rivers, self.coarse, line(*RIVERS[2]))
+        refused(coastmesh.InputError, "nowhere.gpkg", rivers, self.coarse, "nowhere.gpkg", width=3)
+        refused(coastmesh.OptionError, "^elements: ", rivers, self.coarse, bare, elements=0)
+        refused(coastmesh.OptionError, "^extent: ", rivers, self.coarse, bare, extent="some")
 
     def test_a_crs_is_assumed_of_meshes_without(self):
         with warnings.catch_warnings():

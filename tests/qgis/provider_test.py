@@ -574,7 +574,7 @@ class ProviderTest(unittest.TestCase):
             self.assertGreater(triangles.featureCount(), QgsVectorLayer(before["TRIANGLES"], "", "ogr").featureCount())
             self.assertAlmostEqual(triangles.extent().xMaximum(), x + length, delta=length / 1000)
             roles = {feature["role"] for feature in QgsVectorLayer(results["BOUNDARIES"], "", "ogr").getFeatures()}
-            self.assertEqual(roles, {"land", "river"})
+            self.assertEqual(roles, {"land", "island", "river"})
         with self.assertRaisesRegex(QgsProcessingException, "river apart.*has no attribute 'width'"):
             self.run_algorithm("rivers", INPUT=self.path("lake.nc"), LINES=[apart], OUTPUT=self.path("none.gpkg"))
         self.assertFalse(os.path.exists(self.path("none.gpkg")))

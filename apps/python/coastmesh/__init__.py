@@ -40,8 +40,8 @@ class Mesh:
 
     @property
     def quadrilaterals(self):
-        """uint32 array (q, 4): the points around each quadrilateral of a mesh that was read; both halves of it are among
-        the triangles."""
+        """uint32 array (q, 4): the points around each quadrilateral, of `rivers` or of a mesh that was read; both halves of
+        it are among the triangles."""
         return self._made.quadrilaterals
 
     @property

@@ -52,7 +52,7 @@ def split_polygons(keywords):
 def split_lines(lines):
     """The lines of `rivers` as a list of paths and one of GeoJSON texts."""
     shapes, others = _split_shapes(lines)
-    if others is None:
+    if shapes is not None and others is None:
         others = []
     elif not isinstance(others, (list, tuple)):
         others = [others]

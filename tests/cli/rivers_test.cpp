@@ -1,0 +1,181 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/cli/program.hpp"
+
+namespace coastmesh::test {
+
+namespace {
+
+using Json = nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+// A square sea of 10 km in a plane, and rivers from the east.
+class Rivers : public ProgramTest {
+ protected:
+  Rivers() {
+    write("sea.poly", "4 2 0 0\n1 0 0\n2 10000 0\n3 10000 10000\n4 0 10000\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n");
+    write("bed.asc", "ncols 2\nnrows 2\nxllcorner -10000\nyllcorner -10000\ncellsize 20000\n-9 -9\n-9 -9\n");
+    const ProgramRun run = runProgram(
+        {"mesh", file("sea.poly"), "-o", sea(), "--size-max", "1000", "--bathymetry", file("bed.asc"), "--quiet"});
+    EXPECT_EQ(run.code, 0) << run.errors;
+  }
+
+  std::string sea() const { return file("sea.nc"); }
+  // The path of a file of lines. Each row: the corners, the width, the depth, the name.
+  std::string lines(const std::string& name, const std::vector<std::string>& rows) const {
+    std::string text = "WKT,width,depth,name\n";
+    for (const std::string& row : rows) text += row + "\n";
+    return write(name, text);
+  }
+  std::string twoRivers() const { return lines("rivers.csv", {kMain, kBranch}); }
+  Json infoOf(const std::string& name) const {
+    const ProgramRun run = runProgram({"info", file(name), "--json"});
+    EXPECT_EQ(run.code, 0) << run.errors;
+    return Json::parse(run.output);
+  }
+
+  static constexpr const char* kMain = "\"LINESTRING (9800 5000, 13000 5000, 20000 5000)\",200,4,Main";
+  static constexpr const char* kBranch = "\"LINESTRING (13000 5000, 15000 9000)\",100,2,Branch";
+  static constexpr const char* kApart = "\"LINESTRING (40000 5000, 50000 5000)\",100,2,Apart";
+};
+
+// Counts of rows by item, and of those without a number before.
+struct NumberTable {
+  std::map<std::string, std::size_t> rows, new_ones;
+
+  explicit NumberTable(const std::string& text) {
+    std::istringstream lines(text);
+    std::string line;
+    std::getline(lines, line);
+    EXPECT_EQ(line, "item,number,source");
+    while (std::getline(lines, line)) {
+      const std::string item = line.substr(0, line.find(','));
+      ++rows[item];
+      if (line.back() == ',') ++new_ones[item];
+    }
+  }
+};
+
+TEST_F(Rivers, TwoThatMeetAreAddedToASea) {
+  const ProgramRun run = runProgram(
+      {"rivers", sea(), twoRivers(), "-o", file("both.nc"), "-o", file("both.gr3"), "--numbers", file("numbers.csv")});
+  ASSERT_EQ(run.code, 0) << run.errors;
+  EXPECT_THAT(run.output, HasSubstr("rivers: 3 reaches, "));
+  EXPECT_THAT(run.output, HasSubstr(" at 1 junction, 2 river boundaries\n"));
+  EXPECT_THAT(run.errors, Not(HasSubstr("left out")));
+  EXPECT_EQ(runProgram({"check", file("both.gr3"), "--target", "schism"}).code, 0);
+  const ProgramRun check = runProgram({"check", file("both.nc"), "--target", "schism"});
+  EXPECT_EQ(check.code, 0) << check.output;
+
+  // Two across and three times as long as wide: 10 km of 100 m by 300 m, and 4.5 km of 50 m by 150 m.
+  const Json info = infoOf("both.nc"), before = infoOf("sea.nc");
+  const std::size_t quads = info["quadrilaterals"]["count"];
+  EXPECT_GT(quads, 100u);
+  EXPECT_LT(quads, 140u);
+  EXPECT_EQ(info["pieces"], 1);
+  EXPECT_EQ(info["boundaries"]["river"], 2);
+  EXPECT_FALSE(info["boundaries"].contains("open"));
+
+  const NumberTable table(readText(file("numbers.csv")));
+  EXPECT_EQ(table.rows.at("node"), info["nodes"].get<std::size_t>());
+  EXPECT_EQ(table.rows.at("triangle"), info["triangles"].get<std::size_t>());
+  EXPECT_EQ(table.rows.at("quadrilateral"), quads);
+  EXPECT_EQ(table.new_ones.at("quadrilateral"), quads);
+  const std::size_t kept = table.rows.at("triangle") - table.new_ones.at("triangle");
+  EXPECT_GT(kept, before["triangles"].get<std::size_t>() / 2);
+  EXPECT_LT(kept, before["triangles"].get<std::size_t>());
+}
+
+TEST_F(Rivers, HaveTheDepthsOfTheirLines) {
+  ASSERT_EQ(runProgram({"rivers", sea(), twoRivers(), "-o", file("both.nc"), "--quiet"}).code, 0);
+  const Json z = infoOf("both.nc")["z"];
+  EXPECT_NEAR(z[0], -9.0, 1e-9);
+  EXPECT_EQ(z[1], -2.0);
+}
+
+TEST_F(Rivers, OptionsSayHowTheRowsAre) {
+  const auto quadsWith = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> all{"rivers", sea(), lines("main.csv", {kMain}), "-o", file("x.nc"), "--overwrite"};
+    all.insert(all.end(), options.begin(), options.end());
+    const ProgramRun run = runProgram(all);
+    EXPECT_EQ(run.code, 0) << run.errors;
+    EXPECT_EQ(runProgram({"check", file("x.nc")}).code, 0);
+    return infoOf("x.nc")["quadrilaterals"]["count"].get<double>();
+  };
+  const double usual = quadsWith({});
+  // Half as wide and three times as long as that: twice as many along, twice as many across.
+  EXPECT_NEAR(quadsWith({"--elements", "4"}) / usual, 4.0, 0.5);
+  EXPECT_NEAR(quadsWith({"--max-cell-width", "50"}) / usual, 4.0, 0.5);
+  EXPECT_NEAR(quadsWith({"--aspect", "1.5"}) / usual, 2.0, 0.25);
+  EXPECT_EQ(quadsWith({"--width", "50"}), usual);  // all have one of their own
+  EXPECT_GT(quadsWith({"--width-column", "depth"}), 20.0 * usual);
+}
+
+TEST_F(Rivers, InTheWaterOfTheMeshWithExtentAll) {
+  const std::string inside = lines("channel.csv", {"\"LINESTRING (2000 5000, 8000 5000)\",200,12,Channel"});
+  const ProgramRun outside = runProgram({"rivers", sea(), inside, "-o", file("x.nc")});
+  EXPECT_EQ(outside.code, 3);
+  EXPECT_THAT(outside.errors, HasSubstr("'Channel'"));
+  EXPECT_THAT(outside.errors, HasSubstr("--extent all"));
+  EXPECT_FALSE(std::filesystem::exists(file("x.nc")));
+  const ProgramRun all = runProgram({"rivers", sea(), inside, "--extent", "all", "-o", file("x.nc")});
+  ASSERT_EQ(all.code, 0) << all.errors;
+  EXPECT_EQ(runProgram({"check", file("x.nc"), "--target", "schism"}).code, 0);
+  const Json info = infoOf("x.nc");
+  EXPECT_GE(info["quadrilaterals"]["count"], 2 * 19);
+  EXPECT_FALSE(info["boundaries"].contains("river"));
+  EXPECT_EQ(info["z"][0], -12.0);
+}
+
+TEST_F(Rivers, OneThatIsApartIsNamed) {
+  const ProgramRun run =
+      runProgram({"rivers", sea(), lines("three.csv", {kMain, kApart, kBranch}), "-o", file("x.nc")});
+  EXPECT_EQ(run.code, 0) << run.errors;
+  EXPECT_THAT(run.errors, HasSubstr("warning: 1 reach is left out, not connected with the water of the mesh: 'Apart' "
+                                    "near (45000, 5000)"));
+  EXPECT_THAT(run.output, HasSubstr("2 river boundaries"));
+}
+
+TEST_F(Rivers, RefusesAndWritesNothing) {
+  const auto refused = [&](const std::vector<std::string>& arguments, int code, const std::vector<std::string>& texts) {
+    std::vector<std::string> all{"rivers", sea()};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    all.insert(all.end(), {"-o", file("x.nc")});
+    const ProgramRun run = runProgram(all);
+    EXPECT_EQ(run.code, code) << run.errors;
+    for (const std::string& text : texts) EXPECT_THAT(run.errors, HasSubstr(text));
+    EXPECT_FALSE(std::filesystem::exists(file("x.nc")));
+  };
+  const std::string good = twoRivers(), line = "\"LINESTRING (9800 5000, 13000 5000)\",";
+  refused({}, 2, {"LINES"});
+  refused({file("none.gpkg")}, 3, {"none.gpkg"});
+  refused({lines("far.csv", {kApart})}, 3, {"no river can be added to", "sea.nc'", "not connected", "'Apart'"});
+  refused({good, "--width-column", "breadth"}, 3,
+          {"rivers.csv'", "no attribute 'breadth'", "--width-column", "--width"});
+  refused({lines("lacking.csv", {kMain, line + ",2,a"})}, 3, {"lacking.csv', feature 2", "'width'"});
+  refused({lines("zero.csv", {line + "0,2,a"})}, 3, {"zero.csv', feature 1", "'width'"});
+  refused({lines("text.csv", {kMain, line + "broad,2,a"})}, 3, {"text.csv', feature 2", "is broad, not a number"});
+  refused({lines("area.csv", {"\"POLYGON ((9800 5000, 13000 5000, 13000 6000, 9800 5000))\",200,4,a"})}, 3,
+          {"area.csv', feature 1", "is a polygon, not the centre line of a river"});
+  refused({lines("point.csv", {"POINT (9800 5000),200,4,a"})}, 3, {"point.csv', feature 1", "is a point"});
+  refused({lines("empty.csv", {})}, 3, {"empty.csv'", "no feature in it is a line"});
+  refused({good, "--elements", "0"}, 2, {"--elements"});
+  refused({good, "--extent", "some"}, 2, {"--extent"});
+  refused({good, "--numbers", file("n.csv"), "--target", "schism"}, 2, {"--numbers"});
+  const ProgramRun over = runProgram({"rivers", sea(), good, "-o", sea(), "--overwrite"});
+  EXPECT_EQ(over.code, 2) << over.errors;
+}
+
+}  // namespace
+
+}  // namespace coastmesh::test
