@@ -29,6 +29,7 @@ CODES = {"fail": {3, 4}, "gone": {3, 4}, "short": {4}, "EIO": {4}, "ENOSPC": {4}
 MESH = ["mesh", "INPUT", "--overwrite", "--threads", "THREADS", "--quiet"]
 WRITE = ["--overwrite", "--quiet"]
 SOURCE = [["mesh", "INPUT", "-o", "source.nc", "--quiet"]]
+RIVERS = pathlib.Path(__file__).resolve().parent / "river.geojson"  # into the lake of lake.geojson
 KEPT = "kept"  # the folder of --checkpoint
 # For each case: the outputs, the command without them, and commands to run before it. INPUT is the file to mesh. KEPT
 # remains if a run ends early; a run that resumes from it must make the same files. The case `resumed` starts with the
@@ -90,7 +91,7 @@ class Sweep:
         self.found = collections.defaultdict(list)
         self.libraries = collections.Counter()
         outputs, command, before = CASES[case]
-        given = {"INPUT": str(input_file), "THREADS": str(threads)}
+        given = {"INPUT": str(input_file), "RIVERS": str(RIVERS), "THREADS": str(threads)}
         for each in before:
             subprocess.run([program] + [given.get(word, word) for word in each], cwd=scratch, check=True)
         self.command = [*launcher, program] + [given.get(word, word) for word in command]

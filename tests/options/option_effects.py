@@ -93,7 +93,7 @@ def write_inputs(folder):
         [[-87.49, 41.61], [-87.485, 41.605], [-87.485, 41.615], [-87.49, 41.61]]])))
     put("clip.geojson", collection(square(-87.497, 41.602, 0.015)))
     put("passage.geojson", collection(feature("LineString", [[-87.488, 41.61], [-87.472, 41.61]])))
-    # One that flows into the lake from the north-east, and one into that; only the first has a width.
+    # It flows into the lake from the north-east.
     put("rivers.geojson", collection(
         feature("LineString", [[-87.481, 41.613], [-87.47, 41.6175], [-87.46, 41.619]],
                 {"width": 60, "breadth": 40, "depth": 3, "bed": 2, "name": "a", "other": "b"})))
@@ -287,14 +287,18 @@ def cases():
              "--numbers": Case("numbers.csv"), "--assume-crs": Case("EPSG:4326", input="bare.2dm")}
     for name in ("--bathymetry", "--depth-method", "--depth-sign", "--water-level", "--min-depth"):
         merge[name] = Case(mesh[name].value, extra=mesh[name].extra)
-    rivers = {**common, "--output": Case("more.2dm"), "--format": Case("2dm"), "--quiet": Case(),
-              "--width-column": Case("breadth"), "--depth-column": Case("bed"), "--name-column": Case("other", input="two.nc"),
+    # A .2dm cannot say that only rivers have depths.
+    bare = ["--depth-column", "none"]
+    rivers = {**common, "--config": Case("angle.toml", extra=bare), "--output": Case("more.2dm", extra=bare),
+              "--format": Case("2dm", extra=bare), "--quiet": Case(),
+              "--width-column": Case("breadth"), "--depth-column": Case("bed"), 
+              "--name-column": Case("other", extra=["--output", "out.gpkg"], because="a .nc has no names"),
               "--width": Case("50", extra=["--width-column", "none"], because="lines have widths of their own"),
               "--extent": Case("all"), "--elements": Case("4"), "--max-cell-width": Case("20"), "--aspect": Case("1.5"),
               "--min-angle": Case("15"), "--max-angle": Case("90"), "--grade": Case("0.02"), "--target": Case("mpas"),
               "--numbers": Case("numbers.csv"), "--assume-crs": Case("EPSG:4326", input="bare.2dm")}
     for name in ("--bathymetry", "--depth-method", "--depth-sign", "--water-level", "--min-depth"):
-        rivers[name] = Case(mesh[name].value, extra=[*mesh[name].extra, "--depth-column", "none"])
+        rivers[name] = Case(mesh[name].value, extra=[*mesh[name].extra, *bare])
     return {"mesh": mesh, "check": check, "convert": convert, "clean": clean, "plot": plot, "info": info,
             "partition": partition, "gather": gather, "cut": cut, "remesh": remesh, "merge": merge, "rivers": rivers}
 
