@@ -23,8 +23,8 @@ struct GivenLines {
   std::vector<std::string> paths, texts;  // files and GeoJSON
 };
 
-// The functions `cut`, `remesh`, `merge` and `rivers`: what the commands of these names do, but for writing. They run like
-// `runInBackground`. Throw OptionError, InputError.
+// The functions `cut`, `remesh`, `merge` and `rivers`: what the commands of these names do, but for writing. They run
+// like `runInBackground`. Throw OptionError, InputError.
 MeshResult cutFromPython(const EditArguments& given);
 MeshResult remeshFromPython(const EditArguments& given);
 // `inserted`: as EditArguments::mesh, with a name for messages.
