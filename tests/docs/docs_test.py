@@ -102,6 +102,10 @@ class Folder:
             self.run("coastmesh clean lake.geojson -o lakes.gpkg && coastmesh mesh lake.geojson -o grid.2dm "
                      "&& coastmesh mesh lake.geojson --target adcirc -o fort.14 "
                      "&& coastmesh mesh lake.geojson --target schism -o hgrid.gr3")
+            with open(os.path.join(self.path, "rivers.geojson"), "w", encoding="utf-8") as rivers:
+                rivers.write('{"type": "Feature", "properties": {"width": 400, "name": "a"}, "geometry": {"type": "LineString", '
+                             '"coordinates": [[-92.05, 46.72], [-92.3, 46.72], [-92.6, 46.72]]}}')
+            self.run("ogr2ogr rivers.gpkg rivers.geojson && coastmesh mesh lake.geojson -o sea.nc -o plain.nc")
             self.run("for k in 1 2 3 4 5 6 7; do coastmesh mesh lakes.gpkg --shard $k/7 -o lakes-$k.shard; done")
 
     def takeMpi(self):

@@ -93,10 +93,11 @@ def write_inputs(folder):
         [[-87.49, 41.61], [-87.485, 41.605], [-87.485, 41.615], [-87.49, 41.61]]])))
     put("clip.geojson", collection(square(-87.497, 41.602, 0.015)))
     put("passage.geojson", collection(feature("LineString", [[-87.488, 41.61], [-87.472, 41.61]])))
-    # It flows into the lake from the north-east.
+    # Both flow towards the lake from the east; the second ends 100 m short of it.
     put("rivers.geojson", collection(
         feature("LineString", [[-87.481, 41.613], [-87.47, 41.6175], [-87.46, 41.619]],
-                {"width": 60, "breadth": 40, "depth": 3, "bed": 2, "name": "a", "other": "b"})))
+                {"width": 60, "breadth": 40, "depth": 3, "bed": 2, "name": "a", "other": "b"}),
+        feature("LineString", [[-87.4768, 41.601], [-87.46, 41.598]], {"width": 60, "breadth": 40})))
     put("line.geojson", collection(feature("LineString", [[-87.495, 41.613], [-87.482, 41.614]])))
     put("region.geojson", collection(square(-87.496, 41.611, 0.004, {"name": "bay"})))
     put("points.geojson", collection(feature("Point", [-87.48, 41.611], {"size": 30.0})))
@@ -287,18 +288,15 @@ def cases():
              "--numbers": Case("numbers.csv"), "--assume-crs": Case("EPSG:4326", input="bare.2dm")}
     for name in ("--bathymetry", "--depth-method", "--depth-sign", "--water-level", "--min-depth"):
         merge[name] = Case(mesh[name].value, extra=mesh[name].extra)
-    # A .2dm cannot say that only rivers have depths.
-    bare = ["--depth-column", "none"]
-    rivers = {**common, "--config": Case("angle.toml", extra=bare), "--output": Case("more.2dm", extra=bare),
-              "--format": Case("2dm", extra=bare), "--quiet": Case(),
-              "--width-column": Case("breadth"), "--depth-column": Case("bed"), 
+    rivers = {**common, "--output": Case("more.2dm"), "--format": Case("2dm"), "--quiet": Case(), "--reach": Case("0"),
+              "--width-column": Case("breadth"), "--depth-column": Case("bed", input="deep.nc"), 
               "--name-column": Case("other", extra=["--output", "out.gpkg"], because="a .nc has no names"),
               "--width": Case("50", extra=["--width-column", "none"], because="lines have widths of their own"),
               "--extent": Case("all"), "--elements": Case("4"), "--max-cell-width": Case("20"), "--aspect": Case("1.5"),
               "--min-angle": Case("15"), "--max-angle": Case("90"), "--grade": Case("0.02"), "--target": Case("mpas"),
               "--numbers": Case("numbers.csv"), "--assume-crs": Case("EPSG:4326", input="bare.2dm")}
     for name in ("--bathymetry", "--depth-method", "--depth-sign", "--water-level", "--min-depth"):
-        rivers[name] = Case(mesh[name].value, extra=[*mesh[name].extra, *bare])
+        rivers[name] = Case(mesh[name].value, extra=[*mesh[name].extra, "--depth-column", "none"])
     return {"mesh": mesh, "check": check, "convert": convert, "clean": clean, "plot": plot, "info": info,
             "partition": partition, "gather": gather, "cut": cut, "remesh": remesh, "merge": merge, "rivers": rivers}
 
