@@ -36,7 +36,9 @@ std::string whyText(RiverLoss why) {
     case RiverLoss::InWater:
       return "in the water of the mesh (--extent all has rows there too)";
     case RiverLoss::Crowded:
-      return "without room beside wider ones";
+      return "without room beside others";
+    case RiverLoss::Within:
+      return "within wider ones, or given twice";
     case RiverLoss::Short:
       break;
   }
@@ -61,9 +63,16 @@ std::string lostText(const std::vector<LostRiver>& all, RiverLoss why, const Gri
 
 std::vector<std::string> lostTexts(const RiverReport& report, const Grid& grid) {
   std::vector<std::string> texts;
-  for (const RiverLoss why : {RiverLoss::Apart, RiverLoss::InWater, RiverLoss::Crowded, RiverLoss::Short})
+  for (const RiverLoss why :
+       {RiverLoss::Apart, RiverLoss::InWater, RiverLoss::Crowded, RiverLoss::Within, RiverLoss::Short})
     if (std::string text = lostText(report.lost, why, grid); !text.empty()) texts.push_back(std::move(text));
   return texts;
+}
+
+std::string joined(const std::vector<std::string>& texts) {
+  std::string all;
+  for (const std::string& text : texts) all += (all.empty() ? "" : "; ") + text;
+  return all;
 }
 
 // Of the lines, else of rasters, else of the mesh there; nodes without any get what their neighbours have.
@@ -161,7 +170,7 @@ EditedMesh runRiversJob(Grid& grid, const std::string& name, const std::vector<s
     options.junctions = job.merge.mesh.refine;
     LaidRivers laid = layRivers(readLines(lines, grid.crs, job), grid, options, of_edit, loop);
     const std::vector<std::string> lost = lostTexts(laid.report, grid);
-    if (laid.grid.triangles.empty()) throw InputError("no river can be added to '" + name + "': " + lost.front());
+    if (laid.grid.triangles.empty()) throw InputError("no river can be added to '" + name + "': " + joined(lost));
     for (const std::string& text : lost) warn(text);
     MeshEdit edit;
     edit.warnings = {narrowedText(laid.report), setRiverDepths(laid, grid, job.merge.depth, of_edit, loop)};

@@ -82,6 +82,8 @@ class RiverLayer {
   LaidRivers lay() {
     for (const RiverLine& line : lines_) rivers_.push_back(inPlane(line));
     network_ = riverNetwork(rivers_);
+    for (const std::uint32_t line : network_.within)
+      report_.lost.push_back({RiverLoss::Within, nameOf(lines_[line]), lines_[line].points.front(), 0.0});
     const double scale = plane_.scaleAt(rivers_.front().points.front());
     connection_ = connectRivers(network_, rivers_, water_, options_.reach_m * scale);
     report_.extended = connection_.extended;

@@ -34,7 +34,8 @@ struct RiverOptions {
 enum class RiverLoss {
   Apart,    // it is not connected with the mesh
   InWater,  // the mesh has water there already
-  Crowded,  // wider ones leave it no room
+  Crowded,  // others leave it no room
+  Within,   // it is within a wider one, or given twice
   Short     // it is shorter than a row
 };
 

@@ -13,6 +13,7 @@
 #include "core/union_find.hpp"
 #include "gis/geometry/box_tree.hpp"
 #include "gis/geometry/crossing.hpp"
+#include "gis/rivers/river_pieces.hpp"
 
 namespace coastmesh {
 
@@ -258,6 +259,21 @@ class NetworkBuilder {
 
 }  // namespace
 
-RiverNetwork riverNetwork(std::span<const PlaneRiver> rivers) { return NetworkBuilder(rivers).build(); }
+RiverNetwork riverNetwork(std::span<const PlaneRiver> rivers) {
+  std::vector<PlaneRiver> parts;
+  std::vector<std::uint32_t> line_of;
+  std::vector<std::uint8_t> has_part(rivers.size(), 0);
+  for (RiverPiece& piece : piecesOf(rivers)) {
+    parts.push_back(std::move(piece.river));
+    line_of.push_back(piece.line);
+    has_part[piece.line] = 1;
+  }
+  RiverNetwork network = NetworkBuilder(parts).build();
+  for (RiverReach& reach : network.reaches)
+    for (std::uint32_t& line : reach.line_of) line = line_of[line];
+  for (std::uint32_t line = 0; line < rivers.size(); ++line)
+    if (has_part[line] == 0) network.within.push_back(line);
+  return network;
+}
 
 }  // namespace coastmesh

@@ -5,14 +5,9 @@
 #include <vector>
 
 #include "core/point.hpp"
+#include "gis/rivers/plane_river.hpp"
 
 namespace coastmesh {
-
-// A centre line in the working plane.
-struct PlaneRiver {
-  std::vector<Point> points;  // at least two, no two that follow one another are equal
-  double width = 0.0;         // plane units
-};
 
 // Centre lines between two nodes of the network, joined end to end.
 struct RiverReach {
@@ -25,10 +20,12 @@ struct RiverReach {
 struct RiverNetwork {
   std::vector<Point> nodes;
   std::vector<RiverReach> reaches;
+  std::vector<std::uint32_t> within;  // lines that are within wider ones, or given before: they have no reach
 };
 
 // Lines become a network where they cross, and where one ends within half a width of another, of which the larger
-// counts. Lines shorter than half their width, at such places, are dropped.
+// counts. Parts of lines within wider ones (`piecesOf`), and those shorter than half their width at such places, are
+// dropped.
 RiverNetwork riverNetwork(std::span<const PlaneRiver> rivers);
 
 }  // namespace coastmesh

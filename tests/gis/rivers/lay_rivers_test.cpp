@@ -136,6 +136,16 @@ TEST(LayRivers, TheNarrowerOfTwoThatOverlapIsLost) {
   EXPECT_EQ(laid.report.lost[0].name, "'narrow'");
 }
 
+TEST(LayRivers, ALineGivenTwiceIsNamed) {
+  const LaidRivers laid = layRivers({lineOf({{-3000, 2050}, {100, 2050}}, 100.0, "first"),
+                                     lineOf({{-3000, 2050}, {-1000, 2050}, {100, 2050}}, 100.0, "again")},
+                                    sea(), {});
+  EXPECT_EQ(laid.report.reaches, 1u);
+  ASSERT_EQ(laid.report.lost.size(), 1u);
+  EXPECT_EQ(laid.report.lost[0].why, RiverLoss::Within);
+  EXPECT_EQ(laid.report.lost[0].name, "'again'");
+}
+
 TEST(LayRivers, ARiverThatComesCloseToItselfIsNarrowerThere) {
   // It comes back, and runs 80 m beside itself.
   const std::vector<Point> loop{{-3000, 2000}, {-1500, 2000}, {-1500, 3200}, {-700, 3200},

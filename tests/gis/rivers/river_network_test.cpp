@@ -71,6 +71,28 @@ TEST(RiverNetwork, ALineThatCrossesItselfMakesALoop) {
   EXPECT_THAT(degreesOf(network), ::testing::ElementsAre(1, 1, 4));
 }
 
+TEST(RiverNetwork, ALineGivenTwiceIsThereOnce) {
+  const PlaneRiver river{{{0, 0}, {60, 10}, {100, 0}}, 5.0};
+  const RiverNetwork network = riverNetwork(std::vector{river, PlaneRiver{{{0, 0}, {30, 5}, {60, 10}, {100, 0}}, 5.0}});
+  expectSound(network);
+  EXPECT_EQ(network.reaches.size(), 1u);
+  EXPECT_THAT(network.within, ::testing::ElementsAre(1));
+}
+
+TEST(RiverNetwork, WhatOfALineRunsWithinAWiderOneBelongsToThat) {
+  // A tributary that is drawn on to the mouth.
+  const RiverNetwork network = riverNetwork(
+      std::vector{PlaneRiver{{{40, 50}, {50, 2}, {60, -1}, {100, 1}}, 4.0}, PlaneRiver{{{0, 0}, {100, 0}}, 20.0}});
+  expectSound(network);
+  EXPECT_THAT(network.within, ::testing::IsEmpty());
+  EXPECT_THAT(degreesOf(network), ::testing::ElementsAre(1, 1, 1, 3));
+  for (const RiverReach& reach : network.reaches) {
+    if (reach.line_of.front() != 0) continue;
+    EXPECT_EQ(reach.line_of.back(), 0u);
+    for (const Point& p : reach.points) EXPECT_LT(p.x, 55.0);
+  }
+}
+
 TEST(RiverNetwork, ARingWithoutJunctionsHasOneNode) {
   const RiverNetwork network = riverNetwork(std::vector{PlaneRiver{{{0, 0}, {100, 0}, {50, 90}, {0, 0}}, 2.0}});
   expectSound(network);
