@@ -55,7 +55,7 @@ struct Portion {
 };
 
 std::vector<Portion> portionsOf(std::size_t stretches, std::size_t triangles) {
-  constexpr std::size_t kTrianglesOfAPortion = 1'000'000, kMostPortions = 6;
+  constexpr std::size_t kTrianglesOfAPortion = 250'000, kMostPortions = 6;
   const std::size_t count = std::clamp<std::size_t>(triangles / kTrianglesOfAPortion, 1, kMostPortions);
   std::vector<Portion> portions(std::min(count, stretches));
   for (std::size_t p = 0; p < portions.size(); ++p)
