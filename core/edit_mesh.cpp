@@ -24,7 +24,7 @@ VertexId lastCorner(const Triangle& t) { return std::max({t.v[0], t.v[1], t.v[2]
 
 }  // namespace
 
-EditMesh::EditMesh(TriMesh&& mesh)
+EditMesh::EditMesh(TriMesh&& mesh, Unnoted)
     : LinkedTriangles{std::move(mesh.triangles)},
       points_(std::move(mesh.points)),
       kinds_(points_.size(), VertexKind::Free),
@@ -33,6 +33,9 @@ EditMesh::EditMesh(TriMesh&& mesh)
       input_vertices_(mesh.input_vertices) {
   assert(findBrokenLink(triangles) == kNone);
   std::fill_n(kinds_.begin(), input_vertices_, VertexKind::Input);
+}
+
+EditMesh::EditMesh(TriMesh&& mesh) : EditMesh(std::move(mesh), Unnoted{}) {
   for (TriId t = 0; t < triangles.size(); ++t) {
     for (unsigned i = 0; i < 3; ++i) {
       triangle_of_[triangles[t].v[i]] = t;
@@ -44,18 +47,42 @@ EditMesh::EditMesh(TriMesh&& mesh)
   }
 }
 
+// Of several triangles the last becomes a vertex's own, in whatever order threads come to them.
+EditMesh::EditMesh(TriMesh&& mesh, const ItemLoop& loop) : EditMesh(std::move(mesh), Unnoted{}) {
+  const auto keepLast = [](TriId& own, TriId t) {
+    TriId before = __atomic_load_n(&own, __ATOMIC_RELAXED);
+    while ((before == kNone || before < t) &&
+           !__atomic_compare_exchange_n(&own, &before, t, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
+    }
+  };
+  forEachByStretches(loop, triangles.size(), [&](std::size_t at) {
+    const auto t = static_cast<TriId>(at);
+    for (unsigned i = 0; i < 3; ++i) {
+      keepLast(triangle_of_[triangles[t].v[i]], t);
+      __atomic_fetch_add(&triangles_round_[triangles[t].v[i]], 1, __ATOMIC_RELAXED);
+      if (triangles[t].seg[i] == kNone) continue;
+      for (const VertexId v : {origin(edgeRef(t, i)), target(edgeRef(t, i))})
+        if (v >= input_vertices_) __atomic_store_n(&kinds_[v], VertexKind::Segment, __ATOMIC_RELAXED);
+    }
+  });
+}
+
 // Numbers the vertices, and moves the points to their numbers.
 void EditMesh::numberVertices(std::vector<VertexId>& number, bool along_curve) {
-  // Along Hilbert's curve, neighbours in the plane are close in memory.
-  std::vector<VertexId> order;
-  if (along_curve) {
-    order = hilbertOrder(points_);
-  } else {
-    order.resize(points_.size());
-    std::iota(order.begin(), order.end(), VertexId{0});
-  }
   number.assign(points_.size(), kNone);
   std::iota(number.begin(), number.begin() + input_vertices_, VertexId{0});
+  if (!along_curve) {
+    VertexId next = input_vertices_;
+    for (VertexId v = input_vertices_; v < points_.size(); ++v) {
+      if (!isLiveVertex(v)) continue;
+      number[v] = next;
+      points_[next++] = points_[v];
+    }
+    points_.resize(next);
+    return;
+  }
+  // Neighbours in the plane are close in memory.
+  const std::vector<VertexId> order = hilbertOrder(points_);
   std::vector<Point> steiner;
   steiner.reserve(points_.size() - input_vertices_);
   for (const VertexId v : order) {

@@ -54,6 +54,8 @@ struct Ring {
 class EditMesh : private LinkedTriangles {
  public:
   explicit EditMesh(TriMesh&& mesh);
+  // The same, for a large mesh.
+  EditMesh(TriMesh&& mesh, const ItemLoop& loop);
 
   // The mesh without dead entries. Input vertices keep their numbers; Steiner points and triangles are reordered so
   // that neighbours are close in memory. Leaves `regions` empty.
@@ -162,6 +164,8 @@ class EditMesh : private LinkedTriangles {
   void kill(TriId t);
   void noteCorners(TriId t);
   void forgetCorners(TriId t);
+  struct Unnoted {};  // the triangles of vertices are still to be noted
+  EditMesh(TriMesh&& mesh, Unnoted);
   void numberVertices(std::vector<VertexId>& number, bool along_curve);
   void moveTriangles(const std::vector<TriId>& slot, std::size_t count);
   TriMesh released();

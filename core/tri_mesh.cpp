@@ -133,21 +133,37 @@ std::vector<std::vector<VertexId>> boundaryLoops(const TriMesh& mesh, const Item
         return edges;
       }));
   const std::vector<std::uint32_t> followers = followersOf(mesh, boundary, loop);
-  std::vector<std::vector<VertexId>> loops;
+  // What one thread reads in the order of the loops is collected before, by all.
+  std::vector<VertexId> vertices(boundary.size());
+  std::vector<Point> places(boundary.size());
+  forEachByStretches(loop, boundary.size(), [&](std::size_t i) {
+    vertices[i] = mesh.origin(boundary[i]);
+    places[i] = mesh.points[vertices[i]];
+  });
+  std::vector<std::vector<std::uint32_t>> loops;  // of edges, then of vertices
   std::vector<bool> seen(boundary.size(), false);
   for (std::size_t start = 0; start < boundary.size(); ++start) {
     if (seen[start]) continue;
-    std::vector<VertexId> vertices;
+    std::vector<std::uint32_t> edges;
     for (std::size_t at = start; !seen[at]; at = followers[at]) {
       seen[at] = true;
-      vertices.push_back(mesh.origin(boundary[at]));
+      edges.push_back(static_cast<std::uint32_t>(at));
     }
-    loops.push_back(std::move(vertices));
+    loops.push_back(std::move(edges));
   }
-  const auto less = [&](VertexId a, VertexId b) { return lexLess(mesh.points[a], mesh.points[b]); };
-  forEachByStretches(loop, loops.size(),
-                     [&](std::size_t i) { std::ranges::rotate(loops[i], std::ranges::min_element(loops[i], less)); });
+  const auto less = [&](std::uint32_t a, std::uint32_t b) { return lexLess(places[a], places[b]); };
+  const auto begin = [&](std::size_t first, std::size_t last) {
+    for (std::vector<std::uint32_t>& edges : std::span(loops).subspan(first, last - first))
+      std::ranges::rotate(edges, std::ranges::min_element(edges, less));
+  };
+  constexpr std::size_t kWorthAStretch = 4;  // some loops are very long
+  forStretches(loop, loops.size(), begin, kWorthAStretch);
   std::ranges::stable_sort(loops, less, [](const auto& each) { return each.front(); });
+  const auto name = [&](std::size_t first, std::size_t last) {
+    for (std::vector<std::uint32_t>& each : std::span(loops).subspan(first, last - first))
+      for (std::uint32_t& i : each) i = vertices[i];
+  };
+  forStretches(loop, loops.size(), name, kWorthAStretch);
   return loops;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/bulk_list.hpp"
+#include "core/distribute.hpp"
 #include "core/metric.hpp"
 
 namespace coastmesh {
@@ -23,6 +24,30 @@ struct Sample {
 
 Sample turned(const Sample& s) { return {s.across, s.along, s.weight}; }
 
+// Sorts samples of which equal ones are identical: divides them at the quantiles of a few first, since merging sorted
+// ranges would end on one thread.
+void sortByParts(const ItemLoop& loop, std::vector<Sample>& samples) {
+  constexpr std::size_t kParts = 64, kFewOfAPart = 16, kFew = kParts * kFewOfAPart;
+  if (samples.size() < 4 * kFew) {
+    std::ranges::sort(samples);
+    return;
+  }
+  std::vector<Sample> few(kFew), bounds(kParts - 1);
+  for (std::size_t i = 0; i < kFew; ++i) few[i] = samples[samples.size() * i / kFew];
+  std::ranges::sort(few);
+  for (std::size_t p = 1; p < kParts; ++p) bounds[p - 1] = few[p * kFewOfAPart];
+  const Distribution by_part = distribute(loop, samples.size(), kParts, [&](std::size_t i) {
+    return std::ranges::upper_bound(bounds, samples[i]) - bounds.begin();
+  });
+  std::vector<Sample> sorted(samples.size());
+  loop(kParts, [&](std::size_t p) {
+    const std::size_t begin = by_part.starts[p], end = by_part.starts[p + 1];
+    for (std::size_t i = begin; i < end; ++i) sorted[i] = samples[by_part.items[i]];
+    std::ranges::sort(std::span(sorted).subspan(begin, end - begin));
+  });
+  samples = std::move(sorted);
+}
+
 // Builds the tree of cuts. Samples are sorted once along each axis; splitting keeps both orders.
 class CutTreeBuilder {
  public:
@@ -31,7 +56,7 @@ class CutTreeBuilder {
       : samples_(samples), nodes_(nodes), loop_(loop), beside_(samples.size()) {
     sorted_.fill(samples);
     forEachByStretches(loop, samples.size(), [this](std::size_t i) { sorted_[1][i] = turned(sorted_[0][i]); });
-    for (std::vector<Sample>& sorted : sorted_) sortOn(loop, sorted);
+    for (std::vector<Sample>& sorted : sorted_) sortByParts(loop, sorted);
   }
 
   void build(PieceId pieces) {

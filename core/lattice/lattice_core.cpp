@@ -54,18 +54,23 @@ LatticeCore coreOf(const LatticePlaces& places, const ItemLoop& loop) {
 // Removes the triangles that the boundaries of cores enclose from a triangulation.
 class CoreCarver {
  public:
-  CoreCarver(const TriMesh& mesh, VertexId first, const std::vector<LatticeCore>& cores) : mesh_(mesh), first_(first) {
+  CoreCarver(const TriMesh& mesh, VertexId first, const std::vector<LatticeCore>& cores, const ItemLoop& loop)
+      : mesh_(mesh), first_(first) {
     for (const LatticeCore& core : cores) {
-      for (const LatticePlace& place : placesIn(core.edge)) {
-        places_.push_back(place);
-        core_of_.push_back(&core);
-      }
+      const BulkList<LatticePlace> places = placesIn(core.edge, loop);
+      const std::size_t before = places_.size();
+      resizeUnset(places_, before + places.size());
+      resizeUnset(core_of_, places_.size());
+      forEachByStretches(loop, places.size(), [&](std::size_t i) {
+        places_[before + i] = places[i];
+        core_of_[before + i] = &core;
+      });
     }
   }
 
   TriMesh run(const ItemLoop& loop) const {
     const std::size_t all = mesh_.triangles.size();
-    std::vector<TriId> number(all);
+    BulkList<TriId> number = unsetList<TriId>(all);
     const std::vector<TriId> counts = overStretches(loop, all, [&](std::size_t first, std::size_t last) {
       TriId count = 0;
       for (std::size_t t = first; t < last; ++t) number[t] = isInCore(static_cast<TriId>(t)) ? kNone : count++;
@@ -112,8 +117,8 @@ class CoreCarver {
 
   const TriMesh& mesh_;
   VertexId first_;  // of the vertices on boundaries of cores
-  std::vector<LatticePlace> places_;
-  std::vector<const LatticeCore*> core_of_;
+  BulkList<LatticePlace> places_;
+  BulkList<const LatticeCore*> core_of_;
 };
 
 // Numbers the places of a row in ascending order. REQUIRES: calls of `at` in ascending order.
@@ -301,25 +306,34 @@ LatticeMesh triangulateWith(const Pslg& pslg, std::vector<LatticePlaces> lattice
                             const ItemLoop& loop) {
   LatticeMesh made;
   made.pslg_vertices = static_cast<VertexId>(pslg.points.size());
-  Pslg all = pslg;
-  const auto add = [&](const Lattice& lattice, const LatticeRows& rows) {
-    for (const LatticePlace& p : placesIn(rows)) all.points.push_back(lattice.at(p.a, p.b));
-  };
   for (LatticePlaces& some : lattices) {
     if (!with_cores) break;
     LatticeCore core = coreOf(some, loop);
     if (core.interior.count() == 0) continue;
-    add(core.lattice, core.edge);
     some.places = eachRow(some.places, loop, [&](std::int64_t b) {
       return differenceOf(differenceOf(some.places.row(b), core.edge.row(b)), core.interior.row(b));
     });
     made.cores.push_back(std::move(core));
   }
-  const auto fixed = static_cast<VertexId>(all.points.size());
+  std::size_t points = pslg.points.size();
+  for (const LatticeCore& core : made.cores) points += static_cast<std::size_t>(core.edge.count());
+  const auto fixed = static_cast<VertexId>(points);
+  for (const LatticePlaces& some : lattices) points += static_cast<std::size_t>(some.places.count());
+  Pslg all{{}, pslg.segments, pslg.holes};
+  reserveOn(loop, all.points, points);
+  all.points.assign(pslg.points.begin(), pslg.points.end());
+  const auto add = [&](const Lattice& lattice, const LatticeRows& rows) {
+    const BulkList<LatticePlace> places = placesIn(rows, loop);
+    const std::size_t before = all.points.size();
+    all.points.resize(before + places.size());
+    forEachByStretches(loop, places.size(),
+                       [&](std::size_t i) { all.points[before + i] = lattice.at(places[i].a, places[i].b); });
+  };
+  for (const LatticeCore& core : made.cores) add(core.lattice, core.edge);
   for (const LatticePlaces& some : lattices) add(some.lattice, some.places);
   made.mesh = constrainedDelaunay(all, {}, loop);
   made.mesh.input_vertices = fixed;
-  if (!made.cores.empty()) made.mesh = CoreCarver(made.mesh, made.pslg_vertices, made.cores).run(loop);
+  if (!made.cores.empty()) made.mesh = CoreCarver(made.mesh, made.pslg_vertices, made.cores, loop).run(loop);
   return made;
 }
 

@@ -69,12 +69,19 @@ std::int64_t LatticeRows::count() const {
   return count;
 }
 
-std::vector<LatticePlace> placesIn(const LatticeRows& set) {
-  std::vector<LatticePlace> places;
-  places.reserve(static_cast<std::size_t>(set.count()));
-  for (std::size_t r = 0; r < set.rows.size(); ++r)
-    for (const Interval& i : set.rows[r])
-      for (std::int64_t a = i.first; a < i.last; ++a) places.push_back({a, set.first + static_cast<std::int64_t>(r)});
+BulkList<LatticePlace> placesIn(const LatticeRows& set, const ItemLoop& loop) {
+  std::vector<std::size_t> starts{0};
+  for (const Intervals& row : set.rows) starts.push_back(starts.back() + static_cast<std::size_t>(countOf(row)));
+  BulkList<LatticePlace> places = unsetList<LatticePlace>(starts.back());
+  const auto fill = [&](std::size_t first, std::size_t last) {
+    for (std::size_t r = first; r < last; ++r) {
+      std::size_t next = starts[r];
+      for (const Interval& i : set.rows[r])
+        for (std::int64_t a = i.first; a < i.last; ++a) places[next++] = {a, set.first + static_cast<std::int64_t>(r)};
+    }
+  };
+  constexpr std::size_t kWorthAStretch = 64;
+  forStretches(loop, set.rows.size(), fill, kWorthAStretch);
   return places;
 }
 

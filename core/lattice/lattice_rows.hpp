@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/bulk_list.hpp"
 #include "core/item_loop.hpp"
 
 namespace coastmesh {
@@ -44,7 +45,7 @@ struct LatticePlace {
 };
 
 // Row by row, ascending.
-std::vector<LatticePlace> placesIn(const LatticeRows& set);
+BulkList<LatticePlace> placesIn(const LatticeRows& set, const ItemLoop& loop = inOrder);
 
 // `make(b)` for every row of `like`.
 template <typename Make>

@@ -153,7 +153,8 @@ std::uint64_t splitSegments(TriMesh& mesh, const Pslg& pslg, VertexNotes& notes,
   const std::vector<Cut> cuts = subsegmentsOf(mesh, pslg, loop);
   const VertexId before = static_cast<VertexId>(mesh.points.size());
   const std::uint64_t most = std::min<std::uint64_t>(options.max_vertices, kNone);
-  EditMesh edit(std::move(mesh));
+  constexpr std::size_t kWorthThreads = 1 << 15;
+  EditMesh edit = before < kWorthThreads ? EditMesh(std::move(mesh)) : EditMesh(std::move(mesh), loop);
   const Divider divider(pslg, options);
   std::vector<TriId> touched;
   std::vector<EdgeRef> star;
@@ -195,7 +196,6 @@ std::uint64_t splitSegments(TriMesh& mesh, const Pslg& pslg, VertexNotes& notes,
     }
   }
   Renumbering by;
-  constexpr std::size_t kWorthThreads = 1 << 15;
   mesh = edit.vertexCount() < kWorthThreads ? edit.release(by, false) : edit.releaseOn(loop, by);
   BulkList<double> spacing = unsetList<double>(mesh.points.size());  // every vertex comes from one before
   forEachByStretches(loop, by.vertex.size(), [&](std::size_t v) {

@@ -281,12 +281,15 @@ BulkList<TriId> putBack(TriMesh& parent, const Submesh& patch, const TriMesh& so
     VertexId from, to;
     EdgeRef twin;
     SegmentId seg;
+    auto operator<=>(const Beyond&) const = default;
   };
   const auto endsOf = [](const Beyond& b) { return std::pair(b.from, b.to); };
-  std::vector<Beyond> beyond;
-  for (const EdgeRef e : patch.frozen)
-    beyond.push_back({parent.origin(e), parent.target(e), parent.twin(e), parent.segment(e)});
-  std::ranges::sort(beyond, {}, endsOf);
+  std::vector<Beyond> beyond(patch.frozen.size());
+  forEachByStretches(loop, beyond.size(), [&](std::size_t i) {
+    const EdgeRef e = patch.frozen[i];
+    beyond[i] = {parent.origin(e), parent.target(e), parent.twin(e), parent.segment(e)};
+  });
+  sortOn(loop, beyond);
 
   // Old numbers first, then new ones.
   const auto numbersFor = [&loop](std::size_t count, std::span<const std::uint32_t> old, std::size_t next) {

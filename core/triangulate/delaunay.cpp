@@ -33,8 +33,8 @@ void checkPlace(const Point& p, const std::string& what) {
   if (!isInRange(p)) refuse(PslgDefect::Kind::OutOfRange, p, kNone, what + " lies beyond -1e70 to 1e70");
 }
 
-void checkReferences(const Pslg& pslg) {
-  for (const Point& p : pslg.points) checkPlace(p, "a coordinate");
+void checkReferences(const Pslg& pslg, const ItemLoop& loop) {
+  forEachByStretches(loop, pslg.points.size(), [&](std::size_t i) { checkPlace(pslg.points[i], "a coordinate"); });
   for (const Point& hole : pslg.holes) checkPlace(hole, "a coordinate of a hole");
   for (SegmentId s = 0; s < pslg.segments.size(); ++s) {
     const VertexId a = pslg.segments[s].a, b = pslg.segments[s].b;
@@ -164,7 +164,7 @@ std::vector<RegionId> carve(const Triangulation& triangulation, const Pslg& pslg
 }  // namespace
 
 TriMesh constrainedDelaunay(const Pslg& pslg, const Surface& surface, const ItemLoop& loop) {
-  checkReferences(pslg);
+  checkReferences(pslg, loop);
   Triangulation triangulation = triangulate(pslg, surface, loop);
   if (!triangulation.hasTriangles())
     refuse(PslgDefect::Kind::NoArea, pslg.points.empty() ? Point{} : pslg.points.front(), kNone,

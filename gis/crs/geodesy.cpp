@@ -180,15 +180,15 @@ BulkList<double> triangleAreas(std::span<const Point> nodes, std::span<const std
 }
 
 std::vector<double> areasOfFew(std::span<const Point> nodes, std::span<const std::array<std::uint32_t, 3>> triangles,
-                               const Crs& crs) {
-  std::vector<Point> own;
-  std::vector<std::array<std::uint32_t, 3>> corners;
-  for (const auto& triangle : triangles) {
-    const auto first = static_cast<std::uint32_t>(own.size());
-    corners.push_back({first, first + 1, first + 2});
-    for (const std::uint32_t n : triangle) own.push_back(nodes[n]);
-  }
-  const BulkList<double> areas = triangleAreas(own, corners, crs);
+                               const Crs& crs, const ItemLoop& loop) {
+  std::vector<Point> own(3 * triangles.size());
+  std::vector<std::array<std::uint32_t, 3>> corners(triangles.size());
+  forEachByStretches(loop, triangles.size(), [&](std::size_t t) {
+    const auto first = static_cast<std::uint32_t>(3 * t);
+    corners[t] = {first, first + 1, first + 2};
+    for (std::uint32_t i = 0; i < 3; ++i) own[first + i] = nodes[triangles[t][i]];
+  });
+  const BulkList<double> areas = triangleAreas(own, corners, crs, loop);
   return {areas.begin(), areas.end()};
 }
 

@@ -30,7 +30,7 @@ BulkList<double> triangleAreas(std::span<const Point> nodes, std::span<const std
                                const Crs& crs, const ItemLoop& loop = inOrder);
 // The same for a few triangles among many nodes: only their nodes are used.
 std::vector<double> areasOfFew(std::span<const Point> nodes, std::span<const std::array<std::uint32_t, 3>> triangles,
-                               const Crs& crs);
+                               const Crs& crs, const ItemLoop& loop = inOrder);
 
 // Measures edges between nodes, which must outlive it: in metres on the ellipsoid of `crs`, with a relative error of
 // 1e-6 up to 250 km and 1.4e-5 at 1000 km; in a plane: in its units. Throws InputError like `triangleAreas`.

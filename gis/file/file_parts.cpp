@@ -20,7 +20,7 @@ namespace coastmesh {
 namespace {
 
 // A window is made by all threads, section by section, while the disk writes the one before.
-constexpr std::uint64_t kSection = std::uint64_t{256} << 10, kSections = 64, kWindow = kSection * kSections;
+constexpr std::uint64_t kSection = std::uint64_t{128} << 10, kSections = 128, kWindow = kSection * kSections;
 // O_DIRECT requires offsets, lengths and addresses that are multiples of this.
 constexpr std::uint64_t kSector = 4096;
 
@@ -86,14 +86,19 @@ class OpenFile {
   int cached_ = -1, direct_ = -1;
 };
 
-// Writes that the kernel does while the caller goes on: Linux's native asynchronous writes, which need no thread.
+// Bytes in memory, and their place in the file.
+struct Run {
+  std::uint64_t at = 0;
+  std::span<const std::byte> bytes;
+};
+
+// Writes that the kernel does while the caller goes on: Linux's native asynchronous writes, which need no thread. Each
+// has a slot of one of two windows.
 class WritesAhead {
  public:
   explicit WritesAhead(const OpenFile& file) : file_(file) {
     if (file.direct() < 0) return;
-    constexpr unsigned kMostAtOnce = 16;
-    writes_.reserve(kMostAtOnce);
-    available_ = ::syscall(SYS_io_setup, kMostAtOnce, &context_) == 0;
+    available_ = ::syscall(SYS_io_setup, static_cast<unsigned>(slots_.size()), &context_) == 0;
   }
   // Waits for writes under way.
   ~WritesAhead() {
@@ -105,59 +110,60 @@ class WritesAhead {
   // Not for files in the page cache, nor where the system refuses it.
   bool available() const { return available_; }
 
-  // `bytes` must stay unchanged until `wait`. Their address must have the remainder of `at` by the sector's size.
-  void begin(std::uint64_t at, std::span<const std::byte> bytes) {
+  // `run.bytes` must stay unchanged until `wait`. Their address must have the remainder of `run.at` by the sector's
+  // size. May be called for several slots at the same time.
+  void begin(unsigned window, std::uint64_t section, const Run& run) {
+    const auto& [at, bytes] = run;
     const std::uint64_t head = std::min<std::uint64_t>((kSector - at % kSector) % kSector, bytes.size());
     const std::uint64_t sectors = (bytes.size() - head) / kSector * kSector;
     if (head > 0) file_.write(at, bytes.first(head));
-    if (sectors > 0) beginSectors(at + head, bytes.subspan(head, sectors));
+    if (sectors > 0) beginSectors(window * kSections + section, {at + head, bytes.subspan(head, sectors)});
     if (head + sectors < bytes.size()) file_.write(at + head + sectors, bytes.subspan(head + sectors));
   }
 
-  void wait() {
-    for (std::size_t waiting = writes_.size(); waiting > 0;) {
-      io_event event{};
-      const long ended = ::syscall(SYS_io_getevents, context_, 1L, 1L, &event, nullptr);
+  // Waits for the writes of a window.
+  void wait(unsigned window) {
+    const auto slots = std::span(slots_).subspan(window * kSections, kSections);
+    while (std::ranges::any_of(slots, [](const iocb& write) { return write.aio_nbytes > 0; })) {
+      std::array<io_event, kSections> events;
+      const long ended =
+          ::syscall(SYS_io_getevents, context_, 1L, static_cast<long>(events.size()), events.data(), nullptr);
       if (ended < 0 && errno == EINTR) continue;
-      if (ended != 1) file_.fail(errno);
-      --waiting;
-      const iocb& write = writes_[event.data];
-      const std::uint64_t written = event.res > 0 ? static_cast<std::uint64_t>(event.res) : 0;
-      const std::byte* const bytes = reinterpret_cast<const std::byte*>(static_cast<std::uintptr_t>(write.aio_buf));
-      // The rest, if there is any, as an ordinary write, which reports what prevents it.
-      file_.write(static_cast<std::uint64_t>(write.aio_offset) + written,
-                  {bytes + written, write.aio_nbytes - written});
+      if (ended < 1) file_.fail(errno);
+      for (const io_event& event : std::span(events).first(static_cast<std::size_t>(ended))) finish(event);
     }
-    writes_.clear();
   }
 
  private:
-  void beginSectors(std::uint64_t at, std::span<const std::byte> bytes) {
-    if (writes_.size() < writes_.capacity()) {
-      iocb& write = writes_.emplace_back();
-      write.aio_data = writes_.size() - 1;
+  void beginSectors(std::uint64_t slot, const Run& run) {
+    iocb& write = slots_[slot];
+    if (write.aio_nbytes == 0) {
+      write.aio_data = slot;
       write.aio_lio_opcode = IOCB_CMD_PWRITE;
       write.aio_fildes = static_cast<std::uint32_t>(file_.direct());
-      write.aio_buf = reinterpret_cast<std::uintptr_t>(bytes.data());
-      write.aio_nbytes = bytes.size();
-      write.aio_offset = static_cast<std::int64_t>(at);
+      write.aio_buf = reinterpret_cast<std::uintptr_t>(run.bytes.data());
+      write.aio_nbytes = run.bytes.size();
+      write.aio_offset = static_cast<std::int64_t>(run.at);
       iocb* const submitted = &write;
       if (::syscall(SYS_io_submit, context_, 1L, &submitted) == 1) return;
-      writes_.pop_back();
+      write.aio_nbytes = 0;
     }
-    file_.write(at, bytes);
+    file_.write(run.at, run.bytes);
+  }
+
+  void finish(const io_event& event) {
+    iocb& write = slots_[event.data];
+    const std::uint64_t written = event.res > 0 ? static_cast<std::uint64_t>(event.res) : 0;
+    const std::byte* const bytes = reinterpret_cast<const std::byte*>(static_cast<std::uintptr_t>(write.aio_buf));
+    // The rest, if there is any, as an ordinary write, which reports what prevents it.
+    file_.write(static_cast<std::uint64_t>(write.aio_offset) + written, {bytes + written, write.aio_nbytes - written});
+    write.aio_nbytes = 0;
   }
 
   const OpenFile& file_;
   aio_context_t context_ = 0;
   bool available_ = false;
-  std::vector<iocb> writes_;  // under way; never reallocated
-};
-
-// Bytes in memory, and their place in the file.
-struct Run {
-  std::uint64_t at = 0;
-  std::span<const std::byte> bytes;
+  std::vector<iocb> slots_ = std::vector<iocb>(2 * kSections);  // of no bytes if not under way
 };
 
 // Adds a run that follows the others, to the last one if it begins where that ends, in the file and in memory.
@@ -235,26 +241,23 @@ void writeParts(const std::string& path, std::vector<FilePart> parts, const Item
   const std::uint64_t size = parts.back().begin + parts.back().size;
   if (all >= large_file) file.allocate(size);
   const std::array<Buffer, 2> buffers{Buffer(file.direct() >= 0), Buffer(file.direct() >= 0)};
-  std::byte *filled = buffers[0].get(), *written = buffers[1].get();
   WritesAhead ahead(file);
+  unsigned window = 0;
   for (std::uint64_t begin = parts.front().begin / kWindow * kWindow; begin < size; begin += kWindow) {
     const std::uint64_t sections = (std::min(kWindow, size - begin) - 1) / kSection + 1;
-    std::vector<std::vector<Run>> runs(sections);
     loop(sections, [&](std::size_t s) {
       const std::uint64_t first = s * kSection, bytes = std::min(kSection, size - begin - first);
-      runs[s] = fill({filled + first, bytes}, begin + first, parts);
-      if (ahead.available()) return;
-      for (const Run& run : runs[s]) file.write(run.at, run.bytes);
+      for (const Run& run : fill({buffers[window].get() + first, bytes}, begin + first, parts)) {
+        if (ahead.available())
+          ahead.begin(window, s, run);
+        else
+          file.write(run.at, run.bytes);
+      }
     });
-    if (!ahead.available()) continue;
-    std::vector<Run> joined;
-    for (const std::vector<Run>& of_section : runs)
-      for (const Run& run : of_section) append(joined, run);
-    ahead.wait();
-    for (const Run& run : joined) ahead.begin(run.at, run.bytes);
-    std::swap(filled, written);
+    window = 1 - window;
+    ahead.wait(window);
   }
-  ahead.wait();
+  ahead.wait(1 - window);
   file.close();
 }
 

@@ -61,29 +61,36 @@ std::array<double, 3> anglesOf(const Grid& grid, std::uint32_t triangle) {
 class Mover {
  public:
   Mover(Grid& grid, std::vector<std::uint32_t>&& nodes, const AngleBounds& bounds, const ItemLoop& loop)
-      : grid_(grid), loop_(loop), nodes_(std::move(nodes)), moves_(filledList(loop, grid.nodes.size(), Move::None)) {
-    for (const std::uint32_t n : nodes_) moves_[n] = Move::Made, before_.push_back(grid.nodes[n]);
-    triangles_ = indicesOf(grid.triangles.size(), loop, [&](std::size_t t) { return hasMoved(t); });
+      : grid_(grid), loop_(loop), nodes_(std::move(nodes)), moves_(nodes_.size(), Move::Made) {
+    BulkList<std::uint8_t> outside = filledList(loop, grid.nodes.size(), std::uint8_t{0});
+    for (const std::uint32_t n : nodes_) outside[n] = 1, before_.push_back(grid.nodes[n]);
+    triangles_ = indicesOf(grid.triangles.size(), loop, [&](std::size_t t) {
+      return std::ranges::any_of(grid.triangles[t], [&](std::uint32_t n) { return outside[n] != 0; });
+    });
+    corners_.resize(triangles_.size());
     angles_.resize(triangles_.size());
     allowed_.resize(triangles_.size());
-    forEachByStretches(loop, triangles_.size(), [&](std::size_t k) {
-      angles_[k] = anglesOf(grid, triangles_[k]);
-      const auto [least, greatest] = std::ranges::minmax(angles_[k]);
-      allowed_[k] = {std::min(bounds.least, least) - kAngleSlackDeg,
-                     std::max(bounds.greatest, greatest) + kAngleSlackDeg};
-    });
+    forStretches(
+        loop, triangles_.size(),
+        [&](std::size_t first, std::size_t last) {
+          for (std::size_t k = first; k < last; ++k) begin(k, bounds);
+        },
+        kWorthAStretch);
   }
 
   void move(const FrameBox& box) {
     for (const std::uint32_t n : nodes_) grid_.nodes[n] = box.nearest(grid_.nodes[n]);
     std::vector<std::uint8_t> spoilt(triangles_.size());
-    forEachByStretches(loop_, triangles_.size(), [&](std::size_t k) { spoilt[k] = isSpoilt(k) ? 1 : 0; });
+    const auto judge = [&](std::size_t first, std::size_t last) {
+      for (std::size_t k = first; k < last; ++k) spoilt[k] = isSpoilt(k) ? 1 : 0;
+    };
+    forStretches(loop_, triangles_.size(), judge, kWorthAStretch);
     // Nodes that are put back may spoil triangles checked before. Each node is put back at most once.
     for (bool again = true; again;) {
       again = false;
       for (std::size_t k = 0; k < triangles_.size(); ++k) {
-        if (!hasMoved(triangles_[k]) || !(hasBeenPutBack(triangles_[k]) ? isSpoilt(k) : spoilt[k] != 0)) continue;
-        putBack(grid_.triangles[triangles_[k]]);
+        if (!has(Move::Made, k) || !(has(Move::PutBack, k) ? isSpoilt(k) : spoilt[k] != 0)) continue;
+        putBack(k);
         again = true;
       }
     }
@@ -92,37 +99,54 @@ class Mover {
   // Also sets areas and angles of the triangles.
   FrameMoves moves() {
     FrameMoves moves;
-    moves.nodes = static_cast<std::size_t>(
-        std::ranges::count_if(nodes_, [this](std::uint32_t n) { return moves_[n] == Move::Made; }));
+    moves.nodes = static_cast<std::size_t>(std::ranges::count(moves_, Move::Made));
     std::vector<std::uint32_t> changed;
-    std::vector<std::array<std::uint32_t, 3>> corners;
     for (std::size_t k = 0; k < triangles_.size(); ++k) {
-      const std::uint32_t t = triangles_[k];
-      if (!hasMoved(t)) continue;
-      changed.push_back(t);
-      corners.push_back(grid_.triangles[t]);
+      if (!has(Move::Made, k)) continue;
+      changed.push_back(triangles_[k]);
       moves.angles_before.push_back(angles_[k]);
     }
+    std::vector<std::array<std::uint32_t, 3>> corners(changed.size());
     moves.angles_after.resize(changed.size());
-    forEachByStretches(loop_, changed.size(),
-                       [&](std::size_t k) { moves.angles_after[k] = anglesOf(grid_, changed[k]); });
+    const auto forChanged = [&](const auto& work) {
+      const auto some = [&](std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k) work(k);
+      };
+      forStretches(loop_, changed.size(), some, kWorthAStretch);
+    };
+    forChanged([&](std::size_t k) {
+      corners[k] = grid_.triangles[changed[k]];
+      moves.angles_after[k] = anglesOf(grid_, changed[k]);
+    });
     const std::vector<double> areas =
-        grid_.area_m2.empty() ? std::vector<double>() : areasOfFew(grid_.nodes, corners, grid_.crs);
-    for (std::size_t k = 0; k < changed.size(); ++k) {
+        grid_.area_m2.empty() ? std::vector<double>() : areasOfFew(grid_.nodes, corners, grid_.crs, loop_);
+    forChanged([&](std::size_t k) {
       if (!areas.empty()) grid_.area_m2[changed[k]] = areas[k];
       if (!grid_.min_angle_deg.empty()) grid_.min_angle_deg[changed[k]] = std::ranges::min(moves.angles_after[k]);
-    }
+    });
     return moves;
   }
 
  private:
-  enum class Move : std::uint8_t { None, Made, PutBack };
+  enum class Move : std::uint8_t { Made, PutBack };
 
-  bool hasCorner(std::size_t triangle, Move move) const {
-    return std::ranges::any_of(grid_.triangles[triangle], [&](std::uint32_t n) { return moves_[n] == move; });
+  static constexpr std::size_t kWorthAStretch = 512;  // measuring angles takes long
+
+  void begin(std::size_t k, const AngleBounds& bounds) {
+    for (unsigned i = 0; i < 3; ++i) {
+      const std::uint32_t n = grid_.triangles[triangles_[k]][i];
+      const auto at = std::ranges::lower_bound(nodes_, n);
+      corners_[k][i] = at != nodes_.end() && *at == n ? static_cast<std::uint32_t>(at - nodes_.begin()) : kNone;
+    }
+    angles_[k] = anglesOf(grid_, triangles_[k]);
+    const auto [least, greatest] = std::ranges::minmax(angles_[k]);
+    allowed_[k] = {std::min(bounds.least, least) - kAngleSlackDeg,
+                   std::max(bounds.greatest, greatest) + kAngleSlackDeg};
   }
-  bool hasMoved(std::size_t triangle) const { return hasCorner(triangle, Move::Made); }
-  bool hasBeenPutBack(std::size_t triangle) const { return hasCorner(triangle, Move::PutBack); }
+
+  bool has(Move move, std::size_t k) const {
+    return std::ranges::any_of(corners_[k], [&](std::uint32_t i) { return i != kNone && moves_[i] == move; });
+  }
 
   bool isSpoilt(std::size_t k) const {
     const auto& [a, b, c] = grid_.triangles[triangles_[k]];
@@ -131,21 +155,23 @@ class Mover {
     return least < allowed_[k].least || greatest > allowed_[k].greatest;
   }
 
-  void putBack(const std::array<std::uint32_t, 3>& corners) {
-    for (const std::uint32_t n : corners) {
-      if (moves_[n] != Move::Made) continue;
-      grid_.nodes[n] = before_[static_cast<std::size_t>(std::ranges::lower_bound(nodes_, n) - nodes_.begin())];
-      moves_[n] = Move::PutBack;
+  void putBack(std::size_t k) {
+    for (const std::uint32_t i : corners_[k]) {
+      if (i == kNone || moves_[i] != Move::Made) continue;
+      grid_.nodes[nodes_[i]] = before_[i];
+      moves_[i] = Move::PutBack;
     }
   }
 
   Grid& grid_;
   const ItemLoop& loop_;
-  std::vector<std::uint32_t> nodes_;           // outside the box, ascending
-  std::vector<Point> before_;                  // where they were
-  BulkList<Move> moves_;                       // of each node
-  std::vector<std::uint32_t> triangles_;       // with such nodes
-  std::vector<std::array<double, 3>> angles_;  // of each of these, before
+  std::vector<std::uint32_t> nodes_;      // outside the box, ascending
+  std::vector<Point> before_;             // where they were
+  std::vector<Move> moves_;               // of each of these
+  std::vector<std::uint32_t> triangles_;  // with such nodes
+  // Of each of these triangles: its corners among `nodes_`, kNone for others; its angles before.
+  std::vector<std::array<std::uint32_t, 3>> corners_;
+  std::vector<std::array<double, 3>> angles_;
   std::vector<AngleBounds> allowed_;
 };
 

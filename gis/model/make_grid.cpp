@@ -80,14 +80,16 @@ void appendCorners(const TriMesh& mesh, const ItemLoop& loop, Grid& grid) {
 }
 
 // Renumbers the corners of triangles from `before` on as nodes of the grid, and sets their features and angles. The
-// mesh's triangles may be gone.
+// mesh's triangles may be gone. Does `also(i)` for every i below `others` in the same loop, before them: a single long
+// one would keep the other threads waiting.
+template <typename Also>
 void finishTriangles(const TriMesh& mesh, const GroundPlaces* ground, const BulkList<std::uint32_t>& index_of,
                      const std::vector<std::uint32_t>& feature_index, const ItemLoop& loop, std::size_t before,
-                     Grid& grid) {
+                     Grid& grid, std::size_t others, const Also& also) {
   const std::size_t after = grid.triangles.size();
   if (!feature_index.empty()) resizeUnset(grid.feature_of, after);
   resizeUnset(grid.min_angle_deg, after);
-  forEachByStretches(loop, after - before, [&](std::size_t t) {
+  const auto finish = [&](std::size_t t) {
     auto& corners = grid.triangles[before + t];
     const auto [a, b, c] = corners;
     corners = {index_of[a], index_of[b], index_of[c]};
@@ -95,7 +97,19 @@ void finishTriangles(const TriMesh& mesh, const GroundPlaces* ground, const Bulk
     grid.min_angle_deg[before + t] = ground == nullptr
                                          ? leastAngleDeg(mesh.points[a], mesh.points[b], mesh.points[c])
                                          : leastSpaceAngleDeg(ground->space[a], ground->space[b], ground->space[c]);
-  });
+  };
+  constexpr std::size_t kStretch = 8192, kMostStretches = 1024;
+  const std::size_t count = after - before, stretches = std::clamp<std::size_t>(count / kStretch, 1, kMostStretches);
+  const auto work = [&](std::size_t i) {
+    if (i < others) return also(i);
+    const std::size_t s = i - others;
+    for (std::size_t t = count * s / stretches; t < count * (s + 1) / stretches; ++t) finish(t);
+  };
+  // Beginning a loop takes longer than the work on a small mesh.
+  if (stretches == 1)
+    inOrder(others + stretches, work);
+  else
+    loop(others + stretches, work);
 }
 
 // Appends the features that triangles belong to, in the coastline's order. Returns the new index of each feature of the
@@ -250,15 +264,16 @@ Grid makeGridWithoutAreas(const std::vector<MeshedDomain>& parts, const Coastlin
         if (index_of[v] != kNone) grid.size_m[index_of[v]] = (*part.size_m)[v];
       });
     }
-    finishTriangles(*part.mesh, part.ground, index_of, feature_index, loop, before, grid);
-    const auto finish = [&](std::size_t first, std::size_t last) {
-      for (Boundary& boundary : std::span(boundaries).subspan(first, last - first)) {
+    const auto finish = [&](std::size_t some) {
+      const std::size_t first = some * kWorthAStretch, count = std::min(kWorthAStretch, boundaries.size() - first);
+      for (Boundary& boundary : std::span(boundaries).subspan(first, count)) {
         for (std::uint32_t& node : boundary.nodes) node = index_of[node];
         if (boundary.closed && boundary.role != BoundaryRole::Open)
           boundary.role = roleByArea(grid.nodes, boundary.nodes, grid.crs).value_or(boundary.role);
       }
     };
-    forStretches(loop, boundaries.size(), finish, kWorthAStretch);
+    finishTriangles(*part.mesh, part.ground, index_of, feature_index, loop, before, grid,
+                    (boundaries.size() + kWorthAStretch - 1) / kWorthAStretch, finish);
     std::ranges::move(boundaries, std::back_inserter(grid.boundaries));
   }
   return grid;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <random>
@@ -277,6 +278,29 @@ TEST_P(EditMeshOf, ComesBackAsItWas) {
   for (const Triangle& t : mesh.triangles) before.insert(turned(t.v));
   for (const Triangle& t : once.triangles) after.insert(turned(t.v));
   EXPECT_EQ(after, before);
+}
+
+// More triangles than one thread would note, with vertices that are not of the input on the boundary and inside.
+TEST(EditMesh, IsTheSameMadeOnThreads) {
+  constexpr VertexId kSide = 100, kRing = 4 * kSide;
+  Pslg pslg;
+  for (VertexId i = 0; i < kRing; ++i) {
+    const double along = static_cast<double>(i % kSide) / kSide;
+    const std::array<Point, 4> on_side{{{along, 0.0}, {1.0, along}, {1.0 - along, 1.0}, {0.0, 1.0 - along}}};
+    pslg.points.push_back(on_side[i / kSide]);
+    pslg.segments.push_back({i, (i + 1) % kRing});
+  }
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> inside(0.01, 0.99);
+  for (int i = 0; i < 15000; ++i) pslg.points.push_back({inside(random), inside(random)});
+  TriMesh mesh = constrainedDelaunay(pslg);
+  mesh.input_vertices = kSide;
+  const EditMesh expected{TriMesh(mesh)}, made(TriMesh(mesh), testing::backwards);
+  for (VertexId v = 0; v < mesh.points.size(); ++v) {
+    ASSERT_EQ(made.triangleOf(v), expected.triangleOf(v)) << v;
+    ASSERT_EQ(made.trianglesRound(v), expected.trianglesRound(v)) << v;
+    ASSERT_EQ(made.kind(v), expected.kind(v)) << v;
+  }
 }
 
 TEST_P(EditMeshOf, LocateFindsOrNamesTheSegmentInTheWay) {
