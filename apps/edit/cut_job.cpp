@@ -36,13 +36,18 @@ std::string textOf(const CutReport& report, std::size_t quads, std::size_t quads
       grouped(report.boundaries_kept) +
       forCount(report.boundaries_kept, " boundary or part of one kept, ", " boundaries or parts of them kept, ") +
       grouped(report.boundaries_cut) + " along the cut\n";
+  const auto elements = [&](std::size_t count) {
+    return grouped(count) + forCount(count, quads_before > 0 ? " element" : " triangle",
+                                     quads_before > 0 ? " elements" : " triangles");
+  };
+  const auto [given, taken_in] = report.evened;
+  if (given + taken_in > 0)
+    text += "for an even edge of the cut: " + elements(given) + " left to the rest of the mesh, " + grouped(taken_in) +
+            " of the rest taken in\n";
   const auto [loose, teeth] = report.tidied;
   if (loose + teeth > 0)
-    text +=
-        "left out at the cut: " + grouped(teeth) +
-        forCount(teeth, quads_before > 0 ? " element" : " triangle", quads_before > 0 ? " elements" : " triangles") +
-        " with two sides along it or without a neighbour, " + grouped(loose) +
-        " that only a node would connect to the others\n";
+    text += "left out at the cut: " + elements(teeth) + " with two sides along it or without a neighbour, " +
+            grouped(loose) + " that only a node would connect to the others\n";
   if (report.waters > 1)
     text += grouped(report.waters) + " waters without a connection" +
             (options.largest_water ? ": only the largest is kept\n" : "; --keep-water largest keeps one\n");

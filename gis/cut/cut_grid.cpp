@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "core/bulk_list.hpp"
@@ -83,7 +84,10 @@ CutReport cutGrid(Grid& grid, std::vector<std::uint8_t> taken, const CutOptions&
   {
     const TriMesh mesh = linkGrid(grid, loop).mesh;
     includeOtherHalves(grid, taken);
-    report.tidied = tidyCut(mesh, otherHalves(grid), taken, loop);
+    const std::vector<std::uint32_t> other_half = otherHalves(grid);
+    const std::optional<EvenedCut> evened = evenCut(mesh, other_half, taken, loop);
+    report.evened = evened.value_or(EvenedCut{});
+    report.tidied = (evened ? tidyEvenCut : tidyCut)(mesh, other_half, taken, loop);
     const Waters waters = watersOf(mesh, taken, loop);
     report.waters = waters.firsts.size();
     if (options.largest_water && report.waters > 1) {

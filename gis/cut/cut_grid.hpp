@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/item_loop.hpp"
+#include "gis/cut/even_cut.hpp"
 #include "gis/cut/tidy_cut.hpp"
 #include "gis/grid/grid.hpp"
 
@@ -18,6 +19,7 @@ struct CutOptions {
 struct CutReport {
   std::vector<std::uint32_t> nodes, triangles;  // of each node and triangle: its number in the grid before, from 0
   std::size_t nodes_before = 0, triangles_before = 0;
+  EvenedCut evened;
   TidiedCut tidied;
   std::size_t waters = 0;           // not connected with one another, among what was wanted
   std::size_t left_out = 0;         // of them, the waters left out
@@ -28,8 +30,9 @@ struct CutReport {
   bool partition_dropped = false;   // the assignment to processes, which is of the whole mesh
 };
 
-// Keeps the triangles with a flag in `taken`, without those that models would reject (`tidyCut`), and their nodes, in
-// their order and with all their values bit for bit. Boundaries are divided where they lose edges (`boundariesOfPart`);
+// Keeps the triangles with a flag in `taken`, and their nodes, in their order and with all their values bit for bit. The
+// edge of the cut is made even first, so that models reject neither them nor the rest (`evenCut`): a part and the rest
+// fit, wherever the cut is. If that leaves one of them nothing, the part is tidied alone (`tidyCut`). Boundaries are divided where they lose edges (`boundariesOfPart`);
 // those along the cut come last. REQUIRES: one flag for each triangle, at least one of them set.
 CutReport cutGrid(Grid& grid, std::vector<std::uint8_t> taken, const CutOptions& options = {},
                   const ItemLoop& loop = inOrder);

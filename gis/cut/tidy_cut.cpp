@@ -1,75 +1,14 @@
 #include "gis/cut/tidy_cut.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
+
+#include "gis/cut/cut_elements.hpp"
 
 namespace coastmesh {
 
 namespace {
-
-// A mesh, and for each triangle the other half of its quadrilateral; empty if there are only triangles.
-struct Halves {
-  const TriMesh& mesh;
-  std::span<const std::uint32_t> other;
-
-  TriId otherOf(TriId t) const { return other.empty() ? kNone : other[t]; }
-};
-
-struct Corner {
-  TriId triangle;
-  unsigned index;
-};
-
-// The triangles around a node that are connected to the corner's through edges there, counter-clockwise; `whole` if
-// they surround the node.
-struct Fan {
-  std::vector<TriId> triangles;
-  bool whole = false;
-};
-
-Fan fanAt(const TriMesh& mesh, const Corner& corner) {
-  const VertexId node = mesh.triangle(corner.triangle).v[corner.index];
-  // The triangle across the edge that leads to the node, or from it; kNone at the end of the fan.
-  const auto across = [&](TriId t, bool counter_clockwise) {
-    const unsigned i = mesh.cornerOf(t, node);
-    const EdgeRef e = mesh.twin(edgeRef(t, counter_clockwise ? next3(i) : prev3(i)));
-    return e == kNone ? kNone : triOf(e);
-  };
-  TriId first = corner.triangle;
-  for (TriId t = first; t != kNone;) {
-    first = t;
-    t = across(t, false);
-    if (t == corner.triangle) break;
-  }
-  Fan fan;
-  TriId t = first;
-  do {
-    fan.triangles.push_back(t);
-    t = across(t, true);
-  } while (t != kNone && t != first);
-  fan.whole = t == first;
-  return fan;
-}
-
-// The taken triangles of a fan, in connected sets.
-std::vector<std::vector<TriId>> takenSets(const Fan& fan, const std::vector<std::uint8_t>& taken) {
-  std::vector<std::vector<TriId>> sets;
-  const std::size_t n = fan.triangles.size();
-  // Around a node, sets are followed from the end of a gap.
-  const auto gap = std::ranges::find_if(fan.triangles, [&](TriId t) { return taken[t] == 0; });
-  if (gap == fan.triangles.end()) return {fan.triangles};
-  const std::size_t start = fan.whole ? static_cast<std::size_t>(gap - fan.triangles.begin()) : 0;
-  bool follows = false;
-  for (std::size_t k = 0; k < n; ++k) {
-    const TriId t = fan.triangles[(start + k) % n];
-    if (taken[t] != 0) {
-      if (!follows) sets.emplace_back();
-      sets.back().push_back(t);
-    }
-    follows = taken[t] != 0;
-  }
-  return sets;
-}
 
 // Both ends of each edge between a taken triangle and another.
 std::vector<Corner> cornersAtCut(const TriMesh& mesh, const std::vector<std::uint8_t>& taken, const ItemLoop& loop) {
@@ -93,7 +32,8 @@ std::size_t leaveOutLoose(const Halves& halves, std::vector<std::uint8_t>& taken
   std::size_t left_out = 0;
   std::vector<Corner> corners = cornersAtCut(mesh, taken, loop);
   for (std::size_t at = 0; at < corners.size(); ++at) {  // grows
-    std::vector<std::vector<TriId>> sets = takenSets(fanAt(mesh, corners[at]), taken);
+    std::vector<std::vector<TriId>> sets = setsOf(fanAt(mesh, corners[at]), taken);
+    std::erase_if(sets, [&](const std::vector<TriId>& set) { return taken[set.front()] == 0; });
     if (sets.size() < 2) continue;
     const auto smaller = [](const std::vector<TriId>& a, const std::vector<TriId>& b) {
       return a.size() != b.size() ? a.size() < b.size() : std::ranges::min(a) > std::ranges::min(b);
@@ -113,31 +53,6 @@ std::size_t leaveOutLoose(const Halves& halves, std::vector<std::uint8_t>& taken
   return left_out;
 }
 
-struct Sides {
-  unsigned cut = 0;         // with a triangle across that is not taken
-  unsigned neighbours = 0;  // with a taken one
-  TriId neighbour = kNone;
-};
-
-// Those of the element that the triangle is, or is a half of.
-Sides sidesOf(const Halves& halves, const std::vector<std::uint8_t>& taken, TriId t) {
-  const TriId other = halves.otherOf(t);
-  Sides sides;
-  const auto count = [&](EdgeRef across) {
-    if (across == kNone || triOf(across) == t || triOf(across) == other) return;
-    if (taken[triOf(across)] == 0) {
-      ++sides.cut;
-    } else {
-      ++sides.neighbours;
-      sides.neighbour = triOf(across);
-    }
-  };
-  for (const TriId part : {t, other})
-    if (part != kNone)
-      for (const EdgeRef across : halves.mesh.triangles[part].adj) count(across);
-  return sides;
-}
-
 // Returns how many elements the triangles are. REQUIRES: both halves of a quadrilateral are among them.
 std::size_t leaveOut(const Halves& halves, std::span<const TriId> triangles, std::vector<std::uint8_t>& taken) {
   std::size_t elements = 0;
@@ -148,35 +63,16 @@ std::size_t leaveOut(const Halves& halves, std::span<const TriId> triangles, std
   return elements;
 }
 
-std::size_t leaveOutTeeth(const Halves& halves, std::vector<std::uint8_t>& taken, const ItemLoop& loop) {
-  const auto isTooth = [&](TriId t) {
-    const Sides sides = sidesOf(halves, taken, t);
-    return sides.cut > (halves.otherOf(t) == kNone ? 1u : 2u) || (sides.cut > 0 && sides.neighbours == 0);
-  };
-  const std::vector<TriId> teeth = joined(overStretches(loop, taken.size(), [&](std::size_t first, std::size_t last) {
+// Leaves out those of the taken triangles of which this is true before. Returns how many elements they are.
+std::size_t leaveOutWhere(const Halves& halves, std::vector<std::uint8_t>& taken, const ItemLoop& loop,
+                          const std::function<bool(TriId)>& isToGo) {
+  const std::vector<TriId> all = joined(overStretches(loop, taken.size(), [&](std::size_t first, std::size_t last) {
     std::vector<TriId> found;
-    for (auto t = static_cast<TriId>(first); t < last; ++t) {
-      if (taken[t] == 0 || !isTooth(t)) continue;
-      const TriId neighbour = sidesOf(halves, taken, t).neighbour;
-      if (neighbour == kNone || !isTooth(neighbour)) found.push_back(t);
-    }
+    for (auto t = static_cast<TriId>(first); t < last; ++t)
+      if (taken[t] != 0 && isToGo(t)) found.push_back(t);
     return found;
   }));
-  return leaveOut(halves, teeth, taken);
-}
-
-// Those without a neighbour, of which leaving out teeth may leave some.
-std::size_t leaveOutAlone(const Halves& halves, std::vector<std::uint8_t>& taken, const ItemLoop& loop) {
-  const std::vector<TriId> alone = joined(overStretches(loop, taken.size(), [&](std::size_t first, std::size_t last) {
-    std::vector<TriId> found;
-    for (auto t = static_cast<TriId>(first); t < last; ++t) {
-      if (taken[t] == 0) continue;
-      const Sides sides = sidesOf(halves, taken, t);
-      if (sides.cut > 0 && sides.neighbours == 0) found.push_back(t);
-    }
-    return found;
-  }));
-  return leaveOut(halves, alone, taken);
+  return leaveOut(halves, all, taken);
 }
 
 }  // namespace
@@ -187,13 +83,23 @@ TidiedCut tidyCut(const TriMesh& mesh, std::span<const std::uint32_t> other_half
   TidiedCut tidied;
   tidied.loose = leaveOutLoose(halves, taken, loop);
   std::vector<std::uint8_t> without = taken;
-  std::size_t teeth = leaveOutTeeth(halves, without, loop);
+  std::size_t teeth = leaveOutWhere(halves, without, loop, [&](TriId t) { return isSingleTooth(halves, without, t); });
   const std::size_t loose = leaveOutLoose(halves, without, loop);
-  teeth += leaveOutAlone(halves, without, loop);
+  teeth += leaveOutWhere(halves, without, loop, [&](TriId t) { return isAlone(sidesOf(halves, without, t)); });
   if (teeth == 0 || std::ranges::find(without, 1) == without.end()) return tidied;
   taken = std::move(without);
   tidied.teeth = teeth;
   tidied.loose += loose;
+  return tidied;
+}
+
+TidiedCut tidyEvenCut(const TriMesh& mesh, std::span<const std::uint32_t> other_half, std::vector<std::uint8_t>& taken,
+                      const ItemLoop& loop) {
+  const Halves halves{mesh, other_half};
+  TidiedCut tidied;
+  tidied.loose = leaveOutLoose(halves, taken, loop);
+  if (tidied.loose > 0)
+    tidied.teeth = leaveOutWhere(halves, taken, loop, [&](TriId t) { return isAlone(sidesOf(halves, taken, t)); });
   return tidied;
 }
 

@@ -25,4 +25,8 @@ struct TidiedCut {
 TidiedCut tidyCut(const TriMesh& mesh, std::span<const std::uint32_t> other_half, std::vector<std::uint8_t>& taken,
                   const ItemLoop& loop = inOrder);
 
+// The same after `evenCut`, which leaves nothing but what it could not settle: teeth stay.
+TidiedCut tidyEvenCut(const TriMesh& mesh, std::span<const std::uint32_t> other_half, std::vector<std::uint8_t>& taken,
+                      const ItemLoop& loop = inOrder);
+
 }  // namespace coastmesh
