@@ -50,8 +50,12 @@ class Tester {
       if (node != kNone) shared.push_back(node);
     std::ranges::sort(shared);
     const auto isShared = [&](std::uint32_t node) { return std::ranges::binary_search(shared, node); };
-    for (const Outline::Edge& edge : outline.edges())
+    const std::vector<NodePair> of_mesh = edgesBetweenShared();
+    for (const Outline::Edge& edge : outline.edges()) {
       stays_.push_back(edge.joins && !isShared(edge.a) && !isShared(edge.b) ? 1 : 0);
+      fits_.push_back(std::ranges::binary_search(of_mesh, edgeKey(edge.a, edge.b)) ? 1 : 0);
+    }
+    addFittingShores();
   }
 
   bool isMet(TriId t) const {
@@ -67,13 +71,42 @@ class Tester {
     corners.shortest = std::min({squaredDistance(a, b), squaredDistance(b, c), squaredDistance(c, a)});
     bool met = false;
     outline_.visit(box.grownBy(kNear * std::sqrt(corners.shortest)),
-                   [&](std::uint32_t e) { met = met || isMetBy(corners, outline_.edges()[e]); });
+                   [&](std::uint32_t e) { met = met || isMetBy(corners, e); });
     for (const VertexId v : mesh_.triangles[t].v) met = met || (is_shore_[v] != 0 && isBesideEdge(v));
     return met;
   }
 
  private:
-  bool isMetBy(const Corners& t, const Outline::Edge& edge) const {
+  // The keys of edges of the mesh whose nodes are both the outline's, in its numbers, sorted.
+  std::vector<NodePair> edgesBetweenShared() const {
+    std::vector<NodePair> edges;
+    for (const Triangle& t : mesh_.triangles)
+      for (unsigned i = 0; i < 3; ++i)
+        if (const std::uint32_t a = same_[t.v[i]], b = same_[t.v[next3(i)]]; a != kNone && b != kNone)
+          edges.push_back(edgeKey(a, b));
+    std::ranges::sort(edges);
+    return edges;
+  }
+
+  // A shore that begins or ends where the meshes continue one another: there the mesh's own shore goes on from it, so
+  // that water close to it is across land, as it was.
+  void addFittingShores() {
+    const std::vector<Outline::Edge>& edges = outline_.edges();
+    const auto spread = [&](std::size_t from, std::size_t to) {
+      if (fits_[from] != 0 && !edges[to].joins) fits_[to] = 1;
+    };
+    for (std::size_t first = 0, last = 0; first < edges.size(); first = last + 1) {
+      for (last = first; edges[last].b != edges[first].a;) ++last;
+      const std::size_t n = last - first + 1;
+      for (std::size_t i = 0; i < 2 * n; ++i) {
+        spread(first + i % n, first + (i + 1) % n);
+        spread(last - i % n, last - (i + 1) % n);
+      }
+    }
+  }
+
+  bool isMetBy(const Corners& t, std::uint32_t e) const {
+    const Outline::Edge& edge = outline_.edges()[e];
     const Point &a = outline_.place(edge.a), &b = outline_.place(edge.b);
     unsigned shared = 0, last = 0;  // the number of corners that are ends of the edge, and the last of them
     for (unsigned i = 0; i < 3; ++i) {
@@ -91,6 +124,7 @@ class Tester {
                segmentsMeet(a, b, t.at[1], t.at[2]) || segmentsMeet(a, b, t.at[2], t.at[0])) {
       return true;
     }
+    if (fits_[e] != 0) return false;
     const bool shares = std::ranges::any_of(t.same, [](std::uint32_t node) { return node != kNone; });
     const double share = shares ? kNearAtNode : kNear;
     const double near = share * share * std::min(t.shortest, squaredDistance(a, b));
@@ -116,6 +150,9 @@ class Tester {
   const Outline& outline_;
   std::vector<std::uint8_t> is_shore_;  // for each node
   std::vector<std::uint8_t> stays_;     // for each edge of the outline: it joins, and no node of the mesh is its end
+  // For each edge of the outline: the mesh has it too, or it is of a shore that fits the mesh's. What lies between it
+  // and a triangle is as it was in the mesh.
+  std::vector<std::uint8_t> fits_;
 };
 
 // The edges of the outline between nodes of the mesh, sorted.
