@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <functional>
-#include <utility>
+#include <tuple>
 
 #include "gis/cut/cut_elements.hpp"
 
@@ -10,10 +10,13 @@ namespace coastmesh {
 
 namespace {
 
+// Elements beside one another that several nodes want on different sides are left after so many moves.
+constexpr std::uint8_t kMostMoves = 4;
+
 class CutEvener {
  public:
   CutEvener(const Halves& halves, const std::vector<std::uint8_t>& taken, const ItemLoop& loop)
-      : halves_(halves), loop_(loop), taken_(taken), has_moved_(taken.size(), 0) {}
+      : halves_(halves), loop_(loop), before_(taken), taken_(taken), moves_(taken.size(), 0) {}
 
   void even() {
     settleNodes();
@@ -29,7 +32,7 @@ class CutEvener {
   EvenedCut changes() const {
     EvenedCut changes;
     for (TriId t = 0; t < taken_.size(); ++t)
-      if (has_moved_[t] != 0 && t < halves_.otherOf(t)) ++(taken_[t] == 0 ? changes.given : changes.taken_in);
+      if (taken_[t] != before_[t] && t < halves_.otherOf(t)) ++(taken_[t] == 0 ? changes.given : changes.taken_in);
     return changes;
   }
 
@@ -51,22 +54,28 @@ class CutEvener {
 
   void move(TriId t) {
     for (const TriId part : {t, halves_.otherOf(t)}) {
-      if (part == kNone || has_moved_[part] != 0) continue;
+      if (part == kNone) continue;
       taken_[part] = taken_[part] == 0 ? 1 : 0;
-      has_moved_[part] = 1;
+      ++moves_[part];
     }
   }
 
   void moveWhere(const std::function<bool(TriId)>& still, const std::vector<TriId>& triangles) {
     for (const TriId t : triangles)
-      if (has_moved_[t] == 0 && still(t)) move(t);
+      if (still(t)) move(t);
   }
 
-  bool mayMove(const std::vector<TriId>& set) const {
-    return std::ranges::none_of(set, [&](TriId t) {
-      const TriId other = halves_.otherOf(t);
-      return has_moved_[t] != 0 || (other != kNone && has_moved_[other] != 0);
-    });
+  // The most moves of a triangle of a set.
+  std::uint8_t movesOf(const std::vector<TriId>& set) const {
+    std::uint8_t most = 0;
+    for (const TriId t : set) most = std::max(most, moves_[t]);
+    return most;
+  }
+
+  void moveSet(const std::vector<TriId>& set) {
+    const std::uint8_t before = taken_[set.front()];
+    for (const TriId t : set)
+      if (taken_[t] == before) move(t);  // else its other half has
   }
 
   // At each node, what is taken is one set, and so is the rest.
@@ -81,13 +90,11 @@ class CutEvener {
       for (;;) {
         std::vector<std::vector<TriId>> sets = setsOf(fan, taken_);
         if (sets.size() < 3) break;
-        std::erase_if(sets, [&](const std::vector<TriId>& set) { return !mayMove(set); });
-        if (sets.empty()) break;
-        const auto smaller = [](const std::vector<TriId>& a, const std::vector<TriId>& b) {
-          return a.size() != b.size() ? a.size() < b.size() : std::ranges::min(a) < std::ranges::min(b);
-        };
-        const std::vector<TriId> least = *std::ranges::min_element(sets, smaller);
-        std::ranges::for_each(least, [this](TriId t) { move(t); });
+        const std::vector<TriId> least = *std::ranges::min_element(sets, {}, [this](const std::vector<TriId>& set) {
+          return std::tuple(movesOf(set), set.size(), std::ranges::min(set));
+        });
+        if (movesOf(least) >= kMostMoves) break;
+        moveSet(least);
         for (const TriId t : least)
           for (const TriId part : {t, halves_.otherOf(t)})
             if (part != kNone) add(part);
@@ -97,8 +104,9 @@ class CutEvener {
 
   const Halves& halves_;
   const ItemLoop& loop_;
+  const std::vector<std::uint8_t> before_;
   std::vector<std::uint8_t> taken_;
-  std::vector<std::uint8_t> has_moved_;
+  std::vector<std::uint8_t> moves_;  // of each triangle
 };
 
 }  // namespace

@@ -20,9 +20,9 @@ struct EvenedCut {
 // Makes the edge between what is taken and the rest even, so that most models accept both: an element that sticks out
 // of one of them with two sides, or that only a node connects to the others, becomes the other one's. What is taken and
 // the rest are treated alike, so that cuts with flags and with the opposite ones still fit one another. First sets
-// around a node, of which there are more than two, the smallest first; then teeth, once, unless their neighbour is one
-// too; then sets and elements without a neighbour that this leaves. No element moves twice: where that leaves some,
-// `tidyEvenCut` has to follow. Nothing, and no change, if all or none would be taken.
+// around a node, of which there are more than two, those that have not moved and the smallest first; then teeth, once,
+// unless their neighbour is one too; then sets and elements without a neighbour that this leaves. Where nodes close to
+// one another cannot all be settled, `tidyEvenCut` has to follow. Nothing, and no change, if all or none would be taken.
 // `other_half`, of `otherHalves`: quadrilaterals move whole, and are teeth with three sides. REQUIRES: both halves of
 // each have the same flag.
 std::optional<EvenedCut> evenCut(const TriMesh& mesh, std::span<const std::uint32_t> other_half,

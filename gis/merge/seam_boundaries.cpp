@@ -136,13 +136,23 @@ class SeamBoundaries {
           std::ranges::binary_search(left_open_, edgeKey(loop[i], loop[(i + 1) % n])))
         ++walls_;
     for (const auto& kind : kinds) on_changed_.insert(kind->segment);
-    uniteAlike(kinds);
+    uniteAlike(kinds, loop);
     for (std::size_t i = 0; i < n; ++i) kinds_[edgeKey(loop[i], loop[(i + 1) % n])] = *kinds[i];
   }
 
-  // Boundaries and new edges of one kind that follow one another are one: shores, and others with new edges between
-  // them. It takes the place of the first of them.
-  static void uniteAlike(std::vector<std::optional<BoundaryKind>>& kinds) {
+  // True for edges of an opening of each mesh, one after the other, unless the other mesh had two openings there.
+  bool areOneOpening(const BoundaryKind& a, const BoundaryKind& b, const std::vector<std::uint32_t>& loop,
+                     std::size_t i) const {
+    if (inserted_[a.segment - 1] == inserted_[b.segment - 1]) return false;
+    const std::size_t n = loop.size();
+    const BoundaryKind* const before = origin_.kind_before(loop[i], loop[(i + 1) % n]);
+    const BoundaryKind* const after = origin_.kind_before(loop[(i + 1) % n], loop[(i + 2) % n]);
+    return before == nullptr || after == nullptr || before->segment == after->segment;
+  }
+
+  // Boundaries and new edges of one kind that follow one another on a loop are one: shores, others with new edges
+  // between them, and openings of both meshes. It takes the place of the first of them.
+  void uniteAlike(std::vector<std::optional<BoundaryKind>>& kinds, const std::vector<std::uint32_t>& loop) const {
     const std::size_t n = kinds.size();
     for (auto& kind : kinds)
       if (!isOpening(*kind) && kind->segment != kWeir)
@@ -150,7 +160,8 @@ class SeamBoundaries {
     const auto goesOn = [&](std::size_t i, std::size_t j) {
       const BoundaryKind &a = *kinds[i], &b = *kinds[j];
       if (a.segment == kWeir || b.segment == kWeir || a.role != b.role || a.ibtype != b.ibtype) return false;
-      return a.segment == b.segment || !isOpening(a) || a.segment == 0 || b.segment == 0;
+      return a.segment == b.segment || !isOpening(a) || a.segment == 0 || b.segment == 0 ||
+             areOneOpening(a, b, loop, i);
     };
     std::size_t start = 0;
     while (start < n && goesOn((start + n - 1) % n, start)) ++start;

@@ -23,8 +23,8 @@ struct SeamOrigin {
 
 // Sets the boundaries of a merged grid, whose mesh is `mesh`: parts that are inside now are left out, and loops that
 // have new edges are completed. Where an open boundary of the inserted mesh is joined, what is left of it is new. New
-// edges have the kind that they had before, else that of an open boundary beside them, else they are land. All other
-// boundaries keep their nodes and their order. Returns the number of edges of such open boundaries that became land.
+// edges have the kind that they had before, else that of an open boundary beside them, else they are land. Openings of
+// both meshes that follow one another are one, unless the other mesh had two there. All other boundaries keep their nodes and their order. Returns the number of edges of such open boundaries that became land.
 std::size_t setSeamBoundaries(Grid& grid, const TriMesh& mesh, const SeamOrigin& origin, const ItemLoop& loop);
 
 }  // namespace coastmesh
