@@ -22,7 +22,8 @@ struct EvenedCut {
 // the rest are treated alike, so that cuts with flags and with the opposite ones still fit one another. First sets
 // around a node, of which there are more than two, those that have not moved and the smallest first; then teeth, once,
 // unless their neighbour is one too; then sets and elements without a neighbour that this leaves. Where nodes close to
-// one another cannot all be settled, `tidyEvenCut` has to follow. Nothing, and no change, if all or none would be taken.
+// one another cannot all be settled, `tidyEvenCut` has to follow. Nothing, without a change, if all or none would be
+// taken.
 // `other_half`, of `otherHalves`: quadrilaterals move whole, and are teeth with three sides. REQUIRES: both halves of
 // each have the same flag.
 std::optional<EvenedCut> evenCut(const TriMesh& mesh, std::span<const std::uint32_t> other_half,

@@ -9,6 +9,7 @@
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/linked_grid.hpp"
 #include "gis/merge/joined_meshes.hpp"
+#include "gis/merge/nearby_shore.hpp"
 #include "gis/merge/seam_boundaries.hpp"
 
 namespace coastmesh {
@@ -124,6 +125,9 @@ void setSources(Grid& grid, const JoinedMeshes& joined, std::size_t inserted_tri
   report.nodes.resize(grid.nodes.size());
   for (std::uint32_t v = 0; v < index_of.size(); ++v)
     if (index_of[v] != kNone) report.nodes[index_of[v]] = v < shift ? MergeSource{0, v} : MergeSource{1, v - shift};
+  report.of_both.assign(grid.nodes.size(), 0);
+  for (const std::uint32_t node : joined.same)
+    if (node != kNone && index_of[shift + node] != kNone) report.of_both[index_of[shift + node]] = 1;
 }
 
 }  // namespace
@@ -140,6 +144,7 @@ MergeReport mergeGrids(Grid& grid, Grid&& inserted, const ItemLoop& loop) {
     report.partition_dropped = dropPartition(*part) || report.partition_dropped;
 
   const EdgeKinds kinds_before(grid);
+  const NearbyShore shore_before(grid, loop);
   const std::vector<std::uint32_t> instead = becomes(joined.same, inserted.nodes.size());
   const std::size_t inserted_triangles = inserted.triangles.size();
   SeamOrigin origin;
@@ -158,6 +163,7 @@ MergeReport mergeGrids(Grid& grid, Grid&& inserted, const ItemLoop& loop) {
     return node_before[a] == kNone || node_before[b] == kNone ? nullptr
                                                               : kinds_before.find(node_before[a], node_before[b]);
   };
+  origin.is_at_shore = [&](const Point& a, const Point& b) { return shore_before.passes(a, b); };
   report.walls = setSeamBoundaries(grid, linkGrid(grid, loop).mesh, origin, loop);
   cutLinesOffEdges(grid);
   setSources(grid, joined, inserted_triangles, report);

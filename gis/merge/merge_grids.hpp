@@ -17,6 +17,7 @@ struct MergeSource {
 
 struct MergeReport {
   std::vector<MergeSource> nodes, triangles;  // of each of the merged grid
+  std::vector<std::uint8_t> of_both;          // 1 for each node of the merged grid that was one of both
   std::size_t covered = 0;                    // triangles of the grid that the other one replaces
   std::size_t cut_off = 0;                    // triangles of waters that only those connected to the rest: left out
   std::size_t gap = 0;                        // triangles between the two, the last of the merged grid

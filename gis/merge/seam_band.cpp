@@ -73,7 +73,9 @@ class BandFinder {
     for (std::uint32_t node = 0; node < grid_.nodes.size(); ++node) {
       double sum = 0.0;
       std::size_t count = 0, others = 0;
+      bool fits = merged_.of_both[node] != 0;  // both meshes are there as they were
       for (const std::uint32_t t : trianglesAt(node)) {
+        fits = fits && !isGap(t);
         if (isInserted(t)) {
           sum += meanEdge(t);
           ++count;
@@ -81,7 +83,7 @@ class BandFinder {
           ++others;
         }
       }
-      if (count == 0 || others == 0) continue;
+      if (count == 0 || others == 0 || fits) continue;
       distance_[node] = 0.0;
       length_[node] = sum / static_cast<double>(count);
       band_.largest = std::max(band_.largest, length_[node]);

@@ -69,6 +69,11 @@ class SeamBoundaries {
     return is_changed || (of_inserted && of_other);
   }
 
+  bool isAlongShore(const std::vector<NodePair>& edges) const {
+    return std::ranges::all_of(
+        edges, [&](const NodePair& edge) { return origin_.is_at_shore(grid_.nodes[edge[0]], grid_.nodes[edge[1]]); });
+  }
+
   // Drops what is not on the mesh's boundary any more, and open boundaries that are joined.
   void keepOuter() {
     std::vector<Boundary> kept;
@@ -82,12 +87,13 @@ class SeamBoundaries {
         if (!boundary.back_nodes.empty() && !isOuter(boundary.back_nodes[i], boundary.back_nodes[(i + 1) % n]))
           outer[i] = 0;
       }
-      if (std::ranges::count(outer, 1) == std::ssize(outer)) {
+      const bool is_inserted = b >= origin_.first_inserted, is_open = boundary.role == BoundaryRole::Open;
+      if (std::ranges::count(outer, 1) == std::ssize(outer) && !(is_inserted && is_open && isAlongShore(edges))) {
         kept.push_back(std::move(boundary));
-        inserted_.push_back(b >= origin_.first_inserted);
+        inserted_.push_back(is_inserted);
         continue;
       }
-      if (b >= origin_.first_inserted && boundary.role == BoundaryRole::Open) {
+      if (is_inserted && is_open) {
         for (std::size_t i = 0; i < edges.size(); ++i)
           if (outer[i] != 0) left_open_.push_back(edgeKey(edges[i][0], edges[i][1]));
         continue;
@@ -95,7 +101,7 @@ class SeamBoundaries {
       for (Boundary& piece : piecesOf(boundary, [&](std::size_t i) { return outer[i] != 0; })) {
         asPartOfShore(piece);
         kept.push_back(std::move(piece));
-        inserted_.push_back(b >= origin_.first_inserted);
+        inserted_.push_back(is_inserted);
       }
     }
     grid_.boundaries = std::move(kept);

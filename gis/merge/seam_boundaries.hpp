@@ -19,12 +19,15 @@ struct SeamOrigin {
   std::vector<NodePair> cut;       // keys of edges of the other mesh beyond which triangles were taken out
   // The kind of an edge that was on the other mesh's boundary before; null if it was not.
   std::function<const BoundaryKind*(std::uint32_t from, std::uint32_t to)> kind_before;
+  std::function<bool(const Point& a, const Point& b)> is_at_shore;  // of the other mesh, at an edge of this one
 };
 
 // Sets the boundaries of a merged grid, whose mesh is `mesh`: parts that are inside now are left out, and loops that
-// have new edges are completed. Where an open boundary of the inserted mesh is joined, what is left of it is new. New
-// edges have the kind that they had before, else that of an open boundary beside them, else they are land. Openings of
-// both meshes that follow one another are one, unless the other mesh had two there. All other boundaries keep their nodes and their order. Returns the number of edges of such open boundaries that became land.
+// have new edges are completed. Where an open boundary of the inserted mesh is joined, what is left of it is new, and
+// so is one that lies along a shore of the other mesh. New edges have the kind that they had before, else that of an
+// open boundary beside them, else they are land. Openings of both meshes that follow one another are one, unless the
+// other mesh had two there. All other boundaries keep their nodes and their order. Returns the number of edges of such
+// open boundaries that became land.
 std::size_t setSeamBoundaries(Grid& grid, const TriMesh& mesh, const SeamOrigin& origin, const ItemLoop& loop);
 
 }  // namespace coastmesh

@@ -244,13 +244,99 @@ TEST(MergeGrids, APartIsPutBack) {
   EXPECT_NEAR(sum, sum_before, 1e-9 * std::abs(sum_before));
 }
 
+// A sea in the north with islands, some of them thin, and no two edges alike.
+Grid unevenSea(std::mt19937& random) {
+  std::uniform_real_distribution<double> share(-1.0, 1.0);
+  std::set<std::pair<int, int>> dry;
+  for (int k = 0; k < 14; ++k) dry.emplace(1 + 2 * (random() % 9), 1 + 2 * (random() % 9));  // apart
+  Grid grid = gridOf({20, 20, 1.0, {}, 0.0, [&](int x, int y) { return !dry.contains({x, y}); }});
+  openWhere(grid, [](const Point& p) { return p.y > 19.9; });
+  for (Point& p : grid.nodes) {
+    if (p.x > 0.0 && p.x < 20.0) p.x += 0.22 * share(random);
+    if (p.y > 0.0 && p.y < 20.0) p.y += 0.22 * share(random);
+  }
+  return grid;
+}
+
+std::multiset<std::pair<BoundaryRole, std::size_t>> lengthsOf(const Grid& grid) {
+  std::multiset<std::pair<BoundaryRole, std::size_t>> lengths;
+  for (const Boundary& boundary : grid.boundaries) lengths.emplace(boundary.role, edgesOf(boundary).size());
+  return lengths;
+}
+
+TEST(MergeGrids, APartFitsIntoTheRestAndIntoTheWhole) {
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    const Grid whole = unevenSea(random);
+    std::uniform_real_distribution<double> place(3.0, 17.0), radius(3.0, 7.0);
+    const Point middle{place(random), place(random)};
+    const double r = radius(random);
+    const auto isIn = [&](const Point& p) { return distance(p, middle) < r; };
+    Grid part = whole, rest = whole;
+    cutGrid(part, middlesWhere(whole, isIn));
+    cutGrid(rest, middlesWhere(whole, [&](const Point& p) { return !isIn(p); }));
+    ASSERT_EQ(part.triangles.size() + rest.triangles.size(), whole.triangles.size());
+    for (const Grid& into : {rest, whole}) {
+      Grid grid = into;
+      const MergeReport report = mergeAndCheck(grid, part);
+      EXPECT_EQ(report.gap, 0u);
+      EXPECT_EQ(report.walls, 0u);
+      EXPECT_EQ(trianglesOf(grid), trianglesOf(whole));
+      EXPECT_EQ(openOf(grid), openOf(whole));
+      EXPECT_EQ(shoresOf(grid), shoresOf(whole));
+      EXPECT_EQ(lengthsOf(grid), lengthsOf(whole));
+    }
+  }
+}
+
+TEST(MergeGrids, AnOpeningThatIsTheGridsOwnStaysDivided) {
+  Grid grid = basin();
+  openWhere(grid, [](const Point& p) { return p.y > 19.9; });
+  const auto at = std::ranges::find(grid.boundaries, BoundaryRole::Open, &Boundary::role);
+  ASSERT_NE(at, grid.boundaries.end());
+  Boundary half = *at;  // two of them, which meet in the midst
+  at->nodes.resize(11);
+  half.nodes.erase(half.nodes.begin(), half.nodes.begin() + 10);
+  grid.boundaries.push_back(half);
+  Grid part = grid;
+  cutGrid(part, middlesWhere(grid, [](const Point& p) { return p.x < 10.0; }));
+  const Grid whole = grid;
+  mergeAndCheck(grid, part);
+  EXPECT_EQ(std::ranges::count(grid.boundaries, BoundaryRole::Open, &Boundary::role), 2);
+  EXPECT_EQ(lengthsOf(grid), lengthsOf(whole));
+}
+
+TEST(MergeGrids, AnOpeningAtTheCoastOfTheGridBecomesLand) {
+  // The inserted mesh reaches a little or far beyond the coast in the west, where it has an opening of one edge.
+  const auto openInTheWest = [](double beyond, std::size_t& walls) {
+    Grid grid = basin();
+    Grid bay = gridOf({12, 14, 0.5, {-beyond, 5.1}});
+    const auto isOfFrame = [&](const Point& p) { return p.x > 0.0; };
+    openWhere(bay, [&](const Point& p) {
+      return isOfFrame(p) || (p.x < 0.01 - beyond && p.y > 8.1 && p.y < 8.6);
+    });
+    walls = mergeAndCheck(grid, bay).walls;
+    return std::ranges::count(grid.boundaries, BoundaryRole::Open, &Boundary::role);
+  };
+  std::size_t walls = 0;
+  EXPECT_EQ(openInTheWest(0.1, walls), 0);
+  EXPECT_EQ(walls, 1u);
+  EXPECT_EQ(openInTheWest(3.0, walls), 1);
+  EXPECT_EQ(walls, 0u);
+}
+
 TEST(MergeGrids, PartsSideBySide) {
-  // The diagonal makes teeth, which `cutGrid` leaves out of both: they are filled.
+  // Neither has the teeth along the diagonal: they are filled.
   const Grid whole = basin();
   Grid west = whole, east = whole;
+  const auto cutTidily = [&](Grid& grid, std::vector<std::uint8_t> taken) {
+    tidyCut(linkGrid(whole).mesh, {}, taken);
+    cutGrid(grid, taken);
+  };
   const auto isWest = [](const Point& p) { return p.x + 0.7 * p.y < 16.0; };
-  cutGrid(west, middlesWhere(whole, isWest));
-  cutGrid(east, middlesWhere(whole, [&](const Point& p) { return !isWest(p); }));
+  cutTidily(west, middlesWhere(whole, isWest));
+  cutTidily(east, middlesWhere(whole, [&](const Point& p) { return !isWest(p); }));
   ASSERT_LT(west.triangles.size() + east.triangles.size(), whole.triangles.size());
   const Grid inserted = east;
   const MergeReport report = mergeAndCheck(west, inserted);

@@ -55,5 +55,20 @@ TEST(SeamBand, IsAsWideAsSizesDiffer) {
   EXPECT_LT(alike, 3.0);
 }
 
+TEST(SeamBand, IsNothingWhereMeshesFit) {
+  // Edges grow by a third from one column to the next, which is more than the gradation.
+  const auto grown = [](Grid grid) {
+    for (Point& p : grid.nodes) p.x = std::pow(1.35, p.x);
+    return grid;
+  };
+  Grid grid = grown(gridOf({10, 10, 1.0, {}, 0.0, [](int x, int) { return x < 5; }}));
+  const Grid part = grown(gridOf({10, 10, 1.0, {}, 0.0, [](int x, int) { return x >= 5; }}, BoundaryRole::Open));
+  const MergeReport merged = mergeGrids(grid, Grid(part));
+  ASSERT_EQ(merged.gap, 0u);
+  EXPECT_EQ(merged.united, 11u);
+  EXPECT_EQ(std::ranges::count(merged.of_both, 1), 11);
+  EXPECT_EQ(seamBand(grid, merged, 0.001).triangles, 0u);
+}
+
 }  // namespace
 }  // namespace coastmesh
