@@ -37,8 +37,8 @@ std::string textOf(const CutReport& report, std::size_t quads, std::size_t quads
       forCount(report.boundaries_kept, " boundary or part of one kept, ", " boundaries or parts of them kept, ") +
       grouped(report.boundaries_cut) + " along the cut\n";
   const auto elements = [&](std::size_t count) {
-    return grouped(count) + forCount(count, quads_before > 0 ? " element" : " triangle",
-                                     quads_before > 0 ? " elements" : " triangles");
+    return grouped(count) +
+           forCount(count, quads_before > 0 ? " element" : " triangle", quads_before > 0 ? " elements" : " triangles");
   };
   const auto [given, taken_in] = report.evened;
   if (given + taken_in > 0)

@@ -30,10 +30,11 @@ struct CutReport {
   bool partition_dropped = false;   // the assignment to processes, which is of the whole mesh
 };
 
-// Keeps the triangles with a flag in `taken`, and their nodes, in their order and with all their values bit for bit. The
-// edge of the cut is made even first, so that models reject neither them nor the rest (`evenCut`): a part and the rest
-// fit, wherever the cut is. If that leaves one of them nothing, the part is tidied alone (`tidyCut`). Boundaries are divided where they lose edges (`boundariesOfPart`);
-// those along the cut come last. REQUIRES: one flag for each triangle, at least one of them set.
+// Keeps the triangles with a flag in `taken`, and their nodes, in their order and with all their values bit for bit.
+// The edge of the cut is made even first, so that models reject neither them nor the rest (`evenCut`): a part and the
+// rest fit, wherever the cut is. If that leaves one of them nothing, the part is tidied alone (`tidyCut`). Boundaries
+// are divided where they lose edges (`boundariesOfPart`); those along the cut come last. REQUIRES: one flag for each
+// triangle, at least one of them set.
 CutReport cutGrid(Grid& grid, std::vector<std::uint8_t> taken, const CutOptions& options = {},
                   const ItemLoop& loop = inOrder);
 

@@ -47,9 +47,8 @@ class CutEvener {
   }
 
   bool isAtCut(TriId t) const {
-    return std::ranges::any_of(halves_.mesh.triangles[t].adj, [&](EdgeRef across) {
-      return across != kNone && taken_[triOf(across)] != taken_[t];
-    });
+    return std::ranges::any_of(halves_.mesh.triangles[t].adj,
+                               [&](EdgeRef across) { return across != kNone && taken_[triOf(across)] != taken_[t]; });
   }
 
   void move(TriId t) {

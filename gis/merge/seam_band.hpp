@@ -19,7 +19,8 @@ struct SeamBand {
 
 // The band of a grid that `mergeGrids` has made: the gap, the triangles of the grid around it, and those so near to the
 // inserted mesh that sizes there would differ from its own by more than `gradation` times the distance along edges.
-// Where the meshes adjoin at edges that both had, they stay as they are. Triangles of the inserted mesh are never in it.
+// Where the meshes adjoin at edges that both had, they stay as they are. Triangles of the inserted mesh are never in
+// it.
 SeamBand seamBand(const Grid& grid, const MergeReport& merged, double gradation, const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

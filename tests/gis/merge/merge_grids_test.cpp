@@ -313,9 +313,7 @@ TEST(MergeGrids, AnOpeningAtTheCoastOfTheGridBecomesLand) {
     Grid grid = basin();
     Grid bay = gridOf({12, 14, 0.5, {-beyond, 5.1}});
     const auto isOfFrame = [&](const Point& p) { return p.x > 0.0; };
-    openWhere(bay, [&](const Point& p) {
-      return isOfFrame(p) || (p.x < 0.01 - beyond && p.y > 8.1 && p.y < 8.6);
-    });
+    openWhere(bay, [&](const Point& p) { return isOfFrame(p) || (p.x < 0.01 - beyond && p.y > 8.1 && p.y < 8.6); });
     walls = mergeAndCheck(grid, bay).walls;
     return std::ranges::count(grid.boundaries, BoundaryRole::Open, &Boundary::role);
   };
