@@ -2,7 +2,7 @@
 
 namespace coastmesh {
 
-Fan fanAt(const TriMesh& mesh, const Corner& corner) {
+NodeFan fanAt(const TriMesh& mesh, const Corner& corner) {
   const VertexId node = mesh.triangle(corner.triangle).v[corner.index];
   // The triangle across the edge that leads to the node, or from it; kNone at the end of the fan.
   const auto across = [&](TriId t, bool counter_clockwise) {
@@ -16,7 +16,7 @@ Fan fanAt(const TriMesh& mesh, const Corner& corner) {
     t = across(t, false);
     if (t == corner.triangle) break;
   }
-  Fan fan;
+  NodeFan fan;
   TriId t = first;
   do {
     fan.triangles.push_back(t);
@@ -26,7 +26,7 @@ Fan fanAt(const TriMesh& mesh, const Corner& corner) {
   return fan;
 }
 
-std::vector<std::vector<TriId>> setsOf(const Fan& fan, const std::vector<std::uint8_t>& taken) {
+std::vector<std::vector<TriId>> setsOf(const NodeFan& fan, const std::vector<std::uint8_t>& taken) {
   const std::size_t n = fan.triangles.size();
   const auto changesAt = [&](std::size_t i) {
     return taken[fan.triangles[i]] != taken[fan.triangles[(i + n - 1) % n]];

@@ -23,14 +23,14 @@ struct Corner {
 
 // The triangles around a node that are connected to the corner's through edges there, counter-clockwise; `whole` if
 // they surround the node.
-struct Fan {
+struct NodeFan {
   std::vector<TriId> triangles;
   bool whole = false;
 };
-Fan fanAt(const TriMesh& mesh, const Corner& corner);
+NodeFan fanAt(const TriMesh& mesh, const Corner& corner);
 
 // The triangles of a fan in connected sets with the same flag in `taken`, one after another.
-std::vector<std::vector<TriId>> setsOf(const Fan& fan, const std::vector<std::uint8_t>& taken);
+std::vector<std::vector<TriId>> setsOf(const NodeFan& fan, const std::vector<std::uint8_t>& taken);
 
 // The sides of the element that a triangle is, or is a half of.
 struct Sides {

@@ -85,7 +85,7 @@ class CutEvener {
     };
     std::ranges::for_each(trianglesWhere([this](TriId t) { return isAtCut(t); }), add);
     for (std::size_t at = 0; at < corners.size(); ++at) {  // grows
-      const Fan fan = fanAt(halves_.mesh, corners[at]);
+      const NodeFan fan = fanAt(halves_.mesh, corners[at]);
       for (;;) {
         std::vector<std::vector<TriId>> sets = setsOf(fan, taken_);
         if (sets.size() < 3) break;
