@@ -56,9 +56,9 @@ TEST(SeamBand, IsAsWideAsSizesDiffer) {
 }
 
 TEST(SeamBand, IsNothingWhereMeshesFit) {
-  // Edges grow by a third from one column to the next, which is more than the gradation.
+  // Columns are twice as wide as the one before, which is more than a seam may have.
   const auto grown = [](Grid grid) {
-    for (Point& p : grid.nodes) p.x = std::pow(1.35, p.x);
+    for (Point& p : grid.nodes) p.x = std::pow(2.0, p.x);
     return grid;
   };
   Grid grid = grown(gridOf({10, 10, 1.0, {}, 0.0, [](int x, int) { return x < 5; }}));
