@@ -286,6 +286,7 @@ Domain followShore(Domain&& domain, DomainSizes& sized, MakeSizes&& makeSizes, c
     followed = lengthen(std::move(followed), *again.function);
   }
   sized = std::move(again);
+  warnOfShortSegments(followed, *sized.function, report, loop);
   return followed;
 }
 

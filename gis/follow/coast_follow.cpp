@@ -32,7 +32,8 @@ namespace coastmesh {
 
 namespace {
 
-constexpr double kNoted = 0.005;  // of the water's area: smaller differences do not move shores
+constexpr double kNoted = 0.005;       // of the water's area: smaller differences do not move shores
+constexpr double kMuchShorter = 0.25;  // of the size: following leaves hardly any segment shorter than half of it
 
 // Adds the area that the water gains if v moves to x, or is removed if x is null.
 void addGain(const ShoreChains& chains, VertexId v, const Point* x, const ScaleTable& scales, WaterAreas& gained) {
@@ -269,6 +270,32 @@ Domain coarsenFurther(Domain&& domain, const SizeFunction& size, const Coastline
   coarsenShores(chains, gone);
   mendShores(chains, gone, moved, loop);
   return domainOf(graphOf(std::move(chains)), std::move(domain));
+}
+
+void warnOfShortSegments(const Domain& followed, const SizeFunction& size, CleanReport& report, const ItemLoop& loop) {
+  const SizesInPlane in_plane(size, followed);
+  Domain copy = followed;
+  ShoreChains chains = chainsOf(takeGraph(copy), in_plane.get(), loop);
+  limitToNarrowWaters(chains);
+  std::vector<char> is_given(chains.at.size(), 0);
+  for (const VertexId v : followed.asked) is_given[v] = 1;
+  for (const Segment& s : chains.lines) is_given[s.a] = is_given[s.b] = 1;
+  ShortSegments found;
+  double shortest = kMuchShorter;
+  for (VertexId v = 0; v < chains.at.size(); ++v) {
+    const VertexId q = chains.next[v];
+    if (q == kNone || is_given[v] || is_given[q]) continue;
+    const double wanted = std::min(chains.size[v], chains.size[q]), length = distance(chains.at[v], chains.at[q]);
+    if (!(length < kMuchShorter * wanted)) continue;
+    ++found.count;
+    if (!(length < shortest * wanted)) continue;
+    shortest = length / wanted;
+    found.place = midpoint(chains.at[v], chains.at[q]);
+    const double scale = followed.projection.scaleAt(found.place);
+    found.length_m = length / scale;
+    found.size_m = wanted / scale;
+  }
+  if (found.count > 0) report.warnings.push_back(warningOf(found, followed.projection));
 }
 
 }  // namespace coastmesh

@@ -53,4 +53,9 @@ SizeGrowth growthOf(const Pslg& pslg, const SizeFunction& before, const SizeFunc
 Domain coarsenFurther(Domain&& domain, const SizeFunction& size, const Coastline& coastline, CleanReport& report,
                       const ItemLoop& loop = inOrder);
 
+// Adds a warning, with a place, if boundaries of a domain that follows sizes still have segments much shorter than
+// these, other than at lines in the water and requested points, or in water narrower than the sizes.
+void warnOfShortSegments(const Domain& followed, const SizeFunction& size, CleanReport& report,
+                         const ItemLoop& loop = inOrder);
+
 }  // namespace coastmesh

@@ -112,6 +112,14 @@ NotedLength metPoint(const Point& place, double apart_m, const Projection& proje
   return {apart_m, lengthText(apart_m, projection) + " at " + placeText(place, projection)};
 }
 
+std::string warningOf(const ShortSegments& segments, const Projection& projection) {
+  return "the coast could not follow the sizes everywhere: " + std::to_string(segments.count) +
+         forCount(segments.count, " segment is", " segments are") + " much shorter, the shortest at " +
+         placeText(segments.place, projection) + ", " + lengthText(segments.length_m, projection) +
+         " long where the size is " + lengthText(segments.size_m, projection) +
+         "; other sizes or another frame may avoid that";
+}
+
 void noteLostLines(const LostLines& lost, const Domain& domain, CleanReport& report) {
   constexpr double kNoted = 0.5;  // elements; shorter losses are not reported
   for (const auto& [tag, part] : lost.lines) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <string>
 #include <vector>
 
 #include "gis/clean/clean_report.hpp"
@@ -40,6 +42,15 @@ void noteLostLines(const LostLines& lost, const Domain& domain, CleanReport& rep
 
 // A point or an end of a line in the water, almost on the shore, that the shore was led through.
 NotedLength metPoint(const Point& place, double apart_m, const Projection& projection);
+
+// Segments of boundaries that following left much shorter than the size.
+struct ShortSegments {
+  std::size_t count = 0;
+  Point place;  // of the shortest, as a share of the size
+  double length_m = 0.0, size_m = 0.0;
+};
+
+std::string warningOf(const ShortSegments& segments, const Projection& projection);
 
 // Adds sentences on guides to the report, and the largest changes of the water, with their places in the input's CRS.
 // Sentences on these are left to `noteWaters`, as they are for all groups of features.

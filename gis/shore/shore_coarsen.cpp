@@ -23,6 +23,7 @@ constexpr double kAlmostStraight = 0.1;  // or this, if segments are shorter tha
 constexpr double kNothing = 1e-9;        // rounding of points on a straight line
 constexpr double kOpenMoved = 0.01;      // open boundaries
 constexpr double kApart = 0.5;           // shores do not come nearer to one another
+constexpr double kThinned = 0.5;         // of its width: what land narrower than that keeps when it has to give way
 constexpr double kNearAlong = 1.6;       // along the shore: nearer vertices count as the same piece
 constexpr double kLeastAngle = std::numbers::pi / 4;
 
@@ -37,6 +38,15 @@ class Coarsener {
   }
 
   void run() {
+    coarsen();
+    // Land that stays though narrow keeps its shores as they are: they would come nearer to each other. Triangles in
+    // the water do not mind narrow land, but short segments.
+    thins_land_ = true;
+    coarsen();
+  }
+
+ private:
+  void coarsen() {
     for (VertexId v = 0; v < c_.at.size(); ++v) enqueue(v);
     // Terminates: only removing a vertex adds entries.
     while (!queue_.empty()) {
@@ -59,7 +69,6 @@ class Coarsener {
     }
   }
 
- private:
   // Builds the tree of remaining vertices: again whenever half are gone, as searches would find mostly removed ones.
   void plant() {
     std::erase_if(held_, [&](VertexId v) { return !c_.alive[v]; });
@@ -93,6 +102,7 @@ class Coarsener {
     double most = c_.open[v] ? kOpenMoved : kMoved;
     const bool is_short = !c_.open[v] && std::min(distance(a, x), distance(x, b)) < kShort * size;
     if (is_short) most = kMovedShort;
+    if (thins_land_ && !is_short) return;
     if (distance(a, b) > kLong * size) most = std::min(most, is_short ? kAlmostStraight : kStraight);
     if (cost <= most) queue_.push({cost, v, version_[v]});
   }
@@ -120,7 +130,9 @@ class Coarsener {
       if (found || reach == 0.0 || std::ranges::find(near_, w) != near_.end()) return;
       const double apart = squaredDistanceToSegment(y, a, b), least = kApart * c_.size[w];
       if (apart >= least * least) return;
-      found = apart < std::min(squaredDistanceToSegment(y, a, x), squaredDistanceToSegment(y, x, b));
+      const double before = std::min(squaredDistanceToSegment(y, a, x), squaredDistanceToSegment(y, x, b));
+      const bool gives_way = thins_land_ && turn < 0;  // the shore moves towards the land
+      found = apart < (gives_way ? kThinned * kThinned : 1.0) * before;
     });
     return found;
   }
@@ -162,6 +174,7 @@ class Coarsener {
   std::vector<VertexId> near_;
   std::vector<VertexId> held_;  // vertices in the tree
   std::size_t gone_since_ = 0;
+  bool thins_land_ = false;
   BoxTree tree_;
   std::priority_queue<Entry> queue_;
 };
