@@ -175,7 +175,7 @@ BoundaryReport defineKinds(const BoundaryPlaces& at, const BoundaryOptions& opti
   report.edges_by_file = static_cast<std::size_t>(std::ranges::count(said, true));
   if (options.opensByDepth()) {
     double deepest = -std::numeric_limits<double>::infinity();
-    if (at.z.empty()) throw InputError("to open boundaries by their depth takes depths; give --bathymetry");
+    if (at.z.empty()) throw OptionError("--open-deeper needs depths: give a raster with --bathymetry");
     for (std::size_t e = 0; e < boundary.edges.size(); ++e) {
       const auto isDeep = [&](std::uint32_t place) { return 0.0 - at.z[place] > options.open_deeper_m; };
       if (!said[e] && boundary.outer[e])

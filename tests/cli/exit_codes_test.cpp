@@ -167,6 +167,19 @@ TEST_F(ExitCodes, ABoxUpsideDownIsWrongUsageThatNamesTheSides) {
   EXPECT_NE(run.errors.find("'-87,42.5,-86,41' is not W,S,E,N with S below N"), std::string::npos) << run.errors;
 }
 
+// An option that an error asks for makes no warning that another has no effect.
+TEST_F(ExitCodes, WaterWithoutALimitIsAnErrorAlone) {
+  const ProgramRun run = runProgram({"mesh", lake(), "-o", file("out.2dm"), "--domain", "outside"});
+  EXPECT_EQ(run.code, 2) << run.errors;
+  EXPECT_TRUE(isOneErrorLine(run.errors)) << run.errors;
+}
+
+TEST_F(ExitCodes, DepthsThatAreMissingAreWrongUsage) {
+  const ProgramRun run = runProgram({"mesh", lake(), "-o", file("out.2dm"), "--open-deeper", "200"});
+  EXPECT_EQ(run.code, 2) << run.errors;
+  EXPECT_NE(run.errors.find("--open-deeper needs depths"), std::string::npos) << run.errors;
+}
+
 TEST_F(ExitCodes, OptionsGivenMoreThanOnce) {
   const ProgramRun run = runProgram({"mesh", lake(), "-o", file("out.2dm"), "--size", "9", "--size", "8"});
   EXPECT_EQ(run.code, 2);

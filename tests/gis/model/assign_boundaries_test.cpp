@@ -214,7 +214,7 @@ TEST_F(AssignBoundaries, DepthOpensOuterLoopsOnly) {
   ASSERT_EQ(none.warnings.size(), 1u);
   EXPECT_EQ(none.warnings[0].find("--open-deeper 1000 opens no boundary: its deepest edge is at "), 0u);
   grid.z.clear();
-  EXPECT_THROW(assignBoundaries(grid, options), InputError);
+  EXPECT_THROW(assignBoundaries(grid, options), OptionError);
 }
 
 TEST_F(AssignBoundaries, ACoastThatDepthOpensIsWarnedOf) {
