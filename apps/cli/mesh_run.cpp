@@ -19,6 +19,7 @@
 #include "apps/cli/run_outputs.hpp"
 #include "apps/cli/shard_file.hpp"
 #include "apps/job/mesh_job.hpp"
+#include "apps/job/places.hpp"
 #include "apps/job/stopwatch.hpp"
 #include "apps/process/exit_codes.hpp"
 #include "apps/process/progress.hpp"
@@ -86,7 +87,8 @@ std::string shortfallOf(const MeshJobResult& result) {
     return std::to_string(count) + forCount(count, one, many);
   };
   if (result.short_of.count > 0)
-    add(counted(result.short_of.count, " triangle misses", " triangles miss") + " the bounds on angles or lengths");
+    add(counted(result.short_of.count, " triangle misses", " triangles miss") + " the bounds on angles or lengths" +
+        (result.short_of.places.empty() ? "" : ", the first at " + pointText(result.short_of.places.front().place)));
   if (result.turned > 0) add(counted(result.turned, " triangle is", " triangles are") + " not counter-clockwise");
   if (result.refine.budget_reached) add("the budget of points is used up");
   if (!result.refusals.empty()) add(counted(result.refusals.size(), " group", " groups") + " of features left out");

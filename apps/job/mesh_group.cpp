@@ -135,7 +135,7 @@ std::string limitText(const GroupTask& task, const GroupResult& result) {
            (allowed < task.job.mesh.refine.max_vertices ? " here, this feature's share by points" : "");
   const double possible = possibleVertices(task, result.surface);
   return (possible < static_cast<double>(kMostVertices) ? "there is memory for about " : "a mesh may have ") +
-         amount("%.2g", possible);
+         roundAmount(possible, 2);
 }
 
 std::string demandText(const VertexDemand& demand, const GroupTask& task, const GroupResult& result) {
@@ -145,9 +145,10 @@ std::string demandText(const VertexDemand& demand, const GroupTask& task, const 
     return "these sizes vary so much that storing them takes more memory than such a mesh may: " + limit +
            "; request sizes that vary less, or give a larger --size-min" + advice;
   std::string text = demand.vertices > kMostReported ? "these sizes ask for more than " : "these sizes ask for about ";
-  text += amount("%.2g", std::min(demand.vertices, kMostReported)) + " vertices, most of them near " +
+  text += roundAmount(std::min(demand.vertices, kMostReported), 2) + " vertices, most of them near " +
           pointText(demand.place);
-  if (std::isfinite(demand.size_m)) text += ", where " + demand.option + amount(" asks for %.3g m", demand.size_m);
+  if (std::isfinite(demand.size_m))
+    text += ", where " + demand.option + " asks for " + roundAmount(demand.size_m, 3) + " m";
   return text + "; " + limit + ": request larger sizes, or give a larger --size-min" + advice;
 }
 
@@ -423,7 +424,7 @@ MeshedRegion meshStage(const GroupTask& task, const Domain& domain, MeshOptions&
     result.refusal_place = domain.projection.inverse(error.place);
     result.lacks_memory = most < kMostVertices;
     throw InputError(featureInWords(task.firstFeature()) + ": the bounds on angles and lengths take more than " +
-                     amount("%.2g", static_cast<double>(most)) +
+                     roundAmount(static_cast<double>(most), 2) +
                      " vertices, the most that fit in memory, the last of them near " +
                      pointText(*result.refusal_place) +
                      ": repair shores that almost coincide there (--snap, --simplify), relax the bounds, or give "

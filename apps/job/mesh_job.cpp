@@ -202,6 +202,7 @@ FinishOptions finishOptionsOf(const MeshJob& job, const JobInput& input) {
   FinishOptions finish = job.finish;
   if (finish.boundaries.of_input.empty()) finish.boundaries.of_input = input.boundaries();
   if (!finish.boundaries.of_files) finish.boundaries.of_files = readBoundaryFiles(finish.boundaries);
+  finish.boundaries.frame = job.input.frame.box;
   return finish;
 }
 

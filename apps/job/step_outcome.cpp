@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -13,6 +14,8 @@
 #include "gis/crs/geodesy.hpp"
 #include "gis/for_count.hpp"
 #include "gis/grid/boundary_chains.hpp"
+#include "gis/grid/grid_edit.hpp"
+#include "gis/grid/grid_lines.hpp"
 
 namespace coastmesh {
 
@@ -30,6 +33,8 @@ std::string causesText(const std::vector<Short>& found, const SizeOptions& sizes
       "at edges of the open boundary, where larger sizes or a larger --size-max help",
       follows ? "where water is narrow, which a larger --channel-min closes"
               : "where water is narrow, which --coast follow closes",
+      "at constraints, weirs or borders of regions, which stay as they are in the data: wider angles and gaps between "
+      "lines, or longer segments, make longer edges there",
       goal == QualityGoal::Centred
           ? "elsewhere, where --quality centred, which may make no angle above 90 degrees, takes shorter edges: larger "
             "sizes, a smaller --min-angle or another --quality help"
@@ -152,6 +157,120 @@ std::string borderWarning(const Grid& grid, const StepReport& step, const SizeOp
                        "shores, the frame and other borders at larger angles, or coarser");
 }
 
+// Edges with an end on a constraint or a weir that are far shorter than the sizes requested there.
+struct ShortAtLines {
+  std::size_t count = 0;
+  // Of the edge that falls shortest of its size:
+  Point place;  // its middle
+  double length_m = 0.0, size_m = 0.0;
+  std::uint32_t line = kNone;         // the index of the line
+  std::vector<std::uint32_t> others;  // lines within a few lengths of the edge, ascending
+  bool by_shore = false;              // the boundary is as near
+};
+
+struct ShortOne {
+  NodePair edge;
+  double length_m, share;
+};
+
+// The line of each node: the first constraint or weir that has it, or kNone.
+std::vector<std::uint32_t> linesOfNodes(const Grid& grid) {
+  std::vector<std::uint32_t> line_of(grid.nodes.size(), kNone);
+  for (std::uint32_t i = 0; i < grid.lines.size(); ++i) {
+    if (grid.lines[i].kind == LineKind::RegionBorder) continue;
+    for (const std::uint32_t node : grid.lines[i].nodes) line_of[node] = std::min(line_of[node], i);
+  }
+  return line_of;
+}
+
+// What is within a few lengths of the edge besides its line.
+void findCauses(const Grid& grid, const EdgeMeter& meter, const ShortOne& one, ShortAtLines& found) {
+  constexpr double kNear = 3.0;  // lengths
+  const auto isNear = [&](std::uint32_t node) {
+    return std::min(meter.between(node, one.edge[0]), meter.between(node, one.edge[1])) <= kNear * one.length_m;
+  };
+  for (std::uint32_t i = 0; i < grid.lines.size(); ++i)
+    if (i != found.line && std::ranges::any_of(grid.lines[i].nodes, isNear)) found.others.push_back(i);
+  found.by_shore = std::ranges::any_of(
+      grid.boundaries, [&](const Boundary& boundary) { return std::ranges::any_of(boundary.nodes, isNear); });
+}
+
+// Counts edges shorter than `share` of the sizes at both ends. `spared_m`: lengths from which on edges are not counted.
+ShortAtLines shortAtLines(const Grid& grid, double share, double spared_m, const ItemLoop& loop) {
+  ShortAtLines found;
+  const auto isMeant = [](const GridLine& line) { return line.kind != LineKind::RegionBorder; };
+  if (grid.size_m.empty() || std::ranges::none_of(grid.lines, isMeant)) return found;
+  const std::vector<std::uint32_t> line_of = linesOfNodes(grid);
+  const EdgeMeter meter(grid.nodes, grid.crs, loop);
+  auto edges = joined(overStretches(loop, grid.triangles.size(), [&](std::size_t first, std::size_t last) {
+    std::vector<ShortOne> some;
+    for (std::size_t t = first; t < last; ++t) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t a = grid.triangles[t][i], b = grid.triangles[t][(i + 1) % 3];
+        if (line_of[a] == kNone && line_of[b] == kNone) continue;
+        const double length = meter.between(a, b), size = std::min(grid.size_m[a], grid.size_m[b]);
+        if (length < share * size && length < spared_m) some.push_back({edgeKey(a, b), length, length / size});
+      }
+    }
+    return some;
+  }));
+  std::ranges::sort(edges, {}, &ShortOne::edge);
+  const auto repeated = std::ranges::unique(edges, {}, &ShortOne::edge);
+  edges.erase(repeated.begin(), repeated.end());
+  if (edges.empty()) return found;
+  found.count = edges.size();
+  const ShortOne& worst = *std::ranges::min_element(edges, {}, &ShortOne::share);
+  const auto& [a, b] = worst.edge;
+  found.place = placeBetween(grid.crs, grid.nodes[a], grid.nodes[b], 0.5);
+  found.length_m = worst.length_m;
+  found.size_m = std::min(grid.size_m[a], grid.size_m[b]);
+  found.line = std::min(line_of[a], line_of[b]);
+  findCauses(grid, meter, worst, found);
+  return found;
+}
+
+// The length of the shortest edge of the boundary; infinite if there is none.
+double shortestAtBoundary(const Grid& grid, const ItemLoop& loop) {
+  double shortest = std::numeric_limits<double>::infinity();
+  const EdgeMeter meter(grid.nodes, grid.crs, loop);
+  for (const Boundary& boundary : grid.boundaries)
+    for (const auto& [a, b] : edgesOf(boundary)) shortest = std::min(shortest, meter.between(a, b));
+  return shortest;
+}
+
+// "constraint 'dike'".
+std::string lineText(const GridLine& line) {
+  return std::string(toString(line.kind)) + (line.name.empty() ? " without a name" : " '" + line.name + "'");
+}
+
+// Where edges beside constraints and weirs are far shorter than the sizes, and why. With a coast as in the data, they
+// are only named if they are far shorter than the shore's own edges. Empty if there are none.
+std::string lineWarning(const Grid& grid, const SizeOptions& sizes, const ItemLoop& loop) {
+  constexpr double kFarShorter = 0.2;  // of the size
+  constexpr double kOfShore = 0.5;     // of the shore's shortest edge
+  constexpr std::size_t kOthersShown = 3;
+  if (!sizes.any() || grid.lines.empty()) return {};
+  const double spared_m =
+      sizes.coast == CoastDetail::Follow ? SizeOptions::kNone : kOfShore * shortestAtBoundary(grid, loop);
+  const ShortAtLines found = shortAtLines(grid, kFarShorter, spared_m, loop);
+  if (found.count == 0) return {};
+  std::vector<std::string> others;
+  for (const std::uint32_t line : found.others)
+    if (std::string other = lineText(grid.lines[line]); std::ranges::find(others, other) == others.end())
+      others.push_back(std::move(other));
+  const std::string itself = lineText(grid.lines[found.line]);
+  std::erase(others, itself);
+  if (found.by_shore) others.insert(others.begin(), "the shore");
+  std::string near;
+  for (std::size_t i = 0; i < std::min(kOthersShown, others.size()); ++i) near += (i > 0 ? ", " : "") + others[i];
+  return "edges at constraints or weirs that are shorter than " + amount("%g", kFarShorter) +
+         " times the requested size: " + std::to_string(found.count) + ", the worst of " +
+         amount("%.3g m instead of ", found.length_m) + amount("%.4g m at ", found.size_m) + pointText(found.place) +
+         ", where " + itself +
+         (near.empty() ? " turns sharply or has points close together" : " meets or comes close to " + near) +
+         ": lines stay as they are in the data; wider angles and gaps, or longer segments, make longer edges";
+}
+
 // The share of the edges at the shore that are shorter than half of the requested size there; 0 if no sizes are known.
 double shareOfFineShore(const Grid& grid, const ItemLoop& loop) {
   constexpr double kFine = 0.5;
@@ -182,6 +301,8 @@ StepOutcome measureOutcome(const Grid& grid, const SizeOptions& sizes, const Ite
   outcome.warnings =
       warningsOf(outcome, sizes, goal, small_waters, ofRepairsText(grid, outcome.below_least, sizes.least_m, repairs));
   if (std::string warning = borderWarning(grid, outcome.step, sizes); !warning.empty())
+    outcome.warnings.push_back(std::move(warning));
+  if (std::string warning = lineWarning(grid, sizes, loop); !warning.empty())
     outcome.warnings.push_back(std::move(warning));
   constexpr double kUsualFine = 0.25;  // some edges are always divided for the sake of angles
   if (sizes.coast == CoastDetail::Keep && sizes.any())

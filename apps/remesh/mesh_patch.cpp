@@ -29,10 +29,11 @@ constexpr double kBytesPerVertex = 600.0;
 double possibleVertices() { return std::min(static_cast<double>(kMostVertices), availableMemory() / kBytesPerVertex); }
 
 [[noreturn]] void refuse(const VertexDemand& demand, double most) {
-  std::string text = "these sizes ask for about " + amount("%.2g", demand.vertices) + " vertices, most of them near " +
+  std::string text = "these sizes ask for about " + roundAmount(demand.vertices, 2) + " vertices, most of them near " +
                      pointText(demand.place);
-  if (std::isfinite(demand.size_m)) text += ", where " + demand.option + amount(" asks for %.3g m", demand.size_m);
-  throw InputError(text + "; there is memory for about " + amount("%.2g", most) + ": request larger sizes");
+  if (std::isfinite(demand.size_m))
+    text += ", where " + demand.option + " asks for " + roundAmount(demand.size_m, 3) + " m";
+  throw InputError(text + "; there is memory for about " + roundAmount(most, 2) + ": request larger sizes");
 }
 
 void requireSound(const MeshedRegion& region, const RemeshPatch& patch, const ItemLoop& loop) {

@@ -292,7 +292,13 @@ std::string meshSummary(const MeshJob& job, const MeshJobResult& result) {
             " a requirement (" + bound;
     if (std::isfinite(result.sizes.most_m) && !result.sizes.any())
       text += amount(", --size-max %g", result.sizes.most_m);
-    text += ")\n";
+    text += ")";
+    if (!result.short_of.places.empty()) {
+      const BoundViolationPlace& first = result.short_of.places.front();
+      text += ", the first at " + pointText(first.place) + amount(" with angles of %.3g", first.min_angle_deg) +
+              amount(" to %.4g degrees", first.max_angle_deg);
+    }
+    text += "\n";
   }
   text += stepText(result.step.step, result.crs.isPlane()) + "\n";
   const auto isOpenRing = [](const Boundary& boundary) {

@@ -72,7 +72,8 @@ void declareInputOptions(OptionTable& table, InputOptions& options) {
           [&frame, &options] {
             const bool unframed =
                 frame.side == DomainSide::Ocean || frame.side == DomainSide::Land || frame.side == DomainSide::Globe;
-            return unframed || frame.box || !options.clip.empty() || frame.water_at;
+            const bool refused = frame.side == DomainSide::Outside;  // without a frame: see `requireOneFrame`
+            return refused || unframed || frame.box || !options.clip.empty() || frame.water_at;
           },
           "without --bbox or --clip")
       // --water-at meshes the water outside land anyway.

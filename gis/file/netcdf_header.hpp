@@ -6,9 +6,9 @@
 
 namespace coastmesh {
 
-// True if no list or value in the header of a classic NetCDF file (CDF-1, 2 or 5) claims more bytes than the file has,
-// and all variables and attributes have types of such files; true for every other file. The NetCDF library allocates
-// and reads whatever a damaged header claims.
+// True if no list, value or variable in the header of a classic NetCDF file (CDF-1, 2 or 5) claims more bytes than the
+// file has, and all variables and attributes have types of such files; true for every other file. The NetCDF library
+// allocates and reads whatever a damaged header claims, and reads zeros where a file is cut off.
 bool headerFitsFile(const std::string& path);
 
 // The offset in bytes of the values of each variable of a classic NetCDF file, in the order of their numbers; empty if

@@ -38,9 +38,10 @@ void requireTurns(const TriMesh& mesh, const Box& box, const std::string& name) 
     Box own;
     for (const VertexId v : mesh.triangles[t].v) own.add(mesh.points[v]);
     if (!own.meets(box)) continue;
-    throw InputError("triangle " + std::to_string(t + 1) + " of " + name + " at " +
-                     placeText(mesh.points[mesh.triangles[t].v[0]]) +
-                     " is clockwise, flat or jumps at the antimeridian: convert with --target turns clockwise ones");
+    throw InputError(
+        "triangle " + std::to_string(t + 1) + " of " + name + " at " + placeText(mesh.points[mesh.triangles[t].v[0]]) +
+        " is clockwise, flat or jumps at the antimeridian: coastmesh convert to a .nc mends jumps, and with "
+        "--target turns clockwise ones");
   }
 }
 

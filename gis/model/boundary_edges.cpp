@@ -91,15 +91,25 @@ void holdAsked(const std::vector<std::uint32_t>& asked, const std::vector<std::s
   for (const auto& [rule, run] : longest) run->held = true;
 }
 
-// "feature 3 at (1.5, 50); and 2 more": what is missed as a whole or in part, within the mesh.
+// Longitudes and latitudes of a frame may be in different turns.
+bool isInFrame(const Box& frame, const Point& place, bool geographic) {
+  if (place.y < frame.ymin || place.y > frame.ymax) return false;
+  if (!geographic) return place.x >= frame.xmin && place.x <= frame.xmax;
+  constexpr double kTurn = 360.0;
+  const double width = frame.xmax - frame.xmin + (frame.xmax < frame.xmin ? kTurn : 0.0);
+  const double east = std::fmod(place.x - frame.xmin, kTurn);
+  return (east < 0.0 ? east + kTurn : east) <= width;
+}
+
+// "feature 3 'Meghna' at (1.5, 50); and 2 more": what is missed as a whole or in part, within the mesh or its frame.
 std::string listOf(const std::vector<MissedRule>& missed, bool whole) {
   constexpr std::size_t kShown = 5;
   std::string text;
   std::size_t count = 0;
   for (const MissedRule& each : missed) {
     if (!each.inside || each.whole != whole || ++count > kShown) continue;
-    text += std::string(count == 1 ? "" : "; ") + "feature " + std::to_string(each.fid) + " at (" +
-            roughPlaceInWords(each.place) + ")" +
+    text += std::string(count == 1 ? "" : "; ") + "feature " + std::to_string(each.fid) +
+            (each.name.empty() ? "" : " '" + each.name + "'") + " at (" + roughPlaceInWords(each.place) + ")" +
             (each.parts > 1 ? ", the longest of " + std::to_string(each.parts) + " parts" : "");
   }
   return count > kShown ? text + "; and " + std::to_string(count - kShown) + " more" : text;
@@ -146,6 +156,8 @@ BoundaryReport defineKinds(const BoundaryPlaces& at, const BoundaryOptions& opti
       said[e] = any = true;
     }
     first += static_cast<std::uint32_t>(rules.size());
+    for (MissedRule& missed : ruled.missed)
+      if (options.frame && isInFrame(*options.frame, missed.place, at.crs.geographic)) missed.inside = true;
     if (!ruled.missed.empty()) report.missed.push_back({file, false, std::move(ruled.missed)});
     return any;
   };
@@ -163,7 +175,7 @@ BoundaryReport defineKinds(const BoundaryPlaces& at, const BoundaryOptions& opti
   report.edges_by_file = static_cast<std::size_t>(std::ranges::count(said, true));
   if (options.opensByDepth()) {
     double deepest = -std::numeric_limits<double>::infinity();
-    if (at.z.empty()) throw InputError("to open boundaries by their depth takes depths; give --bathymetry");
+    if (at.z.empty()) throw OptionError("--open-deeper needs depths: give a raster with --bathymetry");
     for (std::size_t e = 0; e < boundary.edges.size(); ++e) {
       const auto isDeep = [&](std::uint32_t place) { return 0.0 - at.z[place] > options.open_deeper_m; };
       if (!said[e] && boundary.outer[e])

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gis/crs/crs.hpp"
+#include "gis/geometry/box.hpp"
 #include "gis/model/boundary_rules.hpp"
 
 namespace coastmesh {
@@ -23,6 +24,10 @@ struct BoundaryOptions {
   // Metres: edges of outer loops are open if both ends are deeper, unless a file defines them.
   double open_deeper_m = std::numeric_limits<double>::infinity();
   double least_length_m = 0.0;  // metres: a boundary shorter than this is merged into the longer one beside it
+
+  // The frame of the domain, in the mesh's CRS; an east less than the west is beyond the antimeridian. Its openings and
+  // rivers are missed even where the water ends before it.
+  std::optional<Box> frame{};
 
   bool opensByDepth() const { return open_deeper_m < 1e300; }
   bool any() const {

@@ -222,7 +222,7 @@ struct BoundaryLayer::Typing {
 };
 
 void BoundaryLayer::addRule(const BoundaryKind& kind, const Feature& feature, RuleForm form) {
-  rules_.push_back({kind, form, feature.fid});
+  rules_.push_back({kind, form, feature.fid, std::string(nameOf(feature.attributes))});
 }
 
 void BoundaryLayer::addArea(const BoundaryKind& kind, const Feature& feature, const Polygon& polygon) {
@@ -292,8 +292,8 @@ void BoundaryLayer::applyRoughly(Typing& typing, std::size_t first, RuledEdges& 
       const Point place{part.place.x + turn, part.place.y};
       return typing.bounds.meets(Box::of(place, place));
     });
-    ruled.missed.push_back({static_cast<std::uint32_t>(first + part.rule), rules_[part.rule].fid, part.whole, inside,
-                            typing.places.toMesh(part.place), part.parts});
+    ruled.missed.push_back({static_cast<std::uint32_t>(first + part.rule), rules_[part.rule].fid,
+                            rules_[part.rule].name, part.whole, inside, typing.places.toMesh(part.place), part.parts});
   }
 }
 

@@ -27,8 +27,9 @@ std::string textOfKind(const BoundaryKind& kind);
 struct MissedRule {
   std::uint32_t rule = 0;  // its number, the same for every mesh
   std::int64_t fid = 0;    // of the feature
+  std::string name;        // of the feature; empty if it has none
   bool whole = false;      // no part of it is on the mesh's boundary
-  bool inside = false;     // within the bounds of the mesh
+  bool inside = false;     // within the bounds of the mesh, or its frame
   Point place;             // the middle of what is missed, in the mesh's CRS
   std::size_t parts = 1;   // parts of a line, of which this is the longest
 };

@@ -28,10 +28,11 @@ double stepOf(double shortest_m, double depth_m) {
   return depth_m > 0.0 ? shortest_m / longWaveSpeed(depth_m) : kInfinity;
 }
 
-// The edges and nodes that the boundary or a line keeps in place.
+// The edges of the boundary, and the nodes that it or a line keeps in place.
 class HeldEdges {
  public:
-  HeldEdges(const Grid& grid, const ItemLoop& loop) : on_shore_(grid.nodes.size(), false) {
+  HeldEdges(const Grid& grid, const ItemLoop& loop)
+      : on_shore_(grid.nodes.size(), false), on_line_(grid.nodes.size(), false) {
     edges_ = joined(overStretches(loop, grid.triangles.size(), [&](std::size_t first, std::size_t last) {
       std::vector<NodePair> some;
       for (std::size_t t = first; t < last; ++t) {
@@ -55,25 +56,21 @@ class HeldEdges {
     std::ranges::sort(openings_);
     for (const NodePair& edge : edges_)
       if (!std::ranges::binary_search(openings_, edge)) on_shore_[edge[0]] = on_shore_[edge[1]] = true;
-    for (const GridLine& line : grid.lines) {
-      for (std::size_t i = 1; i < line.nodes.size() + (line.closed ? 1 : 0); ++i) {
-        const std::uint32_t a = line.nodes[i - 1], b = line.nodes[i % line.nodes.size()];
-        edges_.push_back({std::min(a, b), std::max(a, b)});
-      }
-    }
-    std::ranges::sort(edges_);
+    for (const GridLine& line : grid.lines)
+      for (const std::uint32_t node : line.nodes) on_line_[node] = true;
   }
 
   ShortCause causeOf(std::uint32_t a, std::uint32_t b) const {
     const NodePair edge{std::min(a, b), std::max(a, b)};
     if (std::ranges::binary_search(openings_, edge)) return ShortCause::Opening;
     if (std::ranges::binary_search(edges_, edge)) return ShortCause::Shore;
-    return on_shore_[a] && on_shore_[b] ? ShortCause::Narrow : ShortCause::Interior;
+    if (on_shore_[a] && on_shore_[b]) return ShortCause::Narrow;
+    return on_line_[a] || on_line_[b] ? ShortCause::Line : ShortCause::Interior;
   }
 
  private:
   std::vector<NodePair> edges_, openings_;  // the lesser node first
-  std::vector<bool> on_shore_;
+  std::vector<bool> on_shore_, on_line_;
 };
 
 // The cause of edges of the triangle shorter than `least_m`; of several causes the first in the order of ShortCause.
@@ -147,7 +144,7 @@ StepReport measureStep(const Grid& grid, const ItemLoop& loop) {
 }
 
 std::string_view toString(ShortCause cause) {
-  constexpr std::array<std::string_view, kShortCauses> kNames{"shore", "opening", "narrow", "interior"};
+  constexpr std::array<std::string_view, kShortCauses> kNames{"shore", "opening", "narrow", "line", "interior"};
   return kNames[static_cast<std::size_t>(cause)];
 }
 

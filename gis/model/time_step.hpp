@@ -30,12 +30,13 @@ StepReport measureStep(const Grid& grid, const ItemLoop& loop = inOrder);  // th
 
 // The reason why an edge is short.
 enum class ShortCause {
-  Shore,     // an edge of the shore, or of a line inside the mesh
+  Shore,     // an edge of the shore
   Opening,   // an edge of an open boundary or a river
   Narrow,    // an edge from shore to shore
+  Line,      // an edge of a line inside the mesh, or one that ends at it
   Interior,  // sizes or angles nearby
 };
-inline constexpr std::size_t kShortCauses = 4;
+inline constexpr std::size_t kShortCauses = 5;
 std::string_view toString(ShortCause cause);
 
 // A triangle whose Courant number is too large.

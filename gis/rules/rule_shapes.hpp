@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "gis/coast/coastline.hpp"
@@ -23,6 +24,7 @@ struct BoundaryRule {
   BoundaryKind kind;
   RuleForm form = RuleForm::Area;
   std::int64_t fid = 0;
+  std::string name{};  // of the feature; empty if it has none
 
   // True for types that are nowhere unless they are asked for.
   bool opens() const { return isOpening(kind); }

@@ -87,6 +87,7 @@ TEST_F(Check, QuietMeshesSayThatTheyFallShort) {
   EXPECT_EQ(run.code, 1);
   EXPECT_EQ(run.output, "");
   EXPECT_THAT(run.errors, HasSubstr("short of what was asked: "));
+  EXPECT_THAT(run.errors, HasSubstr(" the bounds on angles or lengths, the first at (-87."));
 }
 
 }  // namespace

@@ -167,6 +167,19 @@ TEST_F(ExitCodes, ABoxUpsideDownIsWrongUsageThatNamesTheSides) {
   EXPECT_NE(run.errors.find("'-87,42.5,-86,41' is not W,S,E,N with S below N"), std::string::npos) << run.errors;
 }
 
+// An option that an error asks for makes no warning that another has no effect.
+TEST_F(ExitCodes, WaterWithoutALimitIsAnErrorAlone) {
+  const ProgramRun run = runProgram({"mesh", lake(), "-o", file("out.2dm"), "--domain", "outside"});
+  EXPECT_EQ(run.code, 2) << run.errors;
+  EXPECT_TRUE(isOneErrorLine(run.errors)) << run.errors;
+}
+
+TEST_F(ExitCodes, DepthsThatAreMissingAreWrongUsage) {
+  const ProgramRun run = runProgram({"mesh", lake(), "-o", file("out.2dm"), "--open-deeper", "200"});
+  EXPECT_EQ(run.code, 2) << run.errors;
+  EXPECT_NE(run.errors.find("--open-deeper needs depths"), std::string::npos) << run.errors;
+}
+
 TEST_F(ExitCodes, OptionsGivenMoreThanOnce) {
   const ProgramRun run = runProgram({"mesh", lake(), "-o", file("out.2dm"), "--size", "9", "--size", "8"});
   EXPECT_EQ(run.code, 2);
@@ -178,7 +191,8 @@ TEST_F(ExitCodes, VertexBudgetGivesAMeshAndExitOne) {
   const ProgramRun run =
       runProgram({"mesh", lake(), "-o", file("out.2dm"), "--size-max", "20", "--max-vertices", "200"});
   EXPECT_EQ(run.code, 1) << run.errors;
-  EXPECT_NE(run.output.find("a requirement (at least 33 degrees, --size-max 20)"), std::string::npos) << run.output;
+  EXPECT_NE(run.output.find("a requirement (at least 33 degrees, --size-max 20), the first at (-8"), std::string::npos)
+      << run.output;
   EXPECT_EQ(runProgram({"check", file("out.2dm"), "--assume-crs", "EPSG:4326"}).code, 0);
 }
 

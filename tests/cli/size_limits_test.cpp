@@ -97,6 +97,14 @@ TEST_F(SizeLimits, BeyondTheMemoryNothingIsTaken) {
   }
 }
 
+TEST_F(SizeLimits, NumbersAreWrittenInFull) {
+  const std::string sea = write("sea.geojson", geoJsonPolygons({{{{3, 52}, {6, 52}, {6, 55}, {3, 55}}}}));
+  const ProgramRun run = runProgram({"mesh", sea, "-o", file("a.2dm"), "--size", "1000", "--max-vertices", "100"});
+  EXPECT_EQ(run.code, 1) << run.errors;
+  EXPECT_NE(run.errors.find("--size asks for 1000 m"), std::string::npos) << run.errors;
+  EXPECT_EQ(run.errors.find("e+0"), std::string::npos) << run.errors;
+}
+
 // Lattices take less memory per vertex than refinement, and only one algorithm uses them.
 TEST_F(SizeLimits, LatticesFitWhereRefinementDoesNot) {
   const auto room = [&](const std::string& algorithm) {

@@ -101,6 +101,50 @@ TEST(StepOutcome, ShortEdgesAtBordersNameWhatTheBorderIsOf) {
   EXPECT_EQ(warnings({1, "a.shp", {}}, {1, "a.shp", {}}).find("the shortest edge"), std::string::npos);
 }
 
+// A wedge of two lines, or one line that turns sharply, makes edges that no size lengthens.
+TEST(StepOutcome, ShortEdgesAtLinesNameThem) {
+  Grid grid = strip(10);
+  SizeOptions sizes;
+  sizes.size_m = 10.0;
+  sizes.coast = CoastDetail::Follow;
+  const auto warning = [&](double size_m) {
+    grid.size_m.assign(grid.nodes.size(), size_m);
+    const std::vector<std::string> all = measureOutcome(grid, sizes, inOrder).warnings;
+    return all.empty() ? std::string() : all.front();
+  };
+  EXPECT_EQ(warning(10.0), "");
+  grid.lines = {{LineKind::Constraint, "dike", false, {6, 8}}};
+  grid.boundaries.clear();
+  EXPECT_EQ(warning(4.0), "");
+  EXPECT_NE(warning(10.0).find("the worst of 1 m instead of 10 m at ("), std::string::npos) << warning(10.0);
+  EXPECT_NE(warning(10.0).find("where constraint 'dike' turns sharply"), std::string::npos) << warning(10.0);
+  grid.lines.push_back({LineKind::Weir, "dam", false, {9, 11}});
+  EXPECT_NE(warning(10.0).find("constraint 'dike' meets or comes close to weir 'dam':"), std::string::npos)
+      << warning(10.0);
+  grid.lines[1].kind = LineKind::RegionBorder;
+  EXPECT_NE(warning(10.0).find("comes close to region border 'dam':"), std::string::npos) << warning(10.0);
+  grid.lines[0].kind = LineKind::RegionBorder;
+  EXPECT_EQ(warning(10.0), "");
+}
+
+// A shore as in the data has short edges of its own.
+TEST(StepOutcome, LinesBesideAFineShoreAreNotToBlame) {
+  SizeOptions sizes;
+  sizes.size_m = 10.0;
+  const auto warnings = [&](double width) {
+    Grid grid = strip(10);
+    for (Point& node : grid.nodes) node.y *= width;
+    grid.boundaries.resize(2);  // the shores, with edges of 1
+    grid.lines = {{LineKind::Constraint, "dike", false, {6, 7}}};
+    grid.size_m.assign(grid.nodes.size(), 10.0);
+    return measureOutcome(grid, sizes, inOrder).warnings.size();
+  };
+  EXPECT_EQ(warnings(0.6), 0u);
+  EXPECT_EQ(warnings(0.4), 1u);
+  sizes.coast = CoastDetail::Follow;
+  EXPECT_EQ(warnings(0.6), 1u);
+}
+
 TEST(StepOutcome, OpenBoundariesAreNoCoast) {
   Grid grid = strip(10);
   for (Boundary& boundary : grid.boundaries) boundary.role = BoundaryRole::Open;

@@ -49,5 +49,36 @@ TEST(HeaderFitsFile, NothingClaimsMoreThanTheFileHas) {
   EXPECT_TRUE(fits(""));
 }
 
+// A CDF-1 file with variables of three bytes, and values as long as told: `record` of them belong to records, of which
+// there are `records`.
+std::string withVariables(std::uint32_t fixed, std::uint32_t record, std::uint32_t records, std::size_t bytes) {
+  std::string file = "CDF\1" + integers({records, 10, 2, 1}) + std::string("t\0\0\0", 4) + integers({0, 1}) +
+                     std::string("n\0\0\0", 4) + integers({3, 0, 0, 11, fixed + record});
+  constexpr std::uint32_t kFixed = 9 * 4, kRecord = 10 * 4;  // bytes of the header
+  const auto begin = static_cast<std::uint32_t>(file.size()) + fixed * kFixed + record * kRecord;
+  for (std::uint32_t v = 0; v < fixed + record; ++v) {
+    file += integers({1}) + std::string(1, static_cast<char>('a' + v)) + std::string(3, '\0');
+    file += v < fixed ? integers({1, 1}) : integers({2, 0, 1});
+    file += integers({0, 0, 1, 4, begin + 4 * v});  // no attributes, NC_BYTE, padded to four
+  }
+  return file + std::string(bytes, 'x');
+}
+
+TEST(HeaderFitsFile, NoValuesLieBeyondTheEnd) {
+  const auto holds = [](std::uint32_t fixed, std::uint32_t record, std::uint32_t records, std::size_t bytes) {
+    return fits(withVariables(fixed, record, records, bytes));
+  };
+  EXPECT_TRUE(holds(2, 0, 0, 7));  // the last may be without padding
+  EXPECT_FALSE(holds(2, 0, 0, 6));
+  // Records of one variable are not padded, those of several are.
+  EXPECT_TRUE(holds(1, 1, 5, 4 + 15));
+  EXPECT_FALSE(holds(1, 1, 5, 4 + 14));
+  EXPECT_TRUE(holds(0, 2, 5, 4 * 8 + 7));
+  EXPECT_FALSE(holds(0, 2, 5, 4 * 8 + 6));
+  EXPECT_TRUE(holds(0, 2, 0, 0));
+  EXPECT_TRUE(holds(0, 2, 0xffffffff, 0));  // the number of records of a stream is not known
+  EXPECT_FALSE(holds(1, 1, 0xfffffffe, 100));
+}
+
 }  // namespace
 }  // namespace coastmesh

@@ -122,6 +122,30 @@ TEST_F(AssignBoundaries, AFeatureThatSaysNothingOfTheBoundaryIsNamed) {
   EXPECT_THAT(warnings[0], ::testing::Not(HasSubstr("feature 2")));
 }
 
+// Where the water ends before its frame does.
+TEST_F(AssignBoundaries, AFeatureInTheFrameIsNamedThoughTheMeshEndsBefore) {
+  const std::string river =
+      feature("\"river\",\"name\":\"Meghna\"", "Polygon", "[[[14,60.5],[15,60.5],[15,60.8],[14,60.8],[14,60.5]]]");
+  BoundaryOptions options;
+  options.files = {put("rivers.geojson", feature("\"river\"", "LineString", "[[10,51],[10,53]]") + "," + river)};
+  const auto warnings = [&] {
+    Grid grid = sea();
+    std::string all;
+    for (const MissedOfFile& file : assignBoundaries(grid, options).missed)
+      for (const std::string& warning : missedWarnings(file)) all += warning;
+    return all;
+  };
+  EXPECT_EQ(warnings(), "");
+  for (const Box& frame : {Box{9.0, 49.0, 21.0, 61.0}, Box{369.0, 49.0, 381.0, 61.0}, Box{9.0, 49.0, -179.0, 61.0}}) {
+    options.frame = frame;
+    EXPECT_THAT(warnings(), HasSubstr("feature 1 'Meghna' at (14.5, 60.65)"));
+  }
+  for (const Box& frame : {Box{9.0, 49.0, 21.0, 60.6}, Box{9.0, 49.0, 14.4, 61.0}, Box{15.0, 49.0, 14.0, 61.0}}) {
+    options.frame = frame;
+    EXPECT_EQ(warnings(), "");
+  }
+}
+
 TEST_F(AssignBoundaries, AShortRiverOfAFileIsNotMergedAway) {
   Grid grid = sea();
   for (const Point& node : grid.nodes) grid.z.push_back(node.x > 19.5 && node.y < 52.5 ? -100.0 : -1.0);
@@ -190,7 +214,7 @@ TEST_F(AssignBoundaries, DepthOpensOuterLoopsOnly) {
   ASSERT_EQ(none.warnings.size(), 1u);
   EXPECT_EQ(none.warnings[0].find("--open-deeper 1000 opens no boundary: its deepest edge is at "), 0u);
   grid.z.clear();
-  EXPECT_THROW(assignBoundaries(grid, options), InputError);
+  EXPECT_THROW(assignBoundaries(grid, options), OptionError);
 }
 
 TEST_F(AssignBoundaries, ACoastThatDepthOpensIsWarnedOf) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <limits>
 
@@ -119,6 +120,25 @@ TEST(TimeStep, AnEdgeOfAnOpeningIsNoShore) {
   EXPECT_EQ(countOf(ShortCause::Shore), shore + opening);
   EXPECT_GE(countOf(ShortCause::Narrow), narrow);
   EXPECT_EQ(countOf(ShortCause::Opening), 0);
+}
+
+TEST(TimeStep, AnEdgeOfALineIsNoShore) {
+  const TriMesh mesh = lattice(6, 4, [](int, int) { return true; });
+  Grid grid;
+  grid.nodes = mesh.points;
+  for (const Triangle& t : mesh.triangles) grid.triangles.push_back(t.v);
+  const auto nodeAt = [&](double x, double y) {
+    return static_cast<std::uint32_t>(
+        std::ranges::find_if(grid.nodes, [&](const Point& p) { return p.x == x && p.y == y; }) - grid.nodes.begin());
+  };
+  const auto countOf = [&grid](ShortCause cause) {
+    return std::ranges::count(edgesBelow(grid, 1.1), cause, &ShortEdge::cause);
+  };
+  const auto shore = countOf(ShortCause::Shore), interior = countOf(ShortCause::Interior);
+  grid.lines = {{LineKind::Constraint, "dike", false, {nodeAt(2.0, 2.0), nodeAt(3.0, 2.0)}}};
+  EXPECT_EQ(countOf(ShortCause::Shore), shore);
+  EXPECT_EQ(countOf(ShortCause::Line), 7);  // itself, and three that end at each of its ends
+  EXPECT_EQ(countOf(ShortCause::Interior), interior - 7);
 }
 
 // Beside a cliff of 2000 m, sizes on the shelf must grow before the cliff is reached.
