@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "apps/job/available_memory.hpp"
 #include "apps/job/places.hpp"
 #include "apps/report/remesh_texts.hpp"
 #include "apps/report/report_sections.hpp"
@@ -20,7 +21,8 @@ namespace coastmesh {
 
 namespace {
 
-constexpr std::size_t kMostNamed = 5;  // lost rivers of one kind
+constexpr double kBytesPerQuad = 800.0;  // of the whole program
+constexpr std::size_t kMostNamed = 5;    // lost rivers of one kind
 
 std::vector<RiverLine> readLines(const std::vector<std::string>& paths, const Crs& crs, const RiversJob& job) {
   std::vector<RiverLine> lines;
@@ -168,6 +170,7 @@ EditedMesh runRiversJob(Grid& grid, const std::string& name, const std::vector<s
   const auto add = [&](const RunControl& of_edit, const ItemLoop& loop) {
     RiverOptions options = job.rivers;
     options.junctions = job.merge.mesh.refine;
+    options.most_quads = std::min(options.most_quads, availableMemory() / kBytesPerQuad);
     LaidRivers laid = layRivers(readLines(lines, grid.crs, job), grid, options, of_edit, loop);
     const std::vector<std::string> lost = lostTexts(laid.report, grid);
     if (laid.grid.triangles.empty()) throw InputError("no river can be added to '" + name + "': " + joined(lost));

@@ -29,6 +29,8 @@ namespace {
 constexpr double kNarrowing = 0.8;
 constexpr int kMostNarrowings = 12;
 
+constexpr double kMostCells = 1000.0;  // across
+
 // Shorter reaches between two others, in their widths, may be left out without notice.
 constexpr double kSpur = 4.0;
 
@@ -129,10 +131,10 @@ class RiverLayer {
       const RiverCourse& course = courses_.back();
       const Point middle = course.sectionAt(0.5 * course.length()).place;
       const double scale = plane_.scaleAt(middle);
-      const double wanted = std::ceil(course.maxWidth() / scale / options_.most_cell_width_m);
-      cells_.push_back(std::max(options_.cells, static_cast<std::size_t>(wanted)));
+      cells_.push_back(cellsOf(reach, course.maxWidth() / scale));
       const double cell = course.meanWidth() / static_cast<double>(cells_.back());
       shapes_.push_back({0.5 * options_.aspect * cell, cell});
+      countQuads();
       if (course.moved() / scale <= report_.moved_m) continue;
       report_.moved_m = course.moved() / scale;
       report_.moved_place = plane_.inverse(course.movedPlace());
@@ -141,6 +143,24 @@ class RiverLayer {
     std::vector<double> longest;
     for (const ReachShape& shape : shapes_) longest.push_back(options_.aspect * shape.cell);
     limitRows(courses_, longest, [this](const Point& place) { return water_.holds(place); });
+  }
+
+  std::size_t cellsOf(const RiverReach& reach, double width_m) const {
+    const double wanted = std::ceil(width_m / options_.most_cell_width_m);
+    if (wanted > kMostCells)
+      throw InputError(nameOf(lines_[reach.line_of.front()]) + " would take " + std::to_string(wanted) +
+                       " quadrilaterals across: request a larger --max-cell-width");
+    return std::max(options_.cells, static_cast<std::size_t>(wanted));
+  }
+
+  // Adds those of the last course.
+  void countQuads() {
+    const double rows = courses_.back().length() / (options_.aspect * shapes_.back().cell);
+    quads_ += rows * static_cast<double>(cells_.back());
+    if (quads_ <= options_.most_quads) return;
+    throw InputError("these rivers take more quadrilaterals than there is memory for, some " +
+                     std::to_string(std::llround(options_.most_quads)) +
+                     ": request fewer --elements, a larger --aspect, or larger widths");
   }
 
   // True for a short reach between two places of others, as where a line crosses the river that it ends in.
@@ -308,6 +328,7 @@ class RiverLayer {
   std::vector<RiverCourse> courses_;
   std::vector<std::size_t> cells_;
   std::vector<ReachShape> shapes_;
+  double quads_ = 0.0;  // of all of them, about
   std::vector<std::uint8_t> barred_;
   std::vector<int> narrowed_;  // how often
   std::vector<RiverRows> rows_;

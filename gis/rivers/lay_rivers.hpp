@@ -28,6 +28,7 @@ struct RiverOptions {
   // Rivers that end this close to the water are continued to it; infinite: three widths.
   double reach_m = std::numeric_limits<double>::infinity();
   RefineOptions junctions{};  // bounds on the triangles at junctions
+  double most_quads = 1e8;    // for which there is memory
 };
 
 // Why a river, or a part of one, has no rows.
@@ -66,7 +67,8 @@ struct LaidRivers {
 };
 
 // Makes rows of quadrilaterals along centre lines, to be put into `mesh`, which is not changed. The grid is empty if
-// all rivers are lost. Throws InputError for a line that has no length, or that cannot be projected; Cancelled.
+// all rivers are lost. Throws InputError for a line that has no length or cannot be projected, and for too many
+// quadrilaterals; Cancelled.
 LaidRivers layRivers(const std::vector<RiverLine>& lines, const Grid& mesh, const RiverOptions& options,
                      const RunControl& control = {}, const ItemLoop& loop = inOrder);
 

@@ -194,6 +194,16 @@ TEST(LayRivers, NoBorderOfFeaturesWindsThroughTheWaterBetweenRivers) {
     }
 }
 
+TEST(LayRivers, TooManyQuadrilateralsAreErrors) {
+  const std::vector<RiverLine> lines{lineOf({{-3000, 2050}, {100, 2050}}, 100.0)};
+  RiverOptions options;
+  options.most_cell_width_m = 0.05;
+  EXPECT_THROW(layRivers(lines, sea(), options), InputError);
+  options = {};
+  options.most_quads = 20;
+  EXPECT_THROW(layRivers(lines, sea(), options), InputError);
+}
+
 // Random networks, in the water and beside it, make sound meshes.
 TEST(LayRivers, MergedWithTheMeshTheyAreSound) {
   std::size_t merged = 0;
