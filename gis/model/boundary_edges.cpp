@@ -156,8 +156,12 @@ BoundaryReport defineKinds(const BoundaryPlaces& at, const BoundaryOptions& opti
       said[e] = any = true;
     }
     first += static_cast<std::uint32_t>(rules.size());
-    for (MissedRule& missed : ruled.missed)
-      if (options.frame && isInFrame(*options.frame, missed.place, at.crs.geographic)) missed.inside = true;
+    for (MissedRule& missed : ruled.missed) {
+      const auto isIn = [&](const Point& p) {
+        return options.frame && isInFrame(*options.frame, p, at.crs.geographic);
+      };
+      missed.inside = missed.inside || isIn(missed.place) || std::ranges::any_of(missed.corners, isIn);
+    }
     if (!ruled.missed.empty()) report.missed.push_back({file, false, std::move(ruled.missed)});
     return any;
   };

@@ -292,8 +292,18 @@ void BoundaryLayer::applyRoughly(Typing& typing, std::size_t first, RuledEdges& 
       const Point place{part.place.x + turn, part.place.y};
       return typing.bounds.meets(Box::of(place, place));
     });
-    ruled.missed.push_back({static_cast<std::uint32_t>(first + part.rule), rules_[part.rule].fid,
-                            rules_[part.rule].name, part.whole, inside, typing.places.toMesh(part.place), part.parts});
+    ruled.missed.push_back({static_cast<std::uint32_t>(first + part.rule),
+                            rules_[part.rule].fid,
+                            rules_[part.rule].name,
+                            part.whole,
+                            inside,
+                            typing.places.toMesh(part.place),
+                            part.parts,
+                            {}});
+    if (rules_[part.rule].form != RuleForm::Area) continue;
+    const Box box = typing.shapes.boxOf(part.rule);
+    for (const double x : {box.xmin, box.xmax})
+      for (const double y : {box.ymin, box.ymax}) ruled.missed.back().corners.push_back(typing.places.toMesh({x, y}));
   }
 }
 

@@ -32,6 +32,8 @@ struct MissedRule {
   bool inside = false;     // within the bounds of the mesh, or its frame
   Point place;             // the middle of what is missed, in the mesh's CRS
   std::size_t parts = 1;   // parts of a line, of which this is the longest
+  // The corners of a polygon's box, in the mesh's CRS; none for a line.
+  std::vector<Point> corners{};
 };
 
 // What rules say of the boundary's edges.

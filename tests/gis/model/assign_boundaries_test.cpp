@@ -136,11 +136,12 @@ TEST_F(AssignBoundaries, AFeatureInTheFrameIsNamedThoughTheMeshEndsBefore) {
     return all;
   };
   EXPECT_EQ(warnings(), "");
-  for (const Box& frame : {Box{9.0, 49.0, 21.0, 61.0}, Box{369.0, 49.0, 381.0, 61.0}, Box{9.0, 49.0, -179.0, 61.0}}) {
+  for (const Box& frame : {Box{9.0, 49.0, 21.0, 61.0}, Box{369.0, 49.0, 381.0, 61.0}, Box{9.0, 49.0, 21.0, 60.6},
+                           Box{9.0, 49.0, -179.0, 61.0}}) {
     options.frame = frame;
     EXPECT_THAT(warnings(), HasSubstr("feature 1 'Meghna' at (14.5, 60.65)"));
   }
-  for (const Box& frame : {Box{9.0, 49.0, 21.0, 60.6}, Box{9.0, 49.0, 14.4, 61.0}, Box{15.0, 49.0, 14.0, 61.0}}) {
+  for (const Box& frame : {Box{9.0, 49.0, 21.0, 60.4}, Box{9.0, 49.0, 13.9, 61.0}, Box{15.1, 49.0, 13.9, 61.0}}) {
     options.frame = frame;
     EXPECT_EQ(warnings(), "");
   }
