@@ -21,8 +21,8 @@ namespace coastmesh {
 
 namespace {
 
-constexpr double kBytesPerQuad = 800.0;  // of the whole program
-constexpr std::size_t kMostNamed = 5;    // lost rivers of one kind
+constexpr double kBytesPerQuad = 1500.0;  // of the whole program
+constexpr std::size_t kMostNamed = 5;     // lost rivers of one kind
 
 std::vector<RiverLine> readLines(const std::vector<std::string>& paths, const Crs& crs, const RiversJob& job) {
   std::vector<RiverLine> lines;

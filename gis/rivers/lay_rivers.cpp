@@ -311,7 +311,7 @@ class RiverLayer {
       is_free.push_back(
           static_cast<std::uint8_t>((degree[reach.from] == 1 ? 1u : 0u) | (degree[reach.to] == 1 ? 2u : 0u)));
     return riverGrid({rows_, has_row_, plan_.junctions, is_free}, lines_, plane_, mesh_.crs, options_.junctions,
-                     !mesh_.size_m.empty());
+                     !mesh_.size_m.empty(), loop_);
   }
 
   const std::vector<RiverLine> lines_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/ids.hpp"
 #include "core/metric.hpp"
@@ -71,22 +72,31 @@ RiverConnection connectRivers(RiverNetwork& network, std::span<const PlaneRiver>
                               double reach) {
   RiverConnection connection;
   for (const RiverReach& own : network.reaches) connection.touches.push_back(touchesWater(own, water) ? 1 : 0);
-  UnionFind sets = networksOf(network, {});
-  std::vector<double> gap(network.nodes.size(), kInfinity);  // by root
-  for (const FreeEnd& end : freeEnds(network)) {
+  const auto endOf = [&](const FreeEnd& end) {
     const RiverReach& own = network.reaches[end.reach];
-    const Point place = end.at_end ? own.points.back() : own.points.front();
-    if (water.holds(place)) continue;
     const double width = rivers[end.at_end ? own.line_of.back() : own.line_of.front()].width;
-    const double close = std::isfinite(reach) ? reach : kClose * width;
-    const auto shore = water.nearest(place, std::max(close, kFar * width));
-    if (!shore) continue;
-    const double distance_to_water = distance(place, *shore);
-    gap[sets.find(own.from)] = std::min(gap[sets.find(own.from)], distance_to_water);
-    if (!(distance_to_water > 0.0) || distance_to_water > close) continue;
+    return std::pair(end.at_end ? own.points.back() : own.points.front(), width);
+  };
+  const std::vector<FreeEnd> ends = freeEnds(network);
+  for (const FreeEnd& end : ends) {
+    const auto [place, width] = endOf(end);
+    if (water.holds(place)) continue;
+    const auto shore = water.nearest(place, std::isfinite(reach) ? reach : kClose * width);
+    if (!shore || *shore == place) continue;
     extend(network, end, *shore, width);
     ++connection.extended;
     connection.touches[end.reach] = 1;
+  }
+  // How far the others are, for messages.
+  const std::vector<std::uint8_t> none(network.reaches.size(), 0);
+  const std::vector<std::uint8_t> connected = connectedReaches(network, connection.touches, none);
+  UnionFind sets = networksOf(network, {});
+  std::vector<double> gap(network.nodes.size(), kInfinity);  // by root
+  for (const FreeEnd& end : ends) {
+    if (connected[end.reach] != 0) continue;
+    const auto [place, width] = endOf(end);
+    double& least = gap[sets.find(network.reaches[end.reach].from)];
+    if (const auto shore = water.nearest(place, std::min(least, kFar * width))) least = distance(place, *shore);
   }
   for (const RiverReach& own : network.reaches) connection.gap.push_back(gap[sets.find(own.from)]);
   return connection;

@@ -4,10 +4,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <utility>
 
 #include "core/metric.hpp"
+#include "core/triangulate/delaunay.hpp"
 #include "gis/elements/quads.hpp"
+#include "gis/error.hpp"
 #include "gis/grid/boundary_kinds.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/rivers/fill_junction.hpp"
@@ -22,7 +25,7 @@ class GridMaker {
             const RefineOptions& options)
       : parts_(parts), lines_(lines), plane_(plane), options_(options) {}
 
-  RiverGrid make(const Crs& crs, bool sizes) {
+  RiverGrid make(const Crs& crs, bool sizes, const ItemLoop& loop) {
     Grid& grid = made_.grid;
     grid.crs = crs;
     for (const RiverLine& line : lines_) {
@@ -30,7 +33,11 @@ class GridMaker {
       if (!line.name.empty()) feature.attributes.emplace_back("name", line.name);
     }
     for (std::uint32_t reach = 0; reach < parts_.rows.size(); ++reach) addRows(reach);
-    for (const RiverJunction& junction : parts_.junctions) addJunction(junction);
+    std::vector<JunctionOutline> outlines;
+    for (const RiverJunction& junction : parts_.junctions) outlines.push_back(outlineOf(junction));
+    std::vector<JunctionMesh> meshes(outlines.size());
+    loop(outlines.size(), [&](std::size_t i) { meshes[i] = fill(outlines[i]); });
+    for (std::size_t i = 0; i < meshes.size(); ++i) addJunction(parts_.junctions[i], meshes[i]);
     if (sizes) setSizes();
     const std::vector<std::uint32_t> number = removeUnusedNodes(grid);
     for (NodePair& edge : made_.ends) edge = edgeKey(number[edge[0]], number[edge[1]]);
@@ -78,19 +85,40 @@ class GridMaker {
       made_.ends.push_back({nodeOf(reach, row, i), nodeOf(reach, row, i + 1)});
   }
 
-  void addJunction(const RiverJunction& junction) {
-    JunctionOutline outline;
+  // The nodes of the last sections of a junction's branches, in the order of its outline.
+  std::vector<std::uint32_t> nodesAround(const RiverJunction& junction) const {
     std::vector<std::uint32_t> nodes;
     for (const RiverBranch& branch : junction.branches) {
       const RiverRows& rows = parts_.rows[branch.reach];
       const std::size_t row = branch.at_end ? rows.sections.size() - 1 : 0;
-      for (std::size_t i = 0; i <= rows.cells; ++i) {
+      for (std::size_t i = 0; i <= rows.cells; ++i)
         nodes.push_back(nodeOf(branch.reach, row, branch.at_end ? rows.cells - i : i));
-        outline.points.push_back(places_[nodes.back()]);
-        outline.keeps.push_back(i < rows.cells ? 1 : 0);
-      }
     }
-    const JunctionMesh mesh = fillJunction(outline, options_);
+    return nodes;
+  }
+
+  JunctionOutline outlineOf(const RiverJunction& junction) const {
+    JunctionOutline outline;
+    for (const std::uint32_t node : nodesAround(junction)) outline.points.push_back(places_[node]);
+    for (const RiverBranch& branch : junction.branches) {
+      outline.keeps.insert(outline.keeps.end(), parts_.rows[branch.reach].cells, 1);
+      outline.keeps.push_back(0);
+    }
+    return outline;
+  }
+
+  JunctionMesh fill(const JunctionOutline& outline) const {
+    try {
+      return fillJunction(outline, options_);
+    } catch (const BadPslg& error) {
+      const Point place = plane_.inverse(error.defect.place);
+      throw InputError("rivers cannot be joined at (" + std::to_string(place.x) + ", " + std::to_string(place.y) +
+                       "): " + error.what() + "; leave one of them out");
+    }
+  }
+
+  void addJunction(const RiverJunction& junction, const JunctionMesh& mesh) {
+    std::vector<std::uint32_t> nodes = nodesAround(junction);
     for (std::size_t i = nodes.size(); i < mesh.points.size(); ++i) {
       nodes.push_back(static_cast<std::uint32_t>(places_.size()));
       addPlace(mesh.points[i]);
@@ -133,8 +161,8 @@ class GridMaker {
 }  // namespace
 
 RiverGrid riverGrid(const RiverParts& parts, const std::vector<RiverLine>& lines, const RiverPlane& plane,
-                    const Crs& crs, const RefineOptions& triangle_options, bool sizes) {
-  return GridMaker(parts, lines, plane, triangle_options).make(crs, sizes);
+                    const Crs& crs, const RefineOptions& triangle_options, bool sizes, const ItemLoop& loop) {
+  return GridMaker(parts, lines, plane, triangle_options).make(crs, sizes, loop);
 }
 
 std::size_t setRiverBoundaries(RiverGrid& rivers, const MeshWater& water, const RiverPlane& plane) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/item_loop.hpp"
 #include "core/refine/refine_options.hpp"
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/grid/grid.hpp"
@@ -32,7 +33,7 @@ struct RiverGrid {
 // The rows and junctions as a grid without boundaries; its features are the lines. `triangle_options`: of junctions.
 // `sizes`: set the requested length of each node, the mean of the sides of its cells.
 RiverGrid riverGrid(const RiverParts& parts, const std::vector<RiverLine>& lines, const RiverPlane& plane,
-                    const Crs& crs, const RefineOptions& triangle_options, bool sizes);
+                    const Crs& crs, const RefineOptions& triangle_options, bool sizes, const ItemLoop& loop = inOrder);
 
 // Sets the boundaries of such a grid: free ends outside the mesh are rivers; edges that touch its water are open, all
 // others land. Returns the number of river boundaries.
