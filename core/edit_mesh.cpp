@@ -55,6 +55,7 @@ EditMesh::EditMesh(TriMesh&& mesh, const ItemLoop& loop) : EditMesh(std::move(me
            !__atomic_compare_exchange_n(&own, &before, t, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
     }
   };
+  const VertexKind on_segment = VertexKind::Segment;
   forEachByStretches(loop, triangles.size(), [&](std::size_t at) {
     const auto t = static_cast<TriId>(at);
     for (unsigned i = 0; i < 3; ++i) {
@@ -62,7 +63,7 @@ EditMesh::EditMesh(TriMesh&& mesh, const ItemLoop& loop) : EditMesh(std::move(me
       __atomic_fetch_add(&triangles_round_[triangles[t].v[i]], 1, __ATOMIC_RELAXED);
       if (triangles[t].seg[i] == kNone) continue;
       for (const VertexId v : {origin(edgeRef(t, i)), target(edgeRef(t, i))})
-        if (v >= input_vertices_) __atomic_store_n(&kinds_[v], VertexKind::Segment, __ATOMIC_RELAXED);
+        if (v >= input_vertices_) __atomic_store(&kinds_[v], &on_segment, __ATOMIC_RELAXED);
     }
   });
 }
