@@ -55,9 +55,9 @@ EditMesh::EditMesh(TriMesh&& mesh, const ItemLoop& loop) : EditMesh(std::move(me
            !__atomic_compare_exchange_n(&own, &before, t, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
     }
   };
-  const VertexKind on_segment = VertexKind::Segment;
   forEachByStretches(loop, triangles.size(), [&](std::size_t at) {
     const auto t = static_cast<TriId>(at);
+    VertexKind on_segment = VertexKind::Segment;
     for (unsigned i = 0; i < 3; ++i) {
       keepLast(triangle_of_[triangles[t].v[i]], t);
       __atomic_fetch_add(&triangles_round_[triangles[t].v[i]], 1, __ATOMIC_RELAXED);
