@@ -22,9 +22,9 @@ std::optional<double> numberAttribute(const OGRFeature& feature, int field, doub
     if (text.empty() || *end != '\0') value = std::numeric_limits<double>::quiet_NaN();
   }
   if (std::isfinite(value) && value >= least) return value;
+  const char* const range = least > 0.0 ? " above 0" : least == 0.0 ? " of 0 or more" : "";
   throw InputError(what + ": its attribute '" + feature.GetFieldDefnRef(field)->GetNameRef() + "' is " +
-                   feature.GetFieldAsString(field) + ", not a number " + (least > 0.0 ? "above 0" : "of 0 or more") +
-                   "; correct it, or leave it empty");
+                   feature.GetFieldAsString(field) + ", not a number" + range + "; correct it, or leave it empty");
 }
 
 }  // namespace coastmesh

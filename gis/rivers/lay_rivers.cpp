@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/metric.hpp"
+#include "gis/coast/feature_names.hpp"
 #include "gis/elements/quads.hpp"
 #include "gis/error.hpp"
 #include "gis/rivers/mesh_water.hpp"
@@ -36,8 +37,6 @@ constexpr double kSpur = 4.0;
 
 // In water, rivers as far apart as this share of a row leave no room for triangles between them.
 constexpr double kClearance = 0.08;
-
-std::string placeText(const Point& p) { return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")"; }
 
 // The lines in the turn of longitudes in which the mesh is.
 std::vector<RiverLine> besideMesh(std::vector<RiverLine> lines, const Grid& mesh) {
@@ -91,6 +90,10 @@ class RiverLayer {
     report_.extended = connection_.extended;
     barred_.assign(network_.reaches.size(), 0);
     narrowed_.assign(network_.reaches.size(), 0);
+    reaches_at_.resize(network_.nodes.size());
+    for (std::uint32_t r = 0; r < network_.reaches.size(); ++r)
+      for (const std::uint32_t node : {network_.reaches[r].from, network_.reaches[r].to})
+        reaches_at_[node].push_back(r);
     followCourses();
     planner_.emplace(network_, courses_, shapes_);
     loseApart();
@@ -114,12 +117,12 @@ class RiverLayer {
     for (const Point& p : line.points) {
       const Point place = plane_.forward(p);
       if (!std::isfinite(place.x) || !std::isfinite(place.y))
-        throw InputError(nameOf(line) + " has a place, " + placeText(p) + ", that cannot be projected");
+        throw InputError(nameOf(line) + " has a place, (" + placeInWords(p) + "), that cannot be projected");
       if (river.points.empty() || !(river.points.back() == place)) river.points.push_back(place);
     }
     if (river.points.size() < 2)
-      throw InputError(nameOf(line) + " has a line of no length at " + placeText(line.points.front()) +
-                       "; take it out");
+      throw InputError(nameOf(line) + " has a line of no length at (" + placeInWords(line.points.front()) +
+                       "); take it out");
     river.width = line.width_m * plane_.scaleAt(river.points.front());
     return river;
   }
@@ -148,7 +151,7 @@ class RiverLayer {
   std::size_t cellsOf(const RiverReach& reach, double width_m) const {
     const double wanted = std::ceil(width_m / options_.most_cell_width_m);
     if (wanted > kMostCells)
-      throw InputError(nameOf(lines_[reach.line_of.front()]) + " would take " + std::to_string(wanted) +
+      throw InputError(nameOf(lines_[reach.line_of.front()]) + " would take " + std::to_string(std::llround(wanted)) +
                        " quadrilaterals across: request a larger --max-cell-width");
     return std::max(options_.cells, static_cast<std::size_t>(wanted));
   }
@@ -165,19 +168,16 @@ class RiverLayer {
 
   // True for a short reach between two places of others, as where a line crosses the river that it ends in.
   bool isSpur(std::uint32_t reach) const {
-    const RiverReach& own = network_.reaches[reach];
-    bool from_other = false, to_other = false;
     double widest = courses_[reach].maxWidth();
-    for (std::uint32_t r = 0; r < network_.reaches.size(); ++r) {
-      if (r == reach) continue;
-      const RiverReach& other = network_.reaches[r];
-      const bool at_from = other.from == own.from || other.to == own.from;
-      const bool at_to = other.from == own.to || other.to == own.to;
-      from_other = from_other || at_from;
-      to_other = to_other || at_to;
-      if (at_from || at_to) widest = std::max(widest, courses_[r].maxWidth());
+    for (const std::uint32_t node : {network_.reaches[reach].from, network_.reaches[reach].to}) {
+      bool has_other = false;
+      for (const std::uint32_t r : reaches_at_[node]) {
+        has_other = has_other || r != reach;
+        widest = std::max(widest, courses_[r].maxWidth());
+      }
+      if (!has_other) return false;
     }
-    return from_other && to_other && courses_[reach].length() < kSpur * widest;
+    return courses_[reach].length() < kSpur * widest;
   }
 
   void lose(std::uint32_t reach, RiverLoss why, const Point& place, double distance = 0.0) {
@@ -323,6 +323,7 @@ class RiverLayer {
   const MeshWater water_;
   std::vector<PlaneRiver> rivers_;  // by line
   RiverNetwork network_;
+  std::vector<std::vector<std::uint32_t>> reaches_at_;  // by node
   RiverConnection connection_;
   // Of each reach.
   std::vector<RiverCourse> courses_;

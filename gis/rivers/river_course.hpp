@@ -24,6 +24,12 @@ struct RiverSection {
     const double offset = (share - 0.5) * width;
     return {place.x + offset * left.x, place.y + offset * left.y};
   }
+  // The same as seen against the direction.
+  RiverSection turned() const {
+    RiverSection section = *this;
+    section.left = {-left.x, -left.y};
+    return section;
+  }
 };
 
 // The course of a reach: its centre line without turns that are too sharp for its width, and widths without jumps.

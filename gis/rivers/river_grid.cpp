@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <string>
 #include <utility>
 
 #include "core/metric.hpp"
 #include "core/triangulate/delaunay.hpp"
+#include "gis/coast/feature_names.hpp"
 #include "gis/elements/quads.hpp"
 #include "gis/error.hpp"
 #include "gis/grid/boundary_kinds.hpp"
@@ -40,8 +40,8 @@ class GridMaker {
     for (std::size_t i = 0; i < meshes.size(); ++i) addJunction(parts_.junctions[i], meshes[i]);
     if (sizes) setSizes();
     const std::vector<std::uint32_t> number = removeUnusedNodes(grid);
-    for (NodePair& edge : made_.ends) edge = edgeKey(number[edge[0]], number[edge[1]]);
-    std::ranges::sort(made_.ends);
+    for (std::vector<std::uint32_t>& end : made_.ends)
+      for (std::uint32_t& node : end) node = number[node];
     sortFeatures(grid);
     return std::move(made_);
   }
@@ -81,8 +81,8 @@ class GridMaker {
   }
 
   void addEnd(std::uint32_t reach, std::size_t row) {
-    for (std::size_t i = 0; i < parts_.rows[reach].cells; ++i)
-      made_.ends.push_back({nodeOf(reach, row, i), nodeOf(reach, row, i + 1)});
+    std::vector<std::uint32_t>& end = made_.ends.emplace_back();
+    for (std::size_t i = 0; i <= parts_.rows[reach].cells; ++i) end.push_back(nodeOf(reach, row, i));
   }
 
   // The nodes of the last sections of a junction's branches, in the order of its outline.
@@ -111,8 +111,7 @@ class GridMaker {
     try {
       return fillJunction(outline, options_);
     } catch (const BadPslg& error) {
-      const Point place = plane_.inverse(error.defect.place);
-      throw InputError("rivers cannot be joined at (" + std::to_string(place.x) + ", " + std::to_string(place.y) +
+      throw InputError("rivers cannot be joined at (" + placeInWords(plane_.inverse(error.defect.place)) +
                        "): " + error.what() + "; leave one of them out");
     }
   }
@@ -167,12 +166,23 @@ RiverGrid riverGrid(const RiverParts& parts, const std::vector<RiverLine>& lines
 
 std::size_t setRiverBoundaries(RiverGrid& rivers, const MeshWater& water, const RiverPlane& plane) {
   Grid& grid = rivers.grid;
-  const auto kindOf = [&](std::uint32_t a, std::uint32_t b) {
+  const auto touchesWater = [&](std::uint32_t a, std::uint32_t b) {
     const Point from = plane.forward(grid.nodes[a]), to = plane.forward(grid.nodes[b]);
-    if (water.holds(from) || water.holds(to) || water.holds(midpoint(from, to)))
-      return BoundaryKind{BoundaryRole::Open};
-    const bool is_end = std::ranges::binary_search(rivers.ends, edgeKey(a, b));
-    return BoundaryKind{is_end ? BoundaryRole::River : BoundaryRole::Land};
+    return water.holds(from) || water.holds(to) || water.holds(midpoint(from, to));
+  };
+  std::vector<NodePair> inflows;
+  for (const std::vector<std::uint32_t>& end : rivers.ends) {
+    std::vector<NodePair> edges;
+    for (std::size_t i = 0; i + 1 < end.size(); ++i) edges.push_back(edgeKey(end[i], end[i + 1]));
+    // A mouth may be wider than the water there: what is beside that is no inflow.
+    if (std::ranges::none_of(edges, [&](const NodePair& edge) { return touchesWater(edge[0], edge[1]); }))
+      inflows.insert(inflows.end(), edges.begin(), edges.end());
+  }
+  std::ranges::sort(inflows);
+  const auto kindOf = [&](std::uint32_t a, std::uint32_t b) {
+    if (touchesWater(a, b)) return BoundaryKind{BoundaryRole::Open};
+    const bool is_inflow = std::ranges::binary_search(inflows, edgeKey(a, b));
+    return BoundaryKind{is_inflow ? BoundaryRole::River : BoundaryRole::Land};
   };
   grid.boundaries = cutLoops(grid, boundaryLoops(grid), kindOf);
   return static_cast<std::size_t>(

@@ -27,7 +27,7 @@ struct RiverParts {
 
 struct RiverGrid {
   Grid grid;
-  std::vector<NodePair> ends;  // by `edgeKey`, ascending: the edges of sections at free ends
+  std::vector<std::vector<std::uint32_t>> ends;  // the nodes across each free end, from bank to bank
 };
 
 // The rows and junctions as a grid without boundaries; its features are the lines. `triangle_options`: of junctions.
@@ -35,8 +35,8 @@ struct RiverGrid {
 RiverGrid riverGrid(const RiverParts& parts, const std::vector<RiverLine>& lines, const RiverPlane& plane,
                     const Crs& crs, const RefineOptions& triangle_options, bool sizes, const ItemLoop& loop = inOrder);
 
-// Sets the boundaries of such a grid: free ends outside the mesh are rivers; edges that touch its water are open, all
-// others land. Returns the number of river boundaries.
+// Sets the boundaries of such a grid: edges that touch the mesh's water are open, free ends of which no edge does are
+// rivers, all others are land. Returns the number of river boundaries.
 std::size_t setRiverBoundaries(RiverGrid& rivers, const MeshWater& water, const RiverPlane& plane);
 
 }  // namespace coastmesh

@@ -248,9 +248,7 @@ void JunctionPlanner::removeBranches(std::uint32_t reach) {
 
 RiverSection sectionOf(const RiverCourse& course, const RiverBranch& branch, double distance) {
   if (!branch.at_end) return course.sectionAt(std::min(distance, course.length()));
-  RiverSection section = course.sectionAt(std::max(0.0, course.length() - distance));
-  section.left = {-section.left.x, -section.left.y};
-  return section;
+  return course.sectionAt(std::max(0.0, course.length() - distance)).turned();
 }
 
 }  // namespace coastmesh

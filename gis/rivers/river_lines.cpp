@@ -18,8 +18,6 @@ namespace coastmesh {
 
 namespace {
 
-std::string whatIs(const RiverLine& line) { return "'" + line.source + "', feature " + std::to_string(line.fid); }
-
 class LayerReader {
  public:
   LayerReader(OGRLayer& layer, std::string source, const Crs& crs, const RiverColumns& columns,
@@ -51,7 +49,7 @@ class LayerReader {
       RiverLine line;
       line.source = source_;
       line.fid = feature->GetFID();
-      const std::string what = whatIs(line);
+      const std::string what = featureInWords(line.source, line.fid);
       GeometryParts parts;
       takeApart(*geometry, what, parts);
       if (!parts.polygons.empty() || !parts.points.empty())
@@ -102,7 +100,9 @@ class LayerReader {
 
 }  // namespace
 
-std::string nameOf(const RiverLine& line) { return line.name.empty() ? whatIs(line) : "'" + line.name + "'"; }
+std::string nameOf(const RiverLine& line) {
+  return line.name.empty() ? featureInWords(line.source, line.fid) : "'" + line.name + "'";
+}
 
 std::vector<RiverLine> readRiverLines(const std::string& path, const Crs& crs, const RiverColumns& columns,
                                       const std::optional<double>& usual_width_m) {

@@ -85,9 +85,7 @@ class OverlapFinder {
   // The last section of a branch before its junction, as seen from there.
   RiverSection endOf(const RiverBranch& branch) const {
     const std::vector<RiverSection>& sections = rows_[branch.reach].sections;
-    RiverSection end = branch.at_end ? sections.back() : sections.front();
-    if (branch.at_end) end.left = {-end.left.x, -end.left.y};
-    return end;
+    return branch.at_end ? sections.back().turned() : sections.front();
   }
 
   // True for the row of a branch beside its junction.

@@ -56,6 +56,18 @@ TEST(LayRivers, ARiverEndsARowIntoTheWater) {
   EXPECT_TRUE(lossesOf(laid).empty());
 }
 
+TEST(LayRivers, WhatOfAMouthIsWiderThanTheWaterIsLand) {
+  // The water ends at y = 4000.
+  RiverOptions options;
+  options.cells = 6;
+  const LaidRivers laid = layRivers({lineOf({{-3000, 3980}, {150, 3980}}, 300.0)}, sea(), options);
+  EXPECT_EQ(laid.report.inflows, 1u);
+  for (const Boundary& boundary : laid.grid.boundaries) {
+    if (boundary.role != BoundaryRole::River) continue;
+    for (const std::uint32_t node : boundary.nodes) EXPECT_NEAR(laid.grid.nodes[node].x, -3000.0, 1e-6);
+  }
+}
+
 TEST(LayRivers, AllOfARiverGetsRowsOnRequest) {
   RiverOptions options;
   options.extent = RiverExtent::All;
