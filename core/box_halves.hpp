@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/bulk_list.hpp"
 #include "core/point.hpp"
 
 namespace coastmesh {
@@ -59,7 +60,7 @@ class BoxHalves {
     visitFrom(2 * node + 1, middle, last, enter, found);
   }
 
-  std::vector<std::uint32_t> items_;
+  BulkList<std::uint32_t> items_;
   std::vector<Bounds> nodes_;
 };
 

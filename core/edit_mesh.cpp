@@ -83,7 +83,7 @@ void EditMesh::numberVertices(std::vector<VertexId>& number, bool along_curve) {
     return;
   }
   // Neighbours in the plane are close in memory.
-  const std::vector<VertexId> order = hilbertOrder(points_);
+  const BulkList<VertexId> order = hilbertOrder(points_);
   std::vector<Point> steiner;
   steiner.reserve(points_.size() - input_vertices_);
   for (const VertexId v : order) {

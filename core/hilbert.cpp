@@ -115,11 +115,11 @@ std::vector<std::uint32_t> hilbertIndices(std::span<const Point> points, const I
   return indices;
 }
 
-std::vector<std::uint32_t> hilbertOrder(std::span<const Point> points, const ItemLoop& loop) {
+BulkList<std::uint32_t> hilbertOrder(std::span<const Point> points, const ItemLoop& loop) {
   constexpr std::size_t kWorthDividing = 1 << 15;
   const std::vector<std::uint32_t> indices = hilbertIndices(points, loop);
   if (points.size() < kWorthDividing) {
-    std::vector<std::uint32_t> order(points.size());
+    BulkList<std::uint32_t> order(points.size());
     std::iota(order.begin(), order.end(), 0u);
     sortByIndex(indices, 32, order);
     return order;
@@ -135,9 +135,9 @@ std::vector<std::uint32_t> hilbertOrder(std::span<const Point> points, const Ite
   return order;
 }
 
-std::vector<std::uint32_t> hilbertOrder(std::span<const Point> points, const Surface& surface, const ItemLoop& loop) {
+BulkList<std::uint32_t> hilbertOrder(std::span<const Point> points, const Surface& surface, const ItemLoop& loop) {
   if (!surface.isCurved()) return hilbertOrder(points, loop);
-  std::vector<Point> on_map(points.size());
+  BulkList<Point> on_map = unsetList<Point>(points.size());
   forEachByStretches(loop, points.size(), [&](std::size_t i) {
     const double shrink = std::sqrt(surface.shrinkAt(points[i]));
     on_map[i] = {shrink * points[i].x, shrink * points[i].y};

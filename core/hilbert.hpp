@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/bulk_list.hpp"
 #include "core/item_loop.hpp"
 #include "core/point.hpp"
 #include "core/surface.hpp"
@@ -18,10 +19,10 @@ std::uint32_t hilbertIndex(std::uint32_t x, std::uint32_t y);
 std::vector<std::uint32_t> hilbertIndices(std::span<const Point> points, const ItemLoop& loop = inOrder);
 
 // The numbers of the points in their order along the curve; within a cell the smaller number first.
-std::vector<std::uint32_t> hilbertOrder(std::span<const Point> points, const ItemLoop& loop = inOrder);
+BulkList<std::uint32_t> hilbertOrder(std::span<const Point> points, const ItemLoop& loop = inOrder);
 // The same; on a sphere along a curve on its equal-area map, since most of the sphere is a small part of the plane
 // around the origin.
-std::vector<std::uint32_t> hilbertOrder(std::span<const Point> points, const Surface& surface,
-                                        const ItemLoop& loop = inOrder);
+BulkList<std::uint32_t> hilbertOrder(std::span<const Point> points, const Surface& surface,
+                                     const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

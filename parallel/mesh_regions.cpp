@@ -13,6 +13,7 @@
 #include "core/optimise/optimise.hpp"
 #include "core/refine/bound_violations.hpp"
 #include "core/refine/check_input.hpp"
+#include "core/refine/divide_segments.hpp"
 #include "core/refine/vertex_notes.hpp"
 #include "core/run_control.hpp"
 #include "core/size/plane_sizes.hpp"
@@ -140,6 +141,7 @@ struct Seeds {
   VertexNotes notes;               // on all vertices; empty if none were added and the mesh is not to be cut
   std::vector<LatticeCore> cores;  // kept out of the mesh
   std::uint64_t core_vertices = 0;
+  bool are_segments_split = false;
 };
 
 // For a mesh to be closed: inserts its initial vertices.
@@ -150,10 +152,19 @@ Seeds seedInRing(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opti
   seeds.notes = noteInput(region.mesh, boundOf(options.refine), loop);
   if (!options.seeds.empty()) {
     region.mesh = triangulateInRing(pslg, options, options.seeds, loop);
-    noteFurther(region.mesh, seeds.notes, loop);
+    noteFurther(region.mesh, seeds.notes, {}, loop);
   }
   region.log.append(recorder.finish("triangulate"));
   return seeds;
+}
+
+// How many more vertices the mesh may have beside these lattices.
+std::uint64_t roomBeside(const std::vector<LatticePlaces>& lattices, const TriMesh& mesh,
+                         const RefineOptions& options) {
+  std::uint64_t vertices = mesh.points.size();
+  for (const LatticePlaces& lattice : lattices) vertices += static_cast<std::uint64_t>(lattice.places.count());
+  const std::uint64_t most = std::min(options.max_vertices, kMostVertices);
+  return most - std::min(most, vertices);
 }
 
 // Triangulates again if there are lattices to insert.
@@ -167,9 +178,15 @@ Seeds seed(MeshedRegion& region, const Pslg& pslg, const MeshOptions& all_option
   std::vector<LatticePlaces> lattices = latticesFor(region.mesh, options, recorder.loop("lattice", control));
   if (with_cores || !lattices.empty()) seeds.notes = noteInput(region.mesh, boundOf(options), loop);
   if (!lattices.empty()) {
-    LatticeMesh seeded = triangulateWith(pslg, std::move(lattices), with_cores, recorder.loop("triangulate", control));
+    DividedSegments divided;
+    if (with_cores)
+      divided =
+          divideSegments(region.mesh, pslg, seeds.notes, options, roomBeside(lattices, region.mesh, options), loop);
+    LatticeMesh seeded = triangulateWith(pslg, std::move(lattices), with_cores, divided, loop);
     if (!seeded.cores.empty()) seeds.input = seeds.notes;
-    noteFurther(seeded.mesh, seeds.notes, loop);
+    noteFurther(seeded.mesh, seeds.notes, divided.spacing, loop);
+    seeds.are_segments_split = !divided.pieces.empty();
+    region.stats.segment_splits += divided.points.size();
     seeds.core_vertices = seeded.coreVertices();
     seeds.cores = std::move(seeded.cores);
     region.mesh = std::move(seeded.mesh);
@@ -295,6 +312,7 @@ void meshInPieces(MeshedRegion& region, const Pslg& pslg, const MeshOptions& opt
   workspace.helpers = helpers;
   workspace.keeper = keeper ? &*keeper : nullptr;
   workspace.has_cores = !seeds.cores.empty();
+  workspace.are_segments_split = seeds.are_segments_split;
   // Begins a stage, with the results of those before it; false if an earlier run has completed it.
   const auto begins = [&](RoundsStage stage) {
     if (!keeper) return true;

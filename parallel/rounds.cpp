@@ -470,7 +470,7 @@ RoundsReport refineInRounds(TriMesh& mesh, const Pslg& pslg, const RefineOptions
   const std::vector<RefineOptions> steps = stepsTo(options, whole.mesh, run.recorder().loop("cut"));
   whole.notes = std::move(notes);
   const std::optional<RoundPlace> before = run.goOn();
-  if (!before && wantsSplitSegments(whole.mesh, options))
+  if (!before && !workspace.are_segments_split && wantsSplitSegments(whole.mesh, options))
     run.stats().segment_splits += splitSegments(whole.mesh, pslg, whole.notes, options, run.recorder().loop("cut"));
   const RoundPlace from = before.value_or(RoundPlace{});
   for (std::uint32_t step = from.step; step < steps.size(); ++step) {

@@ -23,6 +23,7 @@ struct RoundsWorkspace {
   const HelpedRegion* helpers = nullptr;  // helpers that process pieces
   // Cores are kept out of the mesh, and what refinement leaves bad beside them is repaired after their insertion.
   bool has_cores = false;
+  bool are_segments_split = false;  // already, as `splitSegments` would
   // Where the mesh is saved after each round, and resumed from; null: nowhere. Repairs are not saved.
   RoundKeeper* keeper = nullptr;
 };

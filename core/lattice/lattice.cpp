@@ -44,31 +44,39 @@ double shareOfLongest(const LatticeWishes& wishes) {
 struct Box {
   Point least{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   Point most{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+
+  void take(const Point& p) {
+    least = {std::min(least.x, p.x), std::min(least.y, p.y)};
+    most = {std::max(most.x, p.x), std::max(most.y, p.y)};
+  }
 };
 
-Box boxOf(const TriMesh& mesh) {
+struct Extent {
   Box box;
-  for (const Triangle& t : mesh.triangles) {
-    for (const VertexId v : t.v) {
-      const Point& p = mesh.point(v);
-      box.least = {std::min(box.least.x, p.x), std::min(box.least.y, p.y)};
-      box.most = {std::max(box.most.x, p.x), std::max(box.most.y, p.y)};
+  double area = 0.0;
+};
+
+Extent extentOf(const TriMesh& mesh, const ItemLoop& loop) {
+  const auto extentIn = [&](std::size_t first, std::size_t last) {
+    Extent some;
+    for (std::size_t t = first; t < last; ++t) {
+      const auto& v = mesh.triangles[t].v;
+      const std::array<Point, 3> corners{mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2])};
+      some.area += 0.5 * cross(corners[1] - corners[0], corners[2] - corners[0]);
+      for (const Point& p : corners) some.box.take(p);
     }
+    return some;
+  };
+  Extent all;
+  for (const Extent& some : overStretches(loop, mesh.triangles.size(), extentIn)) {
+    all.area += some.area;
+    for (const Point& p : {some.box.least, some.box.most}) all.box.take(p);
   }
-  return box;
+  return all;
 }
 
 bool isTooLong(const Box& box, double spacing) {
   return !(std::max(box.most.x - box.least.x, box.most.y - box.least.y) < kMostRows * kRowHeight * spacing);
-}
-
-double areaOf(const TriMesh& mesh) {
-  double area = 0.0;
-  for (const Triangle& t : mesh.triangles) {
-    const Point& a = mesh.point(t.v[0]);
-    area += 0.5 * cross(mesh.point(t.v[1]) - a, mesh.point(t.v[2]) - a);
-  }
-  return area;
 }
 
 // Rows of a lattice that cover a box.
@@ -176,16 +184,20 @@ struct InputPart {
 std::vector<InputPart> partsOf(const TriMesh& mesh, const ItemLoop& loop) {
   const auto isConstrained = [&](EdgeRef e) { return mesh.segment(e) != kNone || mesh.twin(e) == kNone; };
   BulkList<std::uint8_t> alone = usedVertices(mesh, loop);
-  std::vector<InputPart> parts;
-  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
-    for (unsigned i = 0; i < 3; ++i) {
-      const EdgeRef e = edgeRef(t, i);
-      if (!isConstrained(e)) continue;
-      const VertexId v = mesh.origin(e), w = mesh.target(e);
-      alone[v] = alone[w] = 0;
-      if (mesh.twin(e) == kNone || mesh.twin(e) > e) parts.push_back({mesh.point(v), mesh.point(w)});
-    }
-  }
+  std::vector<InputPart> parts =
+      joined(overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
+        std::vector<InputPart> segments;
+        for (auto t = static_cast<TriId>(first); t < last; ++t) {
+          for (unsigned i = 0; i < 3; ++i) {
+            const EdgeRef e = edgeRef(t, i);
+            if (!isConstrained(e)) continue;
+            const VertexId v = mesh.origin(e), w = mesh.target(e);
+            for (const VertexId end : {v, w}) __atomic_store_n(&alone[end], std::uint8_t{0}, __ATOMIC_RELAXED);
+            if (mesh.twin(e) == kNone || mesh.twin(e) > e) segments.push_back({mesh.point(v), mesh.point(w)});
+          }
+        }
+        return segments;
+      }));
   for (VertexId v = 0; v < alone.size(); ++v)
     if (alone[v]) parts.push_back({mesh.point(v), mesh.point(v)});
   return parts;
@@ -307,8 +319,7 @@ Point Lattice::at(std::int64_t a, std::int64_t b) const {
 std::vector<LatticePlaces> layLattices(const TriMesh& mesh, const LatticeWishes& wishes, const ItemLoop& loop) {
   const double most = wishes.size_max * shareOfLongest(wishes);
   if (wishes.size == nullptr && std::isinf(most)) return {};
-  const Box box = boxOf(mesh);
-  const double area = areaOf(mesh);
+  const auto [box, area] = extentOf(mesh, loop);
   const std::vector<Length> lengths = wishes.size == nullptr ? std::vector<Length>{{most, most, most}}
                                                              : wantedLengths(mesh, box, area, *wishes.size, loop);
   const double clearance = wishes.size == nullptr ? kClearanceUnderABound : kClearanceOfLengths;

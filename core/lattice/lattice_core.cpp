@@ -79,7 +79,7 @@ class CoreCarver {
     std::vector<TriId> starts{0};
     for (const TriId count : counts) starts.push_back(starts.back() + count);
     TriMesh rest;
-    rest.points = mesh_.points;
+    rest.points = copyOn(loop, mesh_.points);
     rest.input_vertices = mesh_.input_vertices;
     resizeUnset(rest.triangles, starts.back());
     forEachStretch(loop, all, counts.size(), [&](std::size_t s, std::size_t first, std::size_t last) {
@@ -177,7 +177,7 @@ std::vector<FrozenEdge> frozenEdges(const TriMesh& mesh, const ItemLoop& loop) {
           some.push_back({mesh.origin(e), mesh.target(e), e});
     return some;
   }));
-  std::ranges::sort(edges);
+  sortOn(loop, edges);
   return edges;
 }
 
@@ -288,6 +288,23 @@ std::uint64_t trianglesOf(const LatticeCore& core) {
   return static_cast<std::uint64_t>(core.up.count() + core.down.count());
 }
 
+// Appends the points that divide segments, which get numbers from `first` on.
+void addDivisions(const DividedSegments& divided, VertexId input, VertexId first, Pslg& all) {
+  all.points.insert(all.points.end(), divided.points.begin(), divided.points.end());
+  if (divided.points.empty()) return;
+  for (Segment& s : all.segments)
+    for (VertexId* const end : {&s.a, &s.b})
+      if (*end >= input) *end += first - input;
+}
+
+// Names the segments of the PSLG instead of their pieces.
+void nameSegments(TriMesh& mesh, const std::vector<SegmentId>& of, const ItemLoop& loop) {
+  forEachByStretches(loop, mesh.triangles.size(), [&](std::size_t t) {
+    for (SegmentId& s : mesh.triangles[t].seg)
+      if (s != kNone) s = of[s];
+  });
+}
+
 }  // namespace
 
 std::uint64_t LatticeMesh::coreVertices() const {
@@ -303,7 +320,7 @@ std::uint64_t LatticeMesh::coreTriangles() const {
 }
 
 LatticeMesh triangulateWith(const Pslg& pslg, std::vector<LatticePlaces> lattices, bool with_cores,
-                            const ItemLoop& loop) {
+                            const DividedSegments& divided, const ItemLoop& loop) {
   LatticeMesh made;
   made.pslg_vertices = static_cast<VertexId>(pslg.points.size());
   for (LatticePlaces& some : lattices) {
@@ -319,7 +336,9 @@ LatticeMesh triangulateWith(const Pslg& pslg, std::vector<LatticePlaces> lattice
   for (const LatticeCore& core : made.cores) points += static_cast<std::size_t>(core.edge.count());
   const auto fixed = static_cast<VertexId>(points);
   for (const LatticePlaces& some : lattices) points += static_cast<std::size_t>(some.places.count());
-  Pslg all{{}, pslg.segments, pslg.holes};
+  const std::size_t dividing = points;
+  points += divided.points.size();
+  Pslg all{{}, divided.pieces.empty() ? pslg.segments : divided.pieces, pslg.holes};
   reserveOn(loop, all.points, points);
   all.points.assign(pslg.points.begin(), pslg.points.end());
   const auto add = [&](const Lattice& lattice, const LatticeRows& rows) {
@@ -331,8 +350,10 @@ LatticeMesh triangulateWith(const Pslg& pslg, std::vector<LatticePlaces> lattice
   };
   for (const LatticeCore& core : made.cores) add(core.lattice, core.edge);
   for (const LatticePlaces& some : lattices) add(some.lattice, some.places);
+  addDivisions(divided, made.pslg_vertices, static_cast<VertexId>(dividing), all);
   made.mesh = constrainedDelaunay(all, {}, loop);
   made.mesh.input_vertices = fixed;
+  if (!divided.pieces.empty()) nameSegments(made.mesh, divided.of, loop);
   if (!made.cores.empty()) made.mesh = CoreCarver(made.mesh, made.pslg_vertices, made.cores, loop).run(loop);
   return made;
 }

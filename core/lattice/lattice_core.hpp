@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/divided_segments.hpp"
 #include "core/item_loop.hpp"
 #include "core/lattice/lattice.hpp"
 #include "core/lattice/lattice_rows.hpp"
@@ -24,7 +25,7 @@ struct LatticeCore {
 // The mesh of a PSLG and of lattice points, ready to be refined.
 struct LatticeMesh {
   // The first vertices are the PSLG's, then those on the boundaries of cores; edges there are kFrozen, and
-  // `input_vertices` counts both. The other lattice points follow.
+  // `input_vertices` counts both. The other lattice points follow, and those that divide segments.
   TriMesh mesh;
   VertexId pslg_vertices = 0;
   std::vector<LatticeCore> cores;
@@ -33,10 +34,10 @@ struct LatticeMesh {
   std::uint64_t coreTriangles() const;
 };
 
-// Triangulates a PSLG with the lattice points in its domain. `with_cores` keeps the inner triangles of lattices out.
-// REQUIRES: points found by `layLattices`.
+// Triangulates a PSLG with the lattice points in its domain, and with its segments divided as given, if at all.
+// `with_cores` keeps the inner triangles of lattices out. REQUIRES: points found by `layLattices`.
 LatticeMesh triangulateWith(const Pslg& pslg, std::vector<LatticePlaces> lattices, bool with_cores,
-                            const ItemLoop& loop = inOrder);
+                            const DividedSegments& divided = {}, const ItemLoop& loop = inOrder);
 
 // Inserts the cores into the mesh, which may have been refined, with `input_vertices` unchanged. Afterwards it counts
 // only the PSLG's, and no edge is frozen. Does not set regions.

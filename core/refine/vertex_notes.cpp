@@ -87,16 +87,19 @@ VertexNotes noteInput(const TriMesh& mesh, const TriangleBound& bound, const Ite
   return notes;
 }
 
-void noteSpacingOfNeighbours(const TriMesh& mesh, VertexNotes& notes, const ItemLoop& loop) {
+namespace {
+
+// Of the vertices below `end`, without regard to the others.
+void noteSpacingOfNeighbours(const TriMesh& mesh, std::size_t end, VertexNotes& notes, const ItemLoop& loop) {
   const std::size_t known = notes.spacing.size();
   resizeUnset(notes.spacing, mesh.points.size());
-  forEachByStretches(loop, mesh.points.size() - known,
+  forEachByStretches(loop, end - known,
                      [&](std::size_t i) { notes.spacing[known + i] = std::numeric_limits<double>::infinity(); });
   forEachByStretches(loop, mesh.triangles.size(), [&](std::size_t t) {
     for (unsigned i = 0; i < 3; ++i) {
       const EdgeRef e = edgeRef(static_cast<TriId>(t), i);
       const VertexId a = mesh.origin(e), b = mesh.target(e);
-      if (a < known && b < known) continue;
+      if ((a < known && b < known) || std::max<std::size_t>(a, b) >= end) continue;
       const double length = notes.surface.chord(mesh.point(a), mesh.point(b));
       for (const VertexId v : {a, b})
         if (v >= known) lowerTo(notes.spacing[v], length);
@@ -104,8 +107,16 @@ void noteSpacingOfNeighbours(const TriMesh& mesh, VertexNotes& notes, const Item
   });
 }
 
-void noteFurther(const TriMesh& mesh, VertexNotes& notes, const ItemLoop& loop) {
-  noteSpacingOfNeighbours(mesh, notes, loop);
+}  // namespace
+
+void noteSpacingOfNeighbours(const TriMesh& mesh, VertexNotes& notes, const ItemLoop& loop) {
+  noteSpacingOfNeighbours(mesh, mesh.points.size(), notes, loop);
+}
+
+void noteFurther(const TriMesh& mesh, VertexNotes& notes, const BulkList<double>& dividing, const ItemLoop& loop) {
+  const std::size_t end = mesh.points.size() - dividing.size();
+  noteSpacingOfNeighbours(mesh, end, notes, loop);
+  std::ranges::copy(dividing, notes.spacing.begin() + static_cast<std::ptrdiff_t>(end));
   notes.shell_unit.resize(mesh.input_vertices, 0.0);
   notes.small_angle.resize(mesh.input_vertices, false);
 }

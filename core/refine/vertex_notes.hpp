@@ -28,7 +28,9 @@ VertexNotes noteInput(const TriMesh& mesh, const TriangleBound& bound, const Ite
 void noteSpacingOfNeighbours(const TriMesh& mesh, VertexNotes& notes, const ItemLoop& loop = inOrder);
 
 // Extends notes on input vertices, made by `noteInput`, to a mesh that has free vertices too, of which those below
-// `mesh.input_vertices` count as input.
-void noteFurther(const TriMesh& mesh, VertexNotes& notes, const ItemLoop& loop = inOrder);
+// `mesh.input_vertices` count as input. The last vertices divide segments: they have this spacing, and do not count as
+// neighbours.
+void noteFurther(const TriMesh& mesh, VertexNotes& notes, const BulkList<double>& dividing = {},
+                 const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

@@ -17,9 +17,9 @@ using FaceId = std::uint32_t;  // of a face, or of a part of one in a range of t
 class Carver {
  public:
   Carver(const Triangulation& all, const Pslg& pslg, const ItemLoop& loop)
-      : all_(all), triangles_(all.mesh.triangles), pslg_(pslg), loop_(loop), part_of_(triangles_.size(), kNone) {}
+      : all_(all), triangles_(all.mesh.triangles), pslg_(pslg), loop_(loop) {}
 
-  std::vector<RegionId> run() {
+  BulkList<RegionId> run() {
     const std::size_t parts = findParts();
     UnionFind faces(parts);
     for (const auto& [a, b] : joins_) faces.unite(a, b);
@@ -30,7 +30,7 @@ class Carver {
       label[p] = label[faces.find(p)];
       if (label[p] == kUnlabelled) label[p] = kOutside;
     }
-    std::vector<RegionId> region(triangles_.size());
+    BulkList<RegionId> region = unsetList<RegionId>(triangles_.size());
     forEachByStretches(loop_, region.size(), [&](std::size_t i) {
       const auto t = static_cast<TriId>(i);
       region[t] = all_.isGhost(t) ? kOutside : label[part_of_[t]];
@@ -48,6 +48,7 @@ class Carver {
 
   // Divides each range of triangles into connected parts, and notes which touch. Returns the number of parts.
   std::size_t findParts() {
+    resizeUnset(part_of_, triangles_.size());
     std::vector<Range> ranges = overStretches(loop_, triangles_.size(), [&](std::size_t first, std::size_t last) {
       return partsOf(static_cast<TriId>(first), static_cast<TriId>(last));
     });
@@ -72,6 +73,7 @@ class Carver {
 
   Range partsOf(TriId first, TriId last) {
     Range range;
+    std::fill(part_of_.begin() + first, part_of_.begin() + last, kNone);
     std::vector<TriId> stack;
     for (TriId start = first; start < last; ++start) {
       if (part_of_[start] != kNone) continue;
@@ -172,7 +174,7 @@ class Carver {
   std::span<const Triangle> triangles_;
   const Pslg& pslg_;
   const ItemLoop& loop_;
-  std::vector<FaceId> part_of_;  // of each triangle
+  BulkList<FaceId> part_of_;  // of each triangle
   // By part; then those of faces.
   std::vector<RegionId> labels_;
   std::vector<Join> joins_;
@@ -181,7 +183,7 @@ class Carver {
 
 }  // namespace
 
-std::vector<RegionId> regionsOf(const Triangulation& triangulation, const Pslg& pslg, const ItemLoop& loop) {
+BulkList<RegionId> regionsOf(const Triangulation& triangulation, const Pslg& pslg, const ItemLoop& loop) {
   return Carver(triangulation, pslg, loop).run();
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <stdexcept>
-#include <vector>
 
+#include "core/bulk_list.hpp"
 #include "core/item_loop.hpp"
 #include "core/pslg.hpp"
 #include "core/triangulate/triangulation.hpp"
@@ -18,6 +18,6 @@ struct LabelClash : std::runtime_error {
 // The region of every triangle, up to the segments around it: from their labels, otherwise from the holes and the
 // outside. kOutside for ghosts and where no label reaches. REQUIRES: all segments of the PSLG are in the triangulation.
 // Throws LabelClash.
-std::vector<RegionId> regionsOf(const Triangulation& triangulation, const Pslg& pslg, const ItemLoop& loop = inOrder);
+BulkList<RegionId> regionsOf(const Triangulation& triangulation, const Pslg& pslg, const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

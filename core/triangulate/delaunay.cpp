@@ -12,6 +12,7 @@
 
 #include "core/bulk_list.hpp"
 #include "core/distribute.hpp"
+#include "core/large_list.hpp"
 #include "core/links.hpp"
 #include "core/metric.hpp"
 #include "core/triangulate/carve.hpp"
@@ -110,14 +111,13 @@ void checkDistances(const Triangulation& triangulation, const ItemLoop& loop) {
 
 // The triangles of the domain, ordered by their last corner along Hilbert's curve.
 struct Numbering {
-  std::vector<TriId> number;  // by slot; kNone outside the domain
+  BulkList<TriId> number;  // by slot; kNone outside the domain
   TriId count = 0;
 };
 
-Numbering numberAlongCurve(const Triangulation& triangulation, const std::vector<RegionId>& region,
-                           const ItemLoop& loop) {
+Numbering numberAlongCurve(const Triangulation& triangulation, const BulkList<RegionId>& region, const ItemLoop& loop) {
   const std::size_t slots = region.size(), vertices = triangulation.along_curve.size();
-  std::vector<std::uint32_t> place(vertices);
+  BulkList<std::uint32_t> place = unsetList<std::uint32_t>(vertices);
   forEachByStretches(loop, vertices,
                      [&](std::size_t i) { place[triangulation.along_curve[i]] = static_cast<std::uint32_t>(i); });
   const auto last = [&](TriId t) {
@@ -131,7 +131,7 @@ Numbering numberAlongCurve(const Triangulation& triangulation, const std::vector
   const Distribution sorted = distribute(loop, slots, parts + 1, [&](std::size_t t) {
     return region[t] == kOutside ? parts : last(static_cast<TriId>(t)) / in_part;
   });
-  Numbering numbers{std::vector<TriId>(slots, kNone), sorted.starts[parts]};
+  Numbering numbers{noNumbers(loop, slots), sorted.starts[parts]};
   forItems(loop, parts, [&](std::size_t p) {
     const auto own = std::span(sorted.items).subspan(sorted.starts[p], sorted.starts[p + 1] - sorted.starts[p]);
     const auto begin = static_cast<std::uint32_t>(p * in_part);
@@ -151,7 +151,7 @@ Triangulation triangulate(const Pslg& pslg, const Surface& surface, const ItemLo
   }
 }
 
-std::vector<RegionId> carve(const Triangulation& triangulation, const Pslg& pslg, const ItemLoop& loop) {
+BulkList<RegionId> carve(const Triangulation& triangulation, const Pslg& pslg, const ItemLoop& loop) {
   try {
     return regionsOf(triangulation, pslg, loop);
   } catch (const LabelClash& clash) {
@@ -171,12 +171,13 @@ TriMesh constrainedDelaunay(const Pslg& pslg, const Surface& surface, const Item
            "the vertices lie on one line and enclose no area");
   checkDistances(triangulation, loop);
   insertSegments(pslg, triangulation, loop);
-  const std::vector<RegionId> region = carve(triangulation, pslg, loop);
+  const BulkList<RegionId> region = carve(triangulation, pslg, loop);
   const Numbering numbers = numberAlongCurve(triangulation, region, loop);
   if (numbers.count == 0) refuse(PslgDefect::Kind::NoArea, pslg.points.front(), kNone, "the segments enclose no area");
 
   TriMesh mesh;
-  mesh.points.assign(pslg.points.begin(), pslg.points.end());
+  resizeUnset(mesh.points, pslg.points.size());
+  forEachByStretches(loop, pslg.points.size(), [&](std::size_t i) { mesh.points[i] = pslg.points[i]; });
   mesh.input_vertices = static_cast<VertexId>(pslg.points.size());
   resizeUnset(mesh.triangles, numbers.count);
   resizeUnset(mesh.regions, numbers.count);

@@ -9,6 +9,7 @@
 #include "core/bulk_list.hpp"
 #include "core/distribute.hpp"
 #include "core/hilbert.hpp"
+#include "core/large_list.hpp"
 #include "core/triangulate/insert_points.hpp"
 #include "core/triangulate/merge_halves.hpp"
 
@@ -30,7 +31,7 @@ struct PartTree {
   std::size_t parts = 1;
   std::vector<Point> cut;             // of the inner nodes: points before it belong to the first child
   std::vector<std::uint32_t> starts;  // of the parts in `along`, then its end
-  std::vector<VertexId> along;        // the points by part, in each along the curve
+  BulkList<VertexId> along;           // the points by part, in each along the curve
 };
 
 // Every other level cuts in the other direction.
@@ -130,7 +131,7 @@ Triangulation triangulatePoints(std::span<const Point> points, const Surface& su
   all.points = points;
   all.ghost = static_cast<VertexId>(points.size());
   all.along_curve = hilbertOrder(points, surface, loop);
-  all.triangle_of.resize(points.size() + 1, kNone);
+  all.triangle_of = noNumbers(loop, points.size() + 1);
   resizeUnset(all.mesh.triangles, 2 * points.size());
   const bool has_triangles = partsFor(points.size()) == 1
                                  ? insertPoints(all, all.along_curve, 0) != kNone

@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <span>
 #include <stdexcept>
-#include <vector>
 
+#include "core/bulk_list.hpp"
 #include "core/linked_triangles.hpp"
 #include "core/point.hpp"
 
@@ -15,9 +15,9 @@ namespace coastmesh {
 struct Triangulation {
   std::span<const Point> points;
   VertexId ghost = 0;
-  LinkedTriangles mesh;               // including ghosts
-  std::vector<TriId> triangle_of;     // one triangle around each vertex
-  std::vector<VertexId> along_curve;  // the points in Hilbert's order
+  LinkedTriangles mesh;            // including ghosts
+  BulkList<TriId> triangle_of;     // one triangle around each vertex
+  BulkList<VertexId> along_curve;  // the points in Hilbert's order
 
   // False if all points are on one line: there is no triangulation.
   bool hasTriangles() const { return !mesh.triangles.empty(); }

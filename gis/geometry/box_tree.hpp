@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/bulk_list.hpp"
 #include "core/item_loop.hpp"
 #include "gis/geometry/box.hpp"
 
@@ -81,7 +82,7 @@ class BoxTree {
 
   std::vector<Box> boxes_;                // level after level, the root last
   std::vector<std::size_t> level_begin_;  // where each level begins in `boxes_`, and the end
-  std::vector<std::uint32_t> items_;      // level 0's items; empty for Order::Given
+  BulkList<std::uint32_t> items_;         // level 0's items; empty for Order::Given
 };
 
 }  // namespace coastmesh

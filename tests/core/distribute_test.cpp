@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "tests/support/bulk_lists.hpp"
 #include "tests/support/item_loops.hpp"
 
 namespace coastmesh {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/metric.hpp"
+#include "tests/support/bulk_lists.hpp"
 #include "tests/support/item_loops.hpp"
 #include "tests/support/pslgs.hpp"
 

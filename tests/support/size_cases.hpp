@@ -17,6 +17,16 @@ inline Pslg wideLake() {
   return pslg;
 }
 
+// A long band between two saws: many segments.
+inline Pslg sawBand(std::uint32_t teeth) {
+  Pslg pslg;
+  for (std::uint32_t i = 0; i <= teeth; ++i) pslg.points.push_back({1.0 * i, i % 2 == 0 ? 0.0 : 0.3});
+  for (std::uint32_t i = teeth + 1; i-- > 0;) pslg.points.push_back({1.0 * i, i % 2 == 0 ? 3.0 : 3.3});
+  const auto count = static_cast<std::uint32_t>(pslg.points.size());
+  for (std::uint32_t i = 0; i < count; ++i) pslg.segments.push_back({i, (i + 1) % count});
+  return pslg;
+}
+
 struct Wanted {
   std::string name;
   SizeOf size;

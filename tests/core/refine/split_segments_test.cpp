@@ -83,18 +83,8 @@ TEST(SplitSegments, KeepsToTheBudget) {
   expectValidMesh(mesh, pslg);
 }
 
-// A long band between two saws: many segments.
-Pslg band(std::uint32_t teeth) {
-  Pslg pslg;
-  for (std::uint32_t i = 0; i <= teeth; ++i) pslg.points.push_back({1.0 * i, i % 2 == 0 ? 0.0 : 0.3});
-  for (std::uint32_t i = teeth + 1; i-- > 0;) pslg.points.push_back({1.0 * i, i % 2 == 0 ? 3.0 : 3.3});
-  const auto count = static_cast<std::uint32_t>(pslg.points.size());
-  for (std::uint32_t i = 0; i < count; ++i) pslg.segments.push_back({i, (i + 1) % count});
-  return pslg;
-}
-
 TEST(SplitSegments, OrderOfWorkDoesNotMatter) {
-  const Pslg pslg = band(10'000);
+  const Pslg pslg = sawBand(10'000);
   // The left side has more divisions than are made at once.
   const SizeOf size(0.001, 1.0, [](const Point& x) { return std::min(0.001 + x.x, 0.4 + 0.3 * std::sin(0.01 * x.x)); });
   for (const std::uint64_t most : {kMostVertices, std::uint64_t{40'000}}) {
@@ -112,7 +102,7 @@ TEST(SplitSegments, OrderOfWorkDoesNotMatter) {
 
 // Where there is room for hardly any, not all are divided: that would take weeks here.
 TEST(SplitSegments, FarTooManyAreNotDividedInVain) {
-  const Pslg pslg = band(10'000);
+  const Pslg pslg = sawBand(10'000);
   const ConstantSize size(1e-9);
   const RefineOptions options{.max_vertices = 30'000, .size = &size};
   TriMesh mesh = constrainedDelaunay(pslg);
