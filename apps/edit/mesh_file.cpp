@@ -32,18 +32,6 @@ void warnOfNotes(const MeshFile& file, const Grid& grid, const Warn& warn) {
          " more inconsistencies; check with --target finds them");
 }
 
-// Longitudes are those of any turn that files have: 0 to 360, or on past 180. Flumes and other small planes begin at
-// the origin or lie around it, where there is nothing but ocean: no land is nearer to 0°, 0° than 4.5°.
-bool mayBeDegrees(const Grid& grid) {
-  constexpr double kNoLand = 3.0;  // to each side
-  Bounds box;
-  for (const Point& p : grid.nodes) box.add(p);
-  const double west = box.low.x, south = box.low.y, east = box.high.x, north = box.high.y;
-  if (west < -360.0 || east > 360.0 || south < -90.0 || north > 90.0) return false;
-  const bool begins_at_origin = west == 0.0 && south == 0.0;
-  return !begins_at_origin && std::max({-west, -south, east, north}) > kNoLand;
-}
-
 // Files for models have no CRS, and models read degrees from many of them.
 void warnOfDegrees(const MeshFile& file, const Grid& grid, const Warn& warn) {
   const GridFormat* const format = gridFormatOf(file.path);
@@ -61,6 +49,16 @@ void warnOfOwnCrs(const MeshFile& file, const Grid& grid, const Crs& assumed, co
 }
 
 }  // namespace
+
+bool mayBeDegrees(const Grid& grid) {
+  constexpr double kNoLand = 3.0;  // to each side
+  Bounds box;
+  for (const Point& p : grid.nodes) box.add(p);
+  const double west = box.low.x, south = box.low.y, east = box.high.x, north = box.high.y;
+  if (west < -360.0 || east > 360.0 || south < -90.0 || north > 90.0) return false;
+  const bool begins_at_origin = west == 0.0 && south == 0.0;
+  return !begins_at_origin && std::max({-west, -south, east, north}) > kNoLand;
+}
 
 Grid readMeshFile(const MeshFile& file, const Warn& warn, FileNotes notes) {
   const Crs assumed = file.crs.empty() ? Crs{} : parseAssumed(file.crs);

@@ -27,6 +27,11 @@ Grid readMeshFile(const MeshFile& file, const Warn& warn, FileNotes notes = File
 // The same CRS for a mesh at hand, `file.path` being its name in messages. Warns if it has its own.
 void assumeCrs(Grid& grid, const MeshFile& file, const Warn& warn);
 
+// True if coordinates in a plane may be degrees. Longitudes are those of any turn that files have: 0 to 360, or on past
+// 180. Flumes and other small planes begin at the origin or lie around it, where there is nothing but ocean: no land is
+// nearer to 0°, 0° than 4.5°.
+bool mayBeDegrees(const Grid& grid);
+
 // A warning of triangles that are not counter-clockwise, as grids and most models have them; empty if all are.
 std::string windingWarning(const Grid& grid, const ItemLoop& loop);
 

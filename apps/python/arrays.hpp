@@ -2,6 +2,7 @@
 
 #include <pybind11/numpy.h>
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,6 +25,14 @@ inline pybind11::str textOf(const std::string& text) {
   if (made == nullptr) throw pybind11::error_already_set();
   return pybind11::reinterpret_steal<pybind11::str>(made);
 }
+
+// Numpy arrays, or anything that numpy converts, as numbers. `name`: in messages. An empty array may have any shape.
+// They throw InputError for other shapes, and elements that are not plain numbers.
+std::vector<Point> pointsOf(const pybind11::object& object, const std::string& name);    // of shape (n, 2)
+std::vector<double> numbersOf(const pybind11::object& object, const std::string& name);  // of shape (n,)
+// Of shape (n, columns), row after row: indices of `count` points. Throws InputError for others as well.
+std::vector<std::uint32_t> indicesOf(const pybind11::object& object, const std::string& name, std::size_t columns,
+                                     std::size_t count);
 
 // Points of shape (n, 2), segments of shape (m, 2) with indices of points, holes of shape (k, 2), as numpy arrays or
 // anything that numpy converts; segments and holes may be None. Throws InputError for other shapes, elements that are

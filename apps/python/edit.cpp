@@ -13,7 +13,6 @@
 #include "apps/usage/cut_usage.hpp"
 #include "apps/usage/grid_usage.hpp"
 #include "apps/usage/merge_usage.hpp"
-#include "apps/usage/option_keywords.hpp"
 #include "apps/usage/remesh_usage.hpp"
 #include "apps/usage/rivers_usage.hpp"
 
@@ -80,18 +79,15 @@ using Settle = std::function<std::vector<std::string>()>;  // returns warnings
 using Edit =
     std::function<EditedMesh(Grid& grid, const std::string& name, const Warn& warn, const JobControl& control)>;
 
-// `crs`: an option that is set once `settle` is called. `files`: those that `edit` reads besides; options add theirs.
+// `crs`: an option that is set once `settle` is called.
 MeshResult runEdit(OptionTable& options, const EditArguments& given, const std::string& crs, const Settle& settle,
-                   const Edit& edit, MemoryFiles& files) {
+                   const Edit& edit) {
   MeshResult result;
   std::vector<std::string>& warnings = result.warnings;
   setFromKeywords(options, given.keywords, warnings);
-  for (const auto& [keyword, texts] : given.texts)
-    for (const std::string& text : texts)
-      options.set(optionOf(keyword, options)->entry->name, files.add(text), MemoryFiles::kName);
   std::ranges::move(options.withoutEffect(), std::back_inserter(warnings));
 
-  const Wording inWords(options, files);
+  const Wording inWords(options, given.texts);
   const GivenMesh mesh(given.mesh, "mesh");
   const Warn warn = [&warnings](const std::string& text) { warnings.push_back(text); };
   EditedMesh edited;
@@ -112,12 +108,6 @@ MeshResult runEdit(OptionTable& options, const EditArguments& given, const std::
   result.complete = edited.complete();
   if (!edited.finish.mended) setSources(result, edited.sources);
   return result;
-}
-
-MeshResult runEdit(OptionTable& options, const EditArguments& given, const std::string& crs, const Settle& settle,
-                   const Edit& edit) {
-  MemoryFiles files;
-  return runEdit(options, given, crs, settle, edit, files);
 }
 
 // The usage of a function whose options `declare` declares.
@@ -175,13 +165,10 @@ MeshResult mergeFromPython(const EditArguments& given, const py::list& inserted)
       options, given, usage.mesh.crs, [] { return std::vector<std::string>(); }, merge);
 }
 
-MeshResult riversFromPython(const EditArguments& given, const GivenLines& given_lines) {
+MeshResult riversFromPython(const EditArguments& given, const std::vector<std::string>& lines) {
   RiversUsage usage;
   OptionTable options("rivers", "");
   declareRiversOptions(options, usage);
-  MemoryFiles files;
-  std::vector<std::string> lines = given_lines.paths;
-  for (const std::string& text : given_lines.texts) lines.push_back(files.add(text));
   const auto settled = [&] {
     settle(usage);
     return std::vector<std::string>();
@@ -189,7 +176,7 @@ MeshResult riversFromPython(const EditArguments& given, const GivenLines& given_
   const auto add = [&](Grid& grid, const std::string& name, const Warn& warn, const JobControl& control) {
     return runRiversJob(grid, name, lines, usage.job, warn, control);
   };
-  return runEdit(options, given, usage.mesh.crs, settled, add, files);
+  return runEdit(options, given, usage.mesh.crs, settled, add);
 }
 
 MeshResult readFromPython(const std::string& path, const py::object& crs) {

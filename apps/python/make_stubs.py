@@ -23,6 +23,11 @@ class OutputError(Error, OSError): ...
 class CoastmeshWarning(UserWarning): ...
 
 class Mesh:
+    @classmethod
+    def from_arrays(
+        cls, points: ArrayLike, triangles: ArrayLike, z: Optional[ArrayLike] = None, crs: Any = None
+    ) -> Mesh: ...
+    def with_z(self, z: Optional[ArrayLike]) -> Mesh: ...
     @property
     def points(self) -> NDArray[float64]: ...
     @property
@@ -81,12 +86,11 @@ ARGUMENTS = {
     "rivers": [f"mesh: {MESH}", "lines: Any"],
 }
 PROGRESS = "progress: Optional[Callable[[str, float], object]] = None"
-SHAPES = ("within", "outside")  # besides paths
 
 
-def type_of(name, option):
-    if name in SHAPES:
-        return "Any"
+def type_of(option):
+    if option.get("role") == "vector":
+        return "Any"  # paths and shapes
     kind = {"number": "float", "integer": "int", "flag": "bool", "file": PATH}.get(option["type"], "Any")
     if option["type"] == "choice":
         kind = "str"
@@ -97,7 +101,7 @@ def main():
     with open(sys.argv[1], "w", encoding="utf-8") as file:
         file.write(HEAD)
         for function, arguments in ARGUMENTS.items():
-            options = [f"{name}: Optional[{type_of(name, option)}] = None"
+            options = [f"{name}: Optional[{type_of(option)}] = None"
                        for name, option in coastmesh.options(function).items()]
             file.write(f"def {function}(\n")
             file.writelines(f"    {line},\n" for line in [*arguments, "*", PROGRESS, *options])

@@ -3,7 +3,6 @@
 #include <pybind11/stl.h>
 
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -11,6 +10,7 @@
 #include "apps/plot/plot_page.hpp"
 #include "apps/python/arrays.hpp"
 #include "apps/python/edit.hpp"
+#include "apps/python/from_arrays.hpp"
 #include "apps/python/pickle.hpp"
 #include "apps/python/run.hpp"
 #include "core/bulk_list.hpp"
@@ -200,23 +200,26 @@ PYBIND11_MODULE(_coastmesh, m) {
                               mesh.attr("__getstate__")());
       });
 
-  m.def("run", &runFromPython, py::arg("keywords"), py::arg("files"), py::arg("text"), py::arg("graph"),
-        py::arg("progress"));
-  using Texts = std::map<std::string, std::vector<std::string>>;
-  m.def("cut", [](const py::dict& keywords, const Texts& texts, const py::object& mesh, const py::object& progress) {
-    return cutFromPython({keywords, texts, mesh, progress});
-  });
-  m.def("remesh", [](const py::dict& keywords, const Texts& texts, const py::object& mesh, const py::object& progress) {
-    return remeshFromPython({keywords, texts, mesh, progress});
-  });
-  m.def("merge", [](const py::dict& keywords, const Texts& texts, const py::object& mesh, const py::object& progress,
-                    const py::list& inserted) {
+  py::class_<MemoryFiles>(m, "MemoryFiles").def(py::init<>()).def("add", &MemoryFiles::add);
+  m.def("run", &runFromPython);
+  m.def("cut",
+        [](const py::dict& keywords, const MemoryFiles& texts, const py::object& mesh, const py::object& progress) {
+          return cutFromPython({keywords, texts, mesh, progress});
+        });
+  m.def("remesh",
+        [](const py::dict& keywords, const MemoryFiles& texts, const py::object& mesh, const py::object& progress) {
+          return remeshFromPython({keywords, texts, mesh, progress});
+        });
+  m.def("merge", [](const py::dict& keywords, const MemoryFiles& texts, const py::object& mesh,
+                    const py::object& progress, const py::list& inserted) {
     return mergeFromPython({keywords, texts, mesh, progress}, inserted);
   });
-  m.def("rivers", [](const py::dict& keywords, const Texts& texts, const py::object& mesh, const py::object& progress,
-                     const std::vector<std::string>& paths, const std::vector<std::string>& lines) {
-    return riversFromPython({keywords, texts, mesh, progress}, {paths, lines});
+  m.def("rivers", [](const py::dict& keywords, const MemoryFiles& texts, const py::object& mesh,
+                     const py::object& progress, const std::vector<std::string>& lines) {
+    return riversFromPython({keywords, texts, mesh, progress}, lines);
   });
+  m.def("from_arrays", &meshFromArrays);
+  m.def("with_z", &meshWithDepths);
   m.def("read", &readFromPython);
   m.def("usage", [](const std::string& function) {
     return function == "mesh"     ? usageOfMesh()

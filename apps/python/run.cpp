@@ -48,15 +48,13 @@ py::list refusalsOf(const MeshResult& result) {
   return list;
 }
 
-MeshResult runFromPython(const py::dict& keywords, std::vector<std::string> files, std::optional<std::string> text,
+MeshResult runFromPython(const py::dict& keywords, const MemoryFiles& texts, std::vector<std::string> files,
                          const py::object& graph, const py::object& progress) {
   MeshUsage usage;
   OptionTable options("mesh", "");
   declareMeshOptions(options, usage);
   std::vector<std::string> warnings;
   setFromKeywords(options, keywords, warnings);
-  MemoryFiles texts;
-  if (text) files = {texts.add(std::move(*text))};
   usage.job.input.files = std::move(files);
   if (!graph.is_none()) {
     const auto parts = graph.cast<std::tuple<py::object, py::object, py::object>>();
@@ -72,13 +70,12 @@ MeshResult runFromPython(const py::dict& keywords, std::vector<std::string> file
   });
   reword(done, inWords, texts);
   if (done.regions == 0 && done.refusals.empty()) throw InputError(inWords(done.last_unwanted));
-  if (text) usage.job.input.files = {MemoryFiles::kName};
   std::ranges::move(warningsOf(done), std::back_inserter(warnings));
   inWords.apply(warnings);
   MeshResult result;
   const int threads = usage.job.parallel.threads;
   const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
-  result.report = meshReport(usage.job, done, threads > 0 ? threads : static_cast<int>(cores), warnings);
+  result.report = texts.named(meshReport(usage.job, done, threads > 0 ? threads : static_cast<int>(cores), warnings));
   result.warnings = std::move(warnings);
   result.complete = done.complete();
   result.refusals = std::move(done.refusals);

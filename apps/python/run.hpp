@@ -2,22 +2,22 @@
 
 #include <pybind11/pybind11.h>
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/python/mesh_result.hpp"
+#include "apps/python/wording.hpp"
 
 namespace coastmesh {
 
 pybind11::list refusalsOf(const MeshResult& result);
 
-// Meshes `files`, or `text` (GeoJSON), or `graph`, a tuple (points, segments, holes), whichever is given. `keywords`
-// are options, see setFromKeywords; messages use these names. Runs like `runInBackground`. Throws OptionError,
-// InputError. `refusals` of a result without triangles has the reasons; if nothing was to be meshed, throws InputError.
-MeshResult runFromPython(const pybind11::dict& keywords, std::vector<std::string> files,
-                         std::optional<std::string> text, const pybind11::object& graph,
-                         const pybind11::object& progress);
+// Meshes `files`, or `graph`, a tuple (points, segments, holes), if that is not None. `keywords` are options, see
+// setFromKeywords; messages use these names. `texts`: those of the files that are in memory. Runs like
+// `runInBackground`. Throws OptionError, InputError. `refusals` of a result without triangles has the reasons; if
+// nothing was to be meshed, throws InputError.
+MeshResult runFromPython(const pybind11::dict& keywords, const MemoryFiles& texts, std::vector<std::string> files,
+                         const pybind11::object& graph, const pybind11::object& progress);
 
 // Rewords a message of the library: options as keywords.
 std::string inKeywordsOfMesh(const std::string& message);

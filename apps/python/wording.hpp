@@ -9,19 +9,18 @@
 
 namespace coastmesh {
 
-// GeoJSON texts as files in memory, for GDAL.
+// GeoJSON texts as files in memory, for GDAL. In messages they have names.
 class MemoryFiles {
  public:
-  static constexpr const char* kName = "GeoJSON";
-
   MemoryFiles();
   ~MemoryFiles();
   MemoryFiles(const MemoryFiles&) = delete;
   MemoryFiles& operator=(const MemoryFiles&) = delete;
 
-  // Returns its path.
-  std::string add(std::string text);
-  // `text` with the files' paths replaced by kName.
+  // Returns its path. `name`: a keyword, perhaps with the part of its value, "weirs[1]", or another name.
+  std::string add(std::string text, std::string name);
+  // `text` with names in place of the files' paths. A path that follows its keyword is left out with that:
+  // "weirs PATH: no line" is "weirs[1]: no line".
   std::string named(std::string text) const;
 
  private:

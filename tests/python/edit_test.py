@@ -318,12 +318,12 @@ class ArgumentsTest(EditTest):
         refused(coastmesh.OptionError, "give size, or others$", remesh, self.coarse, bbox=BOX)
         refused(coastmesh.OptionError, "^min_angle: '50' is not a number in the range 0 to 45$", merge, self.coarse, self.fine,
                 min_angle=50)
-        refused(coastmesh.OptionError, "^within: 3.5 is not the path of a file$", cut, self.coarse, within=3.5)
-        refused(coastmesh.OptionError, "^within: 3 is not the path of a file$", cut, self.coarse, within=[POLYGON, 3])
+        refused(coastmesh.OptionError, "^within: a float is neither a path nor GeoJSON, and has no __geo_interface__$", cut, self.coarse, within=3.5)
+        refused(coastmesh.OptionError, "^within: a int is neither a path nor GeoJSON, and has no __geo_interface__$", cut, self.coarse, within=[POLYGON, 3])
         refused(coastmesh.OptionError, "^assume_crs: ", cut, self.coarse, bbox=BOX, assume_crs="nowhere")
         refused(coastmesh.OptionError, "fortran", cut, self.coarse, bbox=BOX, target="fortran")
-        refused(coastmesh.InputError, "^'GeoJSON'.*points only", cut, self.coarse, within={"type": "Point", "coordinates": [0, 0]})
-        refused(coastmesh.InputError, "^GeoJSON", cut, self.coarse, within='{"type":')
+        refused(coastmesh.InputError, "^'within'.*points only", cut, self.coarse, within={"type": "Point", "coordinates": [0, 0]})
+        refused(coastmesh.InputError, "^within: GeoJSON: ", cut, self.coarse, within='{"type":')
         refused(coastmesh.InputError, r"^no triangle of 'mesh' has its middle.* over -92\.\d+,46", cut, self.coarse,
                 bbox=(0, 0, 1, 1))
         refused(coastmesh.InputError, "no triangle of '.*coarse.nc' has its middle", remesh, self.path("coarse.nc"),
@@ -333,12 +333,12 @@ class ArgumentsTest(EditTest):
         refused(coastmesh.InputError, "nowhere.nc", cut, "nowhere.nc", bbox=BOX)
         refused(TypeError, r"^rivers\(\) has no option 'size'", rivers, self.coarse, bare, size=3)
         refused(TypeError, r"^rivers\(\) cannot change a dict", rivers, bare, bare, width=3)
-        refused(TypeError, r"^rivers\(\) cannot read lines from a int: give", rivers, self.coarse, [bare, 3], width=3)
-        refused(TypeError, r"^rivers\(\) cannot read lines from a NoneType: give", rivers, self.coarse, None)
+        refused(TypeError, "^lines: a int is neither a path nor GeoJSON, and has no __geo_interface__$", rivers, self.coarse, [bare, 3], width=3)
+        refused(TypeError, "^lines: a NoneType is neither a path", rivers, self.coarse, None)
         refused(coastmesh.InputError, "^there is no line of a river$", rivers, self.coarse, [])
-        refused(coastmesh.InputError, "^'GeoJSON'.* has no attribute 'width' .*name another with width_column, or give one width ",
+        refused(coastmesh.InputError, "^'lines'.* has no attribute 'width' .*name another with width_column, or give one width ",
                 rivers, self.coarse, bare)
-        refused(coastmesh.InputError, "^'GeoJSON', feature 0: is a polygon", rivers, self.coarse, POLYGON, width=3)
+        refused(coastmesh.InputError, "^'lines', feature 0: is a polygon", rivers, self.coarse, POLYGON, width=3)
         refused(coastmesh.InputError, "^no river can be added to 'mesh': .*'Apart' near", rivers, self.coarse, line(*RIVERS[2]))
         refused(coastmesh.InputError, "nowhere.gpkg", rivers, self.coarse, "nowhere.gpkg", width=3)
         refused(coastmesh.OptionError, "^elements: ", rivers, self.coarse, bare, elements=0)

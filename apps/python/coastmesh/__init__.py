@@ -13,8 +13,9 @@ import numpy as np
 
 from . import _coastmesh
 from ._errors import CoastmeshWarning, Error, InputError, OptionError, OutputError, own_errors as _own_errors
-from ._sources import split as _split, split_lines as _split_lines, split_polygons as _split_polygons
-from ._usage import options, options_text as _options_text, require_known as _require_known
+from ._sources import lines_of as _lines_of, split as _split, with_paths as _with_paths
+from ._usage import (options, options_text as _options_text, require_known as _require_known,
+                     vector_options as _vector_options)
 
 __all__ = ["Error", "InputError", "OptionError", "OutputError", "CoastmeshWarning", "Mesh", "cut", "merge", "mesh", "options",
            "read", "remesh", "rivers"]
@@ -27,6 +28,29 @@ class Mesh:
     def __init__(self, made):
         self._made = made
         self._parsed_report = None
+
+    @classmethod
+    def from_arrays(cls, points, triangles, z=None, crs=None):
+        """A mesh of arrays, for `cut`, `remesh`, `merge`, `rivers`, `write` and `plot`.
+
+        Args:
+            points: array (n, 2): x or longitude, y or latitude.
+            triangles: array (m, 3): indices of points, counter-clockwise.
+            z: array (n,): metres, positive up, NaN where unknown.
+            crs: of the points, such as "EPSG:4326" or a pyproj CRS; otherwise they lie in a plane.
+
+        Its boundaries are the loops around it: "land" and "island". Triangles stay as they are; a CoastmeshWarning says how
+        many are not counter-clockwise. Raises InputError, OptionError.
+        """
+        with _own_errors():
+            made = _coastmesh.from_arrays(points, triangles, z, crs)
+        return _warned(made)
+
+    def with_z(self, z):
+        """The same mesh, with its report, and with other depths: array (n,) as `z` of `from_arrays`, None for none. A Mesh
+        itself does not change, as arrays may be views of it. Raises InputError."""
+        with _own_errors():
+            return Mesh(_coastmesh.with_z(self._made, z))
 
     @property
     def points(self):
@@ -156,7 +180,9 @@ def mesh(source, segments=None, holes=None, *, progress=None, **keywords):
         holes: array (k, 2) of points, each of which empties the face that it lies in.
         progress: called as progress(phase, share) with a str and a number from 0 to 1, in this thread. What it raises
             ends the run and is raised here.
-        **keywords: the options listed below. Lengths are metres on the ground, or the plane's units.
+        **keywords: the options listed below. Lengths are metres on the ground, or the plane's units. "FILE or shapes": the path
+            of a vector file, or shapes as in `source`, with their attributes, or for options that can be repeated a list of
+            both. GeoJSON is in longitude and latitude unless it, or the `crs` of the object, says otherwise.
 
     Raises:
         OptionError, InputError, KeyboardInterrupt (on Ctrl-C; nothing is left), TypeError for an unknown option.
@@ -164,11 +190,11 @@ def mesh(source, segments=None, holes=None, *, progress=None, **keywords):
     Where angles cannot be reached, the best mesh is returned: `complete` is False and `report["refine"]["unresolved"]`
     has the places. Features that cannot be meshed are left out with a CoastmeshWarning.
     """
-    files, text, graph = _split(source, segments, holes)
-    _require_callable(progress)
-    _require_known("mesh", keywords)
+    memory = _coastmesh.MemoryFiles()
+    paths, graph = _split(source, segments, holes, memory)
+    keywords = _checked("mesh", progress, keywords, memory)
     with _own_errors():
-        made = _coastmesh.run(keywords, [*map(os.fsencode, files)], text, graph, progress)
+        made = _coastmesh.run(keywords, memory, [*map(os.fsencode, paths)], graph, progress)
     meshed = _warned(made)
     refusals = made._refusals
     if len(made.triangles) == 0:
@@ -183,16 +209,14 @@ def cut(mesh, *, progress=None, **keywords):
     Args:
         mesh: a Mesh, or the path of one.
         progress: as for `mesh`; the phases are "read", "cut" and "finish".
-        **keywords: the options listed below; bbox, within or outside says which part. `within` and `outside` are paths, or
-            polygons as GeoJSON, a dict or a str, or whatever has a __geo_interface__ (shapely, geopandas), or a list or
-            array of such. GeoJSON is in longitude and latitude unless it, or the `crs` of the object, says otherwise.
+        **keywords: the options listed below, files and shapes as for `mesh`; bbox, within or outside says which part.
 
     Raises:
         OptionError, InputError, KeyboardInterrupt (on Ctrl-C), TypeError for an unknown option.
 
     `node_source` and `triangle_source` of the result are indices in the given mesh.
     """
-    return _edited("cut", mesh, progress, keywords)
+    return _edited("cut", mesh, progress, keywords, _coastmesh.MemoryFiles())
 
 
 def remesh(mesh, *, progress=None, **keywords):
@@ -209,7 +233,7 @@ def remesh(mesh, *, progress=None, **keywords):
 
     `node_source` and `triangle_source` of the result are indices in the given mesh, -1 for new ones.
     """
-    return _edited("remesh", mesh, progress, keywords)
+    return _edited("remesh", mesh, progress, keywords, _coastmesh.MemoryFiles())
 
 
 def merge(mesh, inserted, *, progress=None, **keywords):
@@ -234,7 +258,7 @@ def merge(mesh, inserted, *, progress=None, **keywords):
         named = [(_given("merge", inserted), "inserted")]
     if not named:
         raise InputError("there is no mesh to put in")
-    return _edited("merge", mesh, progress, keywords, named)
+    return _edited("merge", mesh, progress, keywords, _coastmesh.MemoryFiles(), named)
 
 
 def rivers(mesh, lines, *, progress=None, **keywords):
@@ -242,10 +266,8 @@ def rivers(mesh, lines, *, progress=None, **keywords):
 
     Args:
         mesh: the Mesh to add rivers to, or its path.
-        lines: centre lines: the path of a vector file that GDAL reads, GeoJSON as a dict or a str, or whatever has a
-            __geo_interface__ (shapely, geopandas), or a list or array of such. GeoJSON is in longitude and latitude unless it,
-            or the `crs` of the object, says otherwise. Widths are attributes, or `width`. Lines that meet, or end in one
-            another, are joined.
+        lines: centre lines, paths or shapes as for options of `mesh`. Widths are attributes, or `width`. Lines that meet, or
+            end in one another, are joined.
         progress: as for `mesh`; the phases are "read", "rivers" and "finish".
         **keywords: the options listed below. Lengths are metres on the ground, or the plane's units.
 
@@ -255,7 +277,9 @@ def rivers(mesh, lines, *, progress=None, **keywords):
     Rivers, or parts of them, that cannot be added are a CoastmeshWarning; InputError if none can. `quadrilaterals` of the result
     has the rows. `node_source` and `triangle_source` are indices in the given mesh, -1 for new ones.
     """
-    return _edited("rivers", mesh, progress, keywords, *_split_lines(lines))
+    memory = _coastmesh.MemoryFiles()
+    paths = [*map(os.fsencode, _lines_of(lines, memory))]
+    return _edited("rivers", mesh, progress, keywords, memory, paths)
 
 
 def read(path, assume_crs=None):
@@ -271,15 +295,21 @@ def read(path, assume_crs=None):
     return _warned(made)
 
 
-def _edited(function, mesh, progress, keywords, *more):
-    """What `function`, one of those that change a mesh, makes of `mesh`."""
-    _require_callable(progress)
-    _require_known(function, keywords)
-    keywords, texts = _split_polygons(keywords)
+def _edited(function, mesh, progress, keywords, memory, *more):
+    """What `function`, one of those that change a mesh, makes of `mesh`. `memory` has files that `more` names."""
+    keywords = _checked(function, progress, keywords, memory)
     given = _given(function, mesh)
     with _own_errors():
-        made = getattr(_coastmesh, function)(keywords, texts, given, progress, *more)
+        made = getattr(_coastmesh, function)(keywords, memory, given, progress, *more)
     return _warned(made, 4)
+
+
+def _checked(function, progress, keywords, memory):
+    """The keywords of a function, with paths of files in `memory` in place of shapes."""
+    if progress is not None and not callable(progress):
+        raise TypeError("progress is not callable")
+    _require_known(function, keywords)
+    return _with_paths(keywords, _vector_options(function), memory)
 
 
 def _given(function, mesh):
@@ -289,11 +319,6 @@ def _given(function, mesh):
     if isinstance(mesh, (str, os.PathLike)):
         return os.fsencode(mesh)
     raise TypeError(f"{function}() cannot change a {type(mesh).__name__}: give a Mesh or the path of one")
-
-
-def _require_callable(progress):
-    if progress is not None and not callable(progress):
-        raise TypeError("progress is not callable")
 
 
 def _warned(made, stacklevel=3):

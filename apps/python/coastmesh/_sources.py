@@ -1,80 +1,108 @@
 """What functions of coastmesh are given to work on: files, GeoJSON, whatever has a __geo_interface__, arrays."""
+import contextlib
+import itertools
 import json
 import os
 
 import numpy as np
 
-from ._errors import InputError
+from ._errors import InputError, OptionError
 
 
-def split(source, segments, holes):
-    """What to mesh as (files, GeoJSON text or None, plane graph or None)."""
+def split(source, segments, holes, memory):
+    """What to mesh as (paths, plane graph or None). GeoJSON becomes a file in `memory`."""
+    def shapes(text):
+        return [memory.add(text, "GeoJSON")], None
+
     if segments is not None or holes is not None:
-        return [], None, (source, segments, holes)
+        return [], (source, segments, holes)
     if isinstance(source, str):
-        return ([], _geojson_text(_geojson_of(source)), None) if _is_geojson(source) else ([source], None, None)
+        return shapes(_geojson_text(_geojson_of(source))) if _is_geojson(source) else ([source], None)
     if isinstance(source, os.PathLike):
-        return [os.fspath(source)], None, None
+        return [source], None
     if isinstance(source, dict):
         if "vertices" in source:
-            return [], None, (source["vertices"], source.get("segments"), source.get("holes"))
-        return [], _geojson_text(source), None
+            return [], (source["vertices"], source.get("segments"), source.get("holes"))
+        return shapes(_geojson_text(source))
     if hasattr(source, "__geo_interface__"):
-        return [], _geojson_text(_geojson_of(source), getattr(source, "crs", None)), None
+        return shapes(_shapes_text(source))
     if isinstance(source, np.ndarray) and source.dtype == object and source.ndim == 1:
         source = source.tolist()  # as shapely's functions return shapes
     if isinstance(source, (list, tuple)):
         if not source:
             raise InputError("there is nothing to mesh")
         if any(_is_geojson(part) for part in source):
-            return [], _list_text(source), None
+            return shapes(_list_text(source))
         if all(isinstance(part, (str, os.PathLike)) for part in source):
-            return [os.fspath(part) for part in source], None, None
+            return list(source), None
         if isinstance(source, tuple) and len(source) in (2, 3) and np.ndim(source[0]) == 2:
-            return [], None, (*source, None)[:3]
-        return [], None, (source, None, None)
+            return [], (*source, None)[:3]
+        return [], (source, None, None)
     if isinstance(source, np.ndarray):
-        return [], None, (source, None, None)
+        return [], (source, None, None)
     raise TypeError(f"cannot mesh a {type(source).__name__}: give a path, GeoJSON, or points and segments")
 
 
-def split_polygons(keywords):
-    """Options as keywords without shapes, and the GeoJSON texts of those that are polygons, by keyword."""
-    texts = {}
-    for name in ("within", "outside"):
-        shapes, others = _split_shapes(keywords.get(name))
-        if shapes is not None:
-            texts[name] = [shapes]
-            keywords = {**keywords, name: others}
-    return keywords, texts
+def with_paths(keywords, options, memory):
+    """Options as keywords, with paths of files in `memory` in place of shapes. `options`: those that name vector files, by
+    keyword, with what their usage says of each."""
+    given = {}
+    for name in options.keys() & keywords.keys():
+        if keywords[name] is None:
+            continue
+        paths = _paths(keywords[name], name, memory)
+        if options[name].get("multiple"):
+            given[name] = paths
+        elif len(paths) == 1:
+            given[name] = paths[0]
+        else:
+            raise OptionError(f"{name}: takes one path, or shapes, not {len(paths)} paths")
+    return {**keywords, **given}
 
 
-def split_lines(lines):
-    """The lines of `rivers` as a list of paths and one of GeoJSON texts."""
-    shapes, others = _split_shapes(lines)
-    if shapes is not None and others is None:
-        others = []
-    elif not isinstance(others, (list, tuple)):
-        others = [others]
-    for part in others:
-        if not isinstance(part, (str, os.PathLike)):
-            raise TypeError(f"rivers() cannot read lines from a {type(part).__name__}: give a path, or GeoJSON")
-    if shapes is None and not others:
+def lines_of(lines, memory):
+    """The paths of the lines of `rivers`."""
+    paths = _paths(lines, "lines", memory, TypeError)
+    if not paths:
         raise InputError("there is no line of a river")
-    return [os.fsencode(part) for part in others], [] if shapes is None else [shapes]
+    return paths
 
 
-def _split_shapes(given):
-    """The shapes of what may be paths, shapes or a list of both as one GeoJSON text, and what else is there; each None if
-    there is none."""
-    if isinstance(given, np.ndarray) and given.dtype == object:
+def _paths(given, name, memory, wrong=OptionError):
+    """The paths of what may be paths, shapes, or a list of both, in its order: shapes in a row become one file in `memory`.
+    `name` is in messages; if the list has paths as well, followed by the index of the first shape of the row. What is
+    neither raises `wrong`."""
+    # Arrays, as shapely's functions return shapes; those of geopandas would lose their CRS.
+    if not _is_geojson(given) and hasattr(given, "tolist") and not hasattr(given, "crs"):
         given = given.tolist()
-    if _is_geojson(given):
-        return _geojson_text(_geojson_of(given), getattr(given, "crs", None)), None
-    if isinstance(given, (list, tuple)) and any(_is_geojson(part) for part in given):
-        shapes = _list_text([part for part in given if _is_geojson(part)])
-        return shapes, [part for part in given if not _is_geojson(part)]
-    return None, given
+    parts = list(given) if isinstance(given, (list, tuple)) else [given]
+    paths, at = [], 0
+    for are_shapes, row in itertools.groupby(parts, _is_geojson):
+        row = list(row)
+        if are_shapes:
+            named = name if len(row) == len(parts) else f"{name}[{at}]"
+            with _naming(named):
+                text = _list_text(row) if isinstance(given, (list, tuple)) else _shapes_text(given)
+            paths.append(memory.add(text, named))
+        else:
+            paths.extend(_path(part, name, wrong) for part in row)
+        at += len(row)
+    return paths
+
+
+def _path(part, name, wrong):
+    if isinstance(part, (str, bytes, os.PathLike)):
+        return part
+    raise wrong(f"{name}: a {type(part).__name__} is neither a path nor GeoJSON, and has no __geo_interface__")
+
+
+@contextlib.contextmanager
+def _naming(name):
+    """Puts the name before what is wrong with shapes."""
+    try:
+        yield
+    except (InputError, TypeError) as error:
+        raise type(error)(f"{name}: {error}") from None
 
 
 def _is_geojson(part):
@@ -96,6 +124,11 @@ def _geojson_of(part):
         raise InputError(f"GeoJSON: {error}") from None
 
 
+def _shapes_text(shapes):
+    """What has a __geo_interface__, or is GeoJSON, as GeoJSON."""
+    return _geojson_text(_geojson_of(shapes), getattr(shapes, "crs", None))
+
+
 def _list_text(shapes):
     """A list of GeoJSON as one."""
     features, crs = [], None
@@ -110,6 +143,8 @@ def _list_text(shapes):
             raise InputError(f"number {i} of the list is in another CRS than those before it")
         crs = own
         if geojson.get("type") == "FeatureCollection":
+            if not isinstance(geojson.get("features"), (list, tuple)):
+                raise InputError(f"number {i} of the list is a FeatureCollection without a list of features")
             features.extend(geojson["features"])
         else:
             features.append(geojson if geojson.get("type") == "Feature" else _feature(geojson))

@@ -17,24 +17,34 @@ def options(function="mesh"):
     return {_keyword(option["name"]): option for option in json.loads(_coastmesh.usage(function))["options"]}
 
 
+def vector_options(function):
+    """The options of a function that name vector files, by keyword, also by their former ones: they take shapes as well."""
+    return {name: option for name, option in _present_and_former(function).items() if option.get("role") == "vector"}
+
+
+def _present_and_former(function):
+    known = options(function)
+    former = {_keyword(name): option for option in known.values() for name in list(option.get("former_names", {}))[:1]}
+    return {**former, **known}
+
+
 def _keyword(name):
     return name.lstrip("-").replace("-", "_")
 
 
 def require_known(function, keywords):
     """Refuses what is no option, now or by its former name."""
-    known = options(function)
-    former = {_keyword(name) for option in known.values() for name in list(option.get("former_names", {}))[:1]}
+    known = _present_and_former(function)
     for name in keywords:
-        if name not in known and name not in former:
-            near = difflib.get_close_matches(name, known, 1)
+        if name not in known:
+            near = difflib.get_close_matches(name, options(function), 1)
             raise TypeError(f"{function}() has no option '{name}'" + (f"; did you mean '{near[0]}'?" if near else ""))
 
 
 def _describe(option):
     label, said = option["label"], option["help"]
     said = label + said[len(label):] if said.lower().startswith(label.lower()) else f"{label}: {said}"
-    unit = option.get("unit")
+    unit = "FILE or shapes" if option.get("role") == "vector" else option.get("unit")
     default = option.get("default")
     bounds = [f"from {option['minimum']:g}" if "minimum" in option else "",
               f"above {option['exclusive_minimum']:g}" if "exclusive_minimum" in option else "",
