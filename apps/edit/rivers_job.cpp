@@ -16,19 +16,43 @@
 #include "gis/for_count.hpp"
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/model/fill_depths.hpp"
+#include "gis/rivers/mesh_triangles.hpp"
 
 namespace coastmesh {
 
 namespace {
 
 constexpr double kBytesPerQuad = 1500.0;  // of the whole program
-constexpr std::size_t kMostNamed = 5;     // lost rivers of one kind
+constexpr std::size_t kMostNamed = 20;    // rivers and places of one kind
 
 std::vector<RiverLine> readLines(const std::vector<std::string>& paths, const Crs& crs, const RiversJob& job) {
   std::vector<RiverLine> lines;
   for (const std::string& path : paths)
     std::ranges::move(readRiverLines(path, crs, job.columns, job.width_m), std::back_inserter(lines));
   return lines;
+}
+
+// Rasters give depths to new nodes only.
+void requireDepths(const Grid& grid, const std::string& name, const DepthOptions& options) {
+  if (grid.z.empty() && !options.files.empty())
+    throw InputError("'" + name +
+                     "' has no depths, and --bathymetry gives them to new nodes only: first give all of it "
+                     "depths, with coastmesh convert --bathymetry");
+}
+
+// Lines in degrees would be taken for lines at the origin of a mesh without a CRS.
+void requireOnePlane(const std::vector<RiverLine>& lines, const Grid& grid, const std::string& name) {
+  const auto isDegrees = [](const Box& box) {
+    constexpr double kLon = 360.0, kLat = 90.0;
+    return box.xmin >= -kLon && box.xmax <= kLon && box.ymin >= -kLat && box.ymax <= kLat;
+  };
+  if (!grid.crs.isPlane() || isDegrees(boxAround(grid.nodes, inOrder))) return;
+  Box box;
+  for (const RiverLine& line : lines) box.add(boxAround(line.points, inOrder));
+  if (isDegrees(box))
+    throw InputError("'" + name +
+                     "' has no CRS, and the lines seem to be in degrees: name the mesh's with "
+                     "--assume-crs");
 }
 
 std::string whyText(RiverLoss why) {
@@ -44,7 +68,7 @@ std::string whyText(RiverLoss why) {
     case RiverLoss::Short:
       break;
   }
-  return "shorter than a row";
+  return "shorter than a row, or than their width";
 }
 
 // A sentence for the rivers that are lost for one reason; empty if there are none.
@@ -77,7 +101,7 @@ std::string joined(const std::vector<std::string>& texts) {
   return all;
 }
 
-// Of the lines, else of rasters, else of the mesh there; nodes without any get what their neighbours have.
+// Of the lines, or of the mesh there if it is deeper, else of rasters, else of the mesh there; nodes without any get what their neighbours have.
 std::string setRiverDepths(LaidRivers& laid, const Grid& mesh, const DepthOptions& options, const RunControl& control,
                            const ItemLoop& loop) {
   Grid& grid = laid.grid;
@@ -95,7 +119,8 @@ std::string setRiverDepths(LaidRivers& laid, const Grid& mesh, const DepthOption
   }
   for (std::size_t i = 0; i < grid.z.size(); ++i) {
     if (isKnown(of_lines[i])) grid.z[i] = of_lines[i];
-    if (!isKnown(grid.z[i])) grid.z[i] = laid.mesh_z[i];
+    // No sill across deeper water.
+    if (!isKnown(grid.z[i]) || (isKnown(of_lines[i]) && laid.mesh_z[i] < grid.z[i])) grid.z[i] = laid.mesh_z[i];
   }
   fillFromNeighbours(grid, loop);
   const auto unknown = grid.z.size() - static_cast<std::size_t>(std::ranges::count_if(grid.z, isKnown));
@@ -111,10 +136,28 @@ void closeBanks(Grid& grid, const std::vector<MergeSource>& nodes) {
       boundary.role = BoundaryRole::Land;
 }
 
+// Between a river and what is left of the mesh, new nodes have the depths that the mesh had there.
+void keepDepths(Grid& grid, const MergedMesh& merged) {
+  if (grid.z.empty() || merged.merged.gone.triangles.empty()) return;
+  const MeshTriangles before(merged.merged.gone, boxAround(merged.merged.gone.nodes, inOrder));
+  for (std::size_t i = 0; i < grid.nodes.size(); ++i) {
+    if (merged.nodes[i].mesh != kNone) continue;
+    const double z = before.zAt(grid.nodes[i]);
+    if (!std::isnan(z)) grid.z[i] = z;
+  }
+}
+
 std::vector<std::uint32_t> numbersBefore(const std::vector<MergeSource>& sources) {
   std::vector<std::uint32_t> numbers;
   for (const MergeSource& source : sources) numbers.push_back(source.mesh == 0 ? source.number : kNone);
   return numbers;
+}
+
+std::string placesText(const std::vector<Point>& places) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(places.size(), kMostNamed); ++i)
+    text += (i > 0 ? ", " : "") + pointText(places[i]);
+  return places.size() > kMostNamed ? text + " and more" : text;
 }
 
 std::string reportText(const RiverReport& report, const Grid& grid) {
@@ -124,9 +167,13 @@ std::string reportText(const RiverReport& report, const Grid& grid) {
     text += ", " + grouped(report.triangles) + " triangles at " + grouped(report.junctions) +
             forCount(report.junctions, " junction", " junctions");
   text += ", " + grouped(report.inflows) + forCount(report.inflows, " river boundary", " river boundaries") + "\n";
-  if (report.extended > 0)
-    text += "continued to the water of the mesh: " + grouped(report.extended) +
-            forCount(report.extended, " end", " ends") + "\n";
+  if (!report.extended.empty())
+    text += "continued to the water of the mesh: " + grouped(report.extended.size()) +
+            forCount(report.extended.size(), " end", " ends") + ", near " + placesText(report.extended) + "\n";
+  if (!report.left.empty())
+    text += "close to the water of the mesh, but not continued to it, since the river has another way there: " +
+            grouped(report.left.size()) + forCount(report.left.size(), " end", " ends") + ", near " +
+            placesText(report.left) + " (--reach continues them too)\n";
   if (report.moved_m > 0.0)
     text += "centre lines that turn too sharply for their width moved by at most " + lengthText(report.moved_m, grid) +
             ", near " + pointText(report.moved_place) + "\n";
@@ -139,6 +186,14 @@ std::string narrowedText(const RiverReport& report) {
          forCount(report.narrowed, " reach comes closer to itself than its width, and is",
                   " reaches come closer to themselves than their width, and are") +
          " narrower there: near " + pointText(report.narrowed_place);
+}
+
+std::string junctionText(const RiverReport& report) {
+  if (report.below == 0) return {};
+  return grouped(report.below) +
+         forCount(report.below, " triangle at a junction of rivers misses", " triangles at junctions of rivers miss") +
+         " --min-angle, beside quadrilaterals that leave no room for it; the smallest angle is " +
+         amount("%.1f", report.least_angle_deg) + " degrees, near " + pointText(report.least_place);
 }
 
 std::vector<std::string> mergeWarnings(const MergedMesh& merged, const DepthOptions& depth) {
@@ -157,6 +212,7 @@ MergedMesh putIn(Grid& grid, const std::string& name, Grid&& rivers, const Merge
   try {
     MergedMesh merged = mergeMesh(grid, std::move(rivers), options, control, loop);
     closeBanks(grid, merged.nodes);
+    if (options.depth.files.empty()) keepDepths(grid, merged);
     return merged;
   } catch (const InputError& error) {
     throw InputError("the rivers cannot be added to '" + name + "': " + error.what());
@@ -171,12 +227,16 @@ EditedMesh runRiversJob(Grid& grid, const std::string& name, const std::vector<s
     RiverOptions options = job.rivers;
     options.junctions = job.merge.mesh.refine;
     options.most_quads = std::min(options.most_quads, availableMemory() / kBytesPerQuad);
-    LaidRivers laid = layRivers(readLines(lines, grid.crs, job), grid, options, of_edit, loop);
+    requireDepths(grid, name, job.merge.depth);
+    const std::vector<RiverLine> read = readLines(lines, grid.crs, job);
+    requireOnePlane(read, grid, name);
+    LaidRivers laid = layRivers(read, grid, options, of_edit, loop);
     const std::vector<std::string> lost = lostTexts(laid.report, grid);
     if (laid.grid.triangles.empty()) throw InputError("no river can be added to '" + name + "': " + joined(lost));
     for (const std::string& text : lost) warn(text);
     MeshEdit edit;
-    edit.warnings = {narrowedText(laid.report), setRiverDepths(laid, grid, job.merge.depth, of_edit, loop)};
+    edit.warnings = {narrowedText(laid.report), junctionText(laid.report),
+                     setRiverDepths(laid, grid, job.merge.depth, of_edit, loop)};
     const MergedMesh merged = putIn(grid, name, std::move(laid.grid), job.merge, of_edit, loop);
     std::ranges::move(mergeWarnings(merged, job.merge.depth), std::back_inserter(edit.warnings));
     std::string text = reportText(laid.report, grid);

@@ -1,18 +1,24 @@
 #include "gis/merge/gap_faces.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "core/metric.hpp"
 #include "core/predicates.hpp"
 #include "gis/geometry/box_tree.hpp"
 #include "gis/geometry/chain_index.hpp"
+#include "gis/geometry/crossing.hpp"
 
 namespace coastmesh {
 
 namespace {
 
-// A node of the first mesh is left out if it is nearer to an edge of the outline than this share of the edge's length.
+// A node of the first mesh is left out if it is nearer to an edge of the outline that joins than this share of the edge's
+// length. Near others are no triangles.
 constexpr double kNear = 0.45;
 
 class GapFiller {
@@ -98,7 +104,8 @@ class GapFiller {
     std::vector<std::uint8_t> taken(candidates.size(), 0);
     forEachByStretches(loop_, candidates.size(), [&](std::size_t i) {
       const Point& p = mesh_.points[candidates[i]];
-      const bool is_clear = !outline_.surrounds(p) && !outline_.isNear(p, kNear, [](std::uint32_t) { return true; });
+      const bool is_clear = !outline_.surrounds(p) &&
+                            !outline_.isNear(p, kNear, [&](std::uint32_t e) { return outline_.edges()[e].joins; });
       taken[i] = is_fixed[candidates[i]] != 0 || is_clear ? 1 : 0;
     });
     for (std::size_t i = 0; i < candidates.size(); ++i)
@@ -128,8 +135,42 @@ class GapFiller {
     return crosses;
   }
 
+  // Where the outline passes an edge of the first mesh's boundary, the rest of that goes on from a node of the outline
+  // that joins: from `end` to `gone`, which is not there or beyond the outline. Otherwise walls just behind that shore
+  // would be nearer to the water than its own nodes are.
+  std::optional<std::uint32_t> nodeBeside(std::uint32_t end, std::uint32_t gone) const {
+    const Point &p = place(end), &q = place(gone);
+    std::vector<std::pair<double, std::uint32_t>> candidates;  // by distance from where the outline is met
+    double first = std::numeric_limits<double>::infinity();
+    const auto take = [&](const Outline::Edge& edge, const Point& met, double far) {
+      if (far >= first) return;
+      first = far;
+      candidates = {{distance(met, outline_.place(edge.a)), shift_ + edge.a},
+                    {distance(met, outline_.place(edge.b)), shift_ + edge.b}};
+    };
+    outline_.visit(Box::of(p, q), [&](std::uint32_t e) {
+      const Outline::Edge& edge = outline_.edges()[e];
+      const Point &from = outline_.place(edge.a), &to = outline_.place(edge.b);
+      if (!segmentsMeet(p, q, from, to)) return;
+      const Point met = crossingPoint(p, q, from, to);
+      take(edge, met, distance(p, met));
+    });
+    // Else the edge ends close to the outline.
+    if (candidates.empty())
+      outline_.isNear(q, kNear, [&](std::uint32_t e) {
+        const Outline::Edge& edge = outline_.edges()[e];
+        take(edge, q, std::sqrt(squaredDistanceToSegment(q, outline_.place(edge.a), outline_.place(edge.b))));
+        return false;
+      });
+    std::ranges::sort(candidates);
+    for (const auto& [gap, node] : candidates)
+      if (std::ranges::binary_search(joining_, node) && !crossesOutline(end, node)) return node;
+    return std::nullopt;
+  }
+
   void gatherEdges(std::vector<NodePair>& shore) {
     std::vector<NodePair> keys = outline_keys_;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> broken;
     for (const TriId t : met_) {
       for (unsigned i = 0; i < 3; ++i) {
         const EdgeRef e = edgeRef(t, i), across = mesh_.twin(e);
@@ -138,7 +179,11 @@ class GapFiller {
         const NodePair key = edgeKey(from, to);
         if (std::ranges::binary_search(outline_keys_, key)) continue;
         if (across == kNone) {
-          if (!hasPoint(from) || !hasPoint(to) || crossesOutline(from, to)) continue;
+          if (!hasPoint(from) || !hasPoint(to) || crossesOutline(from, to)) {
+            if (hasPoint(from)) broken.emplace_back(from, to);
+            if (hasPoint(to)) broken.emplace_back(to, from);
+            continue;
+          }
           shore.push_back(key);
         }
         keys.push_back(key);
@@ -152,11 +197,36 @@ class GapFiller {
         if (!std::ranges::binary_search(outline_keys_, key)) keys.push_back(key);
       }
     }
+    continueShores(broken, keys, shore);
     std::ranges::sort(shore);
     std::ranges::sort(keys);
     const auto repeated = std::ranges::unique(keys);
     keys.erase(repeated.begin(), repeated.end());
     edges_ = std::move(keys);
+  }
+
+  void continueShores(std::span<const std::pair<std::uint32_t, std::uint32_t>> broken, std::vector<NodePair>& keys,
+                      std::vector<NodePair>& shore) const {
+    std::vector<Box> boxes;
+    for (const NodePair& key : keys) boxes.push_back(Box::of(place(key[0]), place(key[1])));
+    const BoxTree tree(boxes, BoxTree::Order::Hilbert, loop_);
+    std::vector<NodePair> added;
+    for (const auto& [end, gone] : broken) {
+      const auto node = nodeBeside(end, gone);
+      if (!node) continue;
+      const NodePair key = edgeKey(end, *node);
+      bool crosses = false;
+      const auto look = [&](const NodePair& other) {
+        const bool adjoins =
+            std::ranges::find(other, end) != other.end() || std::ranges::find(other, *node) != other.end();
+        crosses = crosses || (!adjoins && segmentsMeet(place(end), place(*node), place(other[0]), place(other[1])));
+      };
+      tree.visit(Box::of(place(end), place(*node)), [&](std::uint32_t i) { look(keys[i]); });
+      for (const NodePair& other : added) look(other);
+      if (!crosses) added.push_back(key);
+    }
+    keys.insert(keys.end(), added.begin(), added.end());
+    shore.insert(shore.end(), added.begin(), added.end());
   }
 
   TriMesh triangulate() const {

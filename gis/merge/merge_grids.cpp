@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <unordered_map>
 #include <utility>
 
 #include "gis/cut/cut_boundaries.hpp"
@@ -42,11 +43,32 @@ bool dropPartition(Grid& grid) {
   return had_one;
 }
 
-// Leaves out the grid's triangles that are not in the merged mesh. Nodes stay. Returns the edges of the others beyond
+// The grid's triangles without a flag.
+Grid partWithout(const Grid& grid, const std::vector<std::uint8_t>& keeps) {
+  Grid part;
+  part.crs = grid.crs;
+  std::unordered_map<std::uint32_t, std::uint32_t> number;
+  for (std::size_t t = 0; t < keeps.size(); ++t) {
+    if (keeps[t] != 0) continue;
+    auto& corners = part.triangles.emplace_back(grid.triangles[t]);
+    for (std::uint32_t& node : corners) {
+      const auto [at, is_new] = number.try_emplace(node, static_cast<std::uint32_t>(part.nodes.size()));
+      if (is_new) {
+        part.nodes.push_back(grid.nodes[node]);
+        if (!grid.z.empty()) part.z.push_back(grid.z[node]);
+      }
+      node = at->second;
+    }
+  }
+  return part;
+}
+
+// Leaves out the grid's triangles that are not in the merged mesh, and puts these into `gone_part`. Nodes stay. Returns the edges of the others beyond
 // which some were.
-std::vector<NodePair> cutOut(Grid& grid, const JoinedMeshes& joined, const ItemLoop& loop) {
+std::vector<NodePair> cutOut(Grid& grid, const JoinedMeshes& joined, Grid& gone_part, const ItemLoop& loop) {
   std::vector<std::uint8_t> keeps(grid.triangles.size(), 0);
   for (TriId i = 0; i < joined.first_inserted; ++i) keeps[joined.kept[i]] = joined.taken[i];
+  gone_part = partWithout(grid, keeps);
   CutBoundaries boundaries = boundariesOfPart(grid, joined.mesh, keeps, BoundaryRole::Land, loop);
   grid.boundaries = std::move(boundaries.kept);
   std::ranges::move(boundaries.walls, std::back_inserter(grid.boundaries));
@@ -148,7 +170,8 @@ MergeReport mergeGrids(Grid& grid, Grid&& inserted, const ItemLoop& loop) {
   const std::vector<std::uint32_t> instead = becomes(joined.same, inserted.nodes.size());
   const std::size_t inserted_triangles = inserted.triangles.size();
   SeamOrigin origin;
-  for (const auto& [a, b] : cutOut(grid, joined, loop)) origin.cut.push_back(edgeKey(instead[a], instead[b]));
+  for (const auto& [a, b] : cutOut(grid, joined, report.gone, loop))
+    origin.cut.push_back(edgeKey(instead[a], instead[b]));
   matchValues(grid, inserted);
   origin.first_inserted = grid.boundaries.size();
   appendGrid(grid, std::move(inserted));

@@ -26,6 +26,7 @@ struct MergeReport {
   std::size_t walls = 0;                      // edges of its open boundaries that became land, without water beyond
   bool has_open = true;                       // false: it has no open boundary, and joins all around
   bool partition_dropped = false;             // the assignment to processes
+  Grid gone;  // the grid's triangles that are not in the merged one, with the depths of their nodes
 };
 
 // Puts another mesh into a grid, in place of the triangles that it covers. Its outer outline with all that is inside

@@ -85,9 +85,11 @@ class RiverLayer {
     network_ = riverNetwork(rivers_);
     for (const std::uint32_t line : network_.within)
       report_.lost.push_back({RiverLoss::Within, nameOf(lines_[line]), lines_[line].points.front(), 0.0});
+    reportWithoutReach();
     const double scale = plane_.scaleAt(rivers_.front().points.front());
     connection_ = connectRivers(network_, rivers_, water_, options_.reach_m * scale);
-    report_.extended = connection_.extended;
+    for (const Point& place : connection_.extended) report_.extended.push_back(plane_.inverse(place));
+    for (const Point& place : connection_.left) report_.left.push_back(plane_.inverse(place));
     barred_.assign(network_.reaches.size(), 0);
     narrowed_.assign(network_.reaches.size(), 0);
     reaches_at_.resize(network_.nodes.size());
@@ -103,9 +105,13 @@ class RiverLayer {
     RiverGrid made = makeGrid();
     LaidRivers laid;
     report_.inflows = made.grid.triangles.empty() ? 0 : setRiverBoundaries(made, water_, plane_);
+    report_.below = made.below;
+    report_.least_angle_deg = made.least_angle_deg;
+    report_.least_place = made.least_place;
     report_.quads = quadsOf(made.grid).size();
     report_.triangles = made.grid.triangles.size() - 2 * report_.quads;
     laid.grid = std::move(made.grid);
+    if (laid.grid.triangles.empty() && report_.lost.empty()) report_.lost = std::move(spurs_);
     for (const Point& place : laid.grid.nodes) laid.mesh_z.push_back(water_.zAt(plane_.forward(place)));
     laid.report = std::move(report_);
     return laid;
@@ -125,6 +131,17 @@ class RiverLayer {
                        "); take it out");
     river.width = line.width_m * plane_.scaleAt(river.points.front());
     return river;
+  }
+
+  // Of lines that are not within others: too short for their width.
+  void reportWithoutReach() {
+    std::vector<std::uint8_t> is_known(lines_.size(), 0);
+    for (const std::uint32_t line : network_.within) is_known[line] = 1;
+    for (const RiverReach& reach : network_.reaches)
+      for (const std::uint32_t line : reach.line_of) is_known[line] = 1;
+    for (std::uint32_t line = 0; line < lines_.size(); ++line)
+      if (is_known[line] == 0)
+        report_.lost.push_back({RiverLoss::Short, nameOf(lines_[line]), lines_[line].points.front(), 0.0});
   }
 
   void followCourses() {
@@ -183,9 +200,9 @@ class RiverLayer {
   void lose(std::uint32_t reach, RiverLoss why, const Point& place, double distance = 0.0) {
     barred_[reach] = 1;
     planner_->bar(reach);
-    if (why == RiverLoss::Crowded && isSpur(reach)) return;
     const std::vector<std::uint32_t>& line_of = network_.reaches[reach].line_of;
-    report_.lost.push_back({why, nameOf(lines_[line_of[line_of.size() / 2]]), plane_.inverse(place), distance});
+    LostRiver lost{why, nameOf(lines_[line_of[line_of.size() / 2]]), plane_.inverse(place), distance};
+    (why == RiverLoss::Crowded && isSpur(reach) ? spurs_ : report_.lost).push_back(std::move(lost));
   }
 
   Point middleOf(std::uint32_t reach) const { return courses_[reach].sectionAt(0.5 * courses_[reach].length()).place; }
@@ -336,6 +353,7 @@ class RiverLayer {
   std::vector<std::vector<std::uint8_t>> has_row_;
   std::optional<JunctionPlanner> planner_;
   JunctionPlan plan_;
+  std::vector<LostRiver> spurs_;  // not worth a message, unless there is nothing else
   RiverReport report_;
 };
 

@@ -25,7 +25,7 @@ struct RiverOptions {
   double most_cell_width_m = std::numeric_limits<double>::infinity();  // wider rivers get more cells
   double aspect = 3.0;                                                 // length of a cell over its width
   RiverExtent extent = RiverExtent::Outside;
-  // Rivers that end this close to the water are continued to it; infinite: three widths.
+  // Rivers that end this close to the water are continued to it; infinite: see `connectRivers`.
   double reach_m = std::numeric_limits<double>::infinity();
   RefineOptions junctions{};  // bounds on the triangles at junctions
   double most_quads = 1e8;    // for which there is memory
@@ -49,12 +49,16 @@ struct LostRiver {
 
 struct RiverReport {
   std::size_t quads = 0, triangles = 0, junctions = 0, reaches = 0;
-  std::size_t inflows = 0;   // ends outside the mesh
-  std::size_t extended = 0;  // ends that were continued to the water of the mesh
-  double moved_m = 0.0;      // the farthest that a centre line was moved in a turn that was too sharp for its width
-  Point moved_place;         // near it
-  std::size_t narrowed = 0;  // reaches that come closer to themselves than their width, and are narrower there
-  Point narrowed_place;      // the last of these places
+  std::size_t inflows = 0;      // ends outside the mesh
+  std::vector<Point> extended;  // ends that were continued to the water of the mesh
+  std::vector<Point> left;      // those as close that were not, since the river has another way to it
+  double moved_m = 0.0;         // the farthest that a centre line was moved in a turn that was too sharp for its width
+  Point moved_place;            // near it
+  std::size_t narrowed = 0;     // reaches that come closer to themselves than their width, and are narrower there
+  Point narrowed_place;         // the last of these places
+  std::size_t below = 0;        // triangles at junctions that miss the bound on angles
+  double least_angle_deg = 180.0;  // of them
+  Point least_place;
   std::vector<LostRiver> lost;
 };
 

@@ -1,17 +1,22 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "core/item_loop.hpp"
 #include "core/point.hpp"
 #include "gis/geometry/box.hpp"
-#include "gis/geometry/box_tree.hpp"
 #include "gis/grid/grid.hpp"
+#include "gis/rivers/mesh_triangles.hpp"
 #include "gis/rivers/river_plane.hpp"
 
 namespace coastmesh {
+
+// The place of a mesh that is nearest to another one, and the length of the mesh's edge there.
+struct NearWater {
+  Point place;
+  double distance = 0.0;
+  double edge = 0.0;
+};
 
 // The water of a mesh, near some places, in a working plane.
 class MeshWater {
@@ -19,19 +24,16 @@ class MeshWater {
   // `near`: a box in the mesh's CRS. REQUIRES: the arguments outlive it.
   MeshWater(const Grid& grid, const RiverPlane& plane, const Box& near, const ItemLoop& loop = inOrder);
 
-  bool holds(const Point& plane) const { return triangleAt(plane_.inverse(plane)).has_value(); }
+  bool holds(const Point& plane) const { return triangles_.at(plane_.inverse(plane)).has_value(); }
   // Linear between nodes; NaN outside the mesh, and if it has no depths there.
-  double zAt(const Point& plane) const;
+  double zAt(const Point& plane) const { return triangles_.zAt(plane_.inverse(plane)); }
   // The nearest place of the mesh that is at most `reach` away, in plane units.
-  std::optional<Point> nearest(const Point& plane, double reach) const;
+  std::optional<NearWater> nearest(const Point& plane, double reach) const;
 
  private:
-  std::optional<std::uint32_t> triangleAt(const Point& place) const;
-
   const Grid& grid_;
   const RiverPlane& plane_;
-  std::vector<std::uint32_t> triangles_;
-  BoxTree tree_;  // of `triangles_`
+  MeshTriangles triangles_;
 };
 
 }  // namespace coastmesh

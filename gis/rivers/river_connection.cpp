@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "core/ids.hpp"
@@ -16,6 +17,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kClose = 3.0;  // widths
 constexpr double kFar = 300.0;  // widths; beyond, the distance is not reported
+constexpr double kAlike = 2.0;  // ends that are at most this many times as far as the nearest one
 
 bool touchesWater(const RiverReach& reach, const MeshWater& water) {
   for (std::size_t i = 0; i < reach.points.size(); ++i) {
@@ -51,55 +53,147 @@ std::vector<FreeEnd> freeEnds(const RiverNetwork& network) {
   return ends;
 }
 
-// Continues the reach to a place and beyond, by `farther`.
-void extend(RiverNetwork& network, const FreeEnd& end, const Point& shore, double farther) {
-  RiverReach& reach = network.reaches[end.reach];
-  const Point from = end.at_end ? reach.points.back() : reach.points.front();
-  const Point place = shore + (farther / distance(from, shore)) * (shore - from);
-  network.nodes[end.at_end ? reach.to : reach.from] = place;
-  if (end.at_end) {
-    reach.points.push_back(place);
-    reach.line_of.push_back(reach.line_of.back());
-  } else {
-    reach.points.insert(reach.points.begin(), place);
-    reach.line_of.insert(reach.line_of.begin(), reach.line_of.front());
+class Connector {
+ public:
+  Connector(RiverNetwork& network, std::span<const PlaneRiver> rivers, const MeshWater& water)
+      : network_(network), rivers_(rivers), water_(water), ends_(freeEnds(network)), sets_(networksOf(network, {})) {
+    for (const RiverReach& own : network.reaches) connection_.touches.push_back(touchesWater(own, water) ? 1 : 0);
   }
-}
+
+  RiverConnection connect(double reach) {
+    if (std::isfinite(reach)) {
+      for (const FreeEnd& end : ends_)
+        if (const auto shore = shoreBeside(end, reach)) extend(end, *shore);
+    } else {
+      extendClose();
+      extendApart();
+    }
+    for (const FreeEnd& end : ends_) widenMouth(end);
+    findGaps();
+    return std::move(connection_);
+  }
+
+ private:
+  Point placeOf(const FreeEnd& end) const {
+    const RiverReach& own = network_.reaches[end.reach];
+    return end.at_end ? own.points.back() : own.points.front();
+  }
+  double widthOf(const FreeEnd& end) const {
+    const RiverReach& own = network_.reaches[end.reach];
+    return rivers_[end.at_end ? own.line_of.back() : own.line_of.front()].width;
+  }
+  std::uint32_t networkOf(const FreeEnd& end) { return sets_.find(network_.reaches[end.reach].from); }
+
+  // Nothing for an end in the water.
+  std::optional<NearWater> shoreBeside(const FreeEnd& end, double reach) const {
+    const Point place = placeOf(end);
+    if (water_.holds(place)) return std::nullopt;
+    const auto shore = water_.nearest(place, reach);
+    return shore && shore->distance > 0.0 ? shore : std::nullopt;
+  }
+
+  // The same for water far away, nearby first: most ends have none.
+  std::optional<NearWater> shoreAround(const FreeEnd& end) const {
+    const double width = widthOf(end);
+    for (double widths = kClose; widths < 2.0 * kFar; widths *= 4.0)
+      if (const auto shore = shoreBeside(end, std::min(widths, kFar) * width)) return shore;
+    return std::nullopt;
+  }
+
+  void extendClose() {
+    for (const FreeEnd& end : ends_)
+      if (const auto shore = shoreBeside(end, widthOf(end))) extend(end, *shore);
+  }
+
+  std::vector<std::uint8_t> networksWithWater() {
+    std::vector<std::uint8_t> has_water(network_.nodes.size(), 0);
+    for (std::size_t r = 0; r < network_.reaches.size(); ++r)
+      if (connection_.touches[r] != 0) has_water[sets_.find(network_.reaches[r].from)] = 1;
+    return has_water;
+  }
+
+  void extendApart() {
+    const std::vector<std::uint8_t> has_water = networksWithWater();
+    std::vector<double> least(network_.nodes.size(), kInfinity);  // by network: the nearest of the ends that are close
+    std::vector<std::optional<NearWater>> shores;
+    for (const FreeEnd& end : ends_) {
+      std::optional<NearWater> shore = shoreAround(end);
+      if (shore && shore->distance > std::max(kClose * widthOf(end), shore->edge)) shore.reset();
+      if (shore) least[networkOf(end)] = std::min(least[networkOf(end)], shore->distance);
+      shores.push_back(shore);
+    }
+    for (std::size_t i = 0; i < ends_.size(); ++i) {
+      if (!shores[i]) continue;
+      const std::uint32_t network = networkOf(ends_[i]);
+      if (has_water[network] == 0 && shores[i]->distance <= kAlike * least[network])
+        extend(ends_[i], *shores[i]);
+      else
+        connection_.left.push_back(placeOf(ends_[i]));
+    }
+  }
+
+  void extend(const FreeEnd& end, const NearWater& shore) {
+    const Point from = placeOf(end);
+    connection_.extended.push_back(from);
+    connection_.touches[end.reach] = 1;
+    moveEnd(end, shore.place + (widthOf(end) / shore.distance) * (shore.place - from));
+  }
+
+  void moveEnd(const FreeEnd& end, const Point& place) {
+    RiverReach& reach = network_.reaches[end.reach];
+    network_.nodes[end.at_end ? reach.to : reach.from] = place;
+    if (end.at_end) {
+      reach.points.push_back(place);
+      reach.line_of.push_back(reach.line_of.back());
+    } else {
+      reach.points.insert(reach.points.begin(), place);
+      reach.line_of.insert(reach.line_of.begin(), reach.line_of.front());
+    }
+  }
+
+  // An end just behind a shore that the river meets at an angle would have one bank on land.
+  void widenMouth(const FreeEnd& end) {
+    constexpr double kStep = 0.25;  // widths
+    const RiverReach& reach = network_.reaches[end.reach];
+    const Point place = placeOf(end);
+    const Point before = end.at_end ? reach.points[reach.points.size() - 2] : reach.points[1];
+    const double width = widthOf(end);
+    const Point along = (width / distance(before, place)) * (place - before), half{-0.5 * along.y, 0.5 * along.x};
+    if (!water_.holds(place)) return;
+    for (double widths = 0.0; widths <= kClose; widths += kStep) {
+      const Point middle = place + widths * along;
+      if (!water_.holds(middle)) return;
+      if (!water_.holds(middle + half) || !water_.holds(middle - half)) continue;
+      if (widths > 0.0) moveEnd(end, middle);
+      return;
+    }
+  }
+
+  // How far the networks without water are from it, for messages.
+  void findGaps() {
+    const std::vector<std::uint8_t> has_water = networksWithWater();
+    std::vector<double> gap(network_.nodes.size(), kInfinity);
+    for (const FreeEnd& end : ends_) {
+      double& least = gap[networkOf(end)];
+      if (has_water[networkOf(end)] != 0) continue;
+      if (const auto shore = shoreAround(end)) least = std::min(least, shore->distance);
+    }
+    for (const RiverReach& own : network_.reaches) connection_.gap.push_back(gap[sets_.find(own.from)]);
+  }
+
+  RiverNetwork& network_;
+  std::span<const PlaneRiver> rivers_;
+  const MeshWater& water_;
+  const std::vector<FreeEnd> ends_;
+  UnionFind sets_;
+  RiverConnection connection_;
+};
 
 }  // namespace
 
 RiverConnection connectRivers(RiverNetwork& network, std::span<const PlaneRiver> rivers, const MeshWater& water,
                               double reach) {
-  RiverConnection connection;
-  for (const RiverReach& own : network.reaches) connection.touches.push_back(touchesWater(own, water) ? 1 : 0);
-  const auto endOf = [&](const FreeEnd& end) {
-    const RiverReach& own = network.reaches[end.reach];
-    const double width = rivers[end.at_end ? own.line_of.back() : own.line_of.front()].width;
-    return std::pair(end.at_end ? own.points.back() : own.points.front(), width);
-  };
-  const std::vector<FreeEnd> ends = freeEnds(network);
-  for (const FreeEnd& end : ends) {
-    const auto [place, width] = endOf(end);
-    if (water.holds(place)) continue;
-    const auto shore = water.nearest(place, std::isfinite(reach) ? reach : kClose * width);
-    if (!shore || *shore == place) continue;
-    extend(network, end, *shore, width);
-    ++connection.extended;
-    connection.touches[end.reach] = 1;
-  }
-  // How far the others are, for messages.
-  const std::vector<std::uint8_t> none(network.reaches.size(), 0);
-  const std::vector<std::uint8_t> connected = connectedReaches(network, connection.touches, none);
-  UnionFind sets = networksOf(network, {});
-  std::vector<double> gap(network.nodes.size(), kInfinity);  // by root
-  for (const FreeEnd& end : ends) {
-    if (connected[end.reach] != 0) continue;
-    const auto [place, width] = endOf(end);
-    double& least = gap[sets.find(network.reaches[end.reach].from)];
-    if (const auto shore = water.nearest(place, std::min(least, kFar * width))) least = distance(place, *shore);
-  }
-  for (const RiverReach& own : network.reaches) connection.gap.push_back(gap[sets.find(own.from)]);
-  return connection;
+  return Connector(network, rivers, water).connect(reach);
 }
 
 std::vector<std::uint8_t> connectedReaches(const RiverNetwork& network, std::span<const std::uint8_t> touches,

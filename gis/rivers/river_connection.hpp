@@ -12,14 +12,17 @@ namespace coastmesh {
 // How a network is connected with the water of a mesh.
 struct RiverConnection {
   std::vector<std::uint8_t> touches;  // of each reach: 1 if a place of it is in the water
-  std::size_t extended = 0;           // free ends that were continued
+  std::vector<Point> extended;        // free ends outside the water that were continued to it
+  std::vector<Point> left;            // those as close that were not, since the network has another way to the water
   // Of each reach: of its network, the distance of the nearest free end outside the water from it, plane units;
   // infinite if it is far.
   std::vector<double> gap;
 };
 
-// Continues free ends within `reach` of the water, in plane units, or three widths of the river if that is infinite:
-// straight, and a width into it.
+// Continues free ends within `reach` of the water, in plane units: straight, and a width into it. If `reach` is infinite,
+// ends within a width of the water are continued; of a network that is not connected otherwise, also the nearest end
+// within three widths or the length of an edge there, to which the mesh's shore may have been generalised, and those at
+// most twice as far. Ends in the water are continued until both banks are in it, by at most three widths.
 RiverConnection connectRivers(RiverNetwork& network, std::span<const PlaneRiver> rivers, const MeshWater& water,
                               double reach);
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/metric.hpp"
+#include "core/quality.hpp"
 #include "core/triangulate/delaunay.hpp"
 #include "gis/coast/feature_names.hpp"
 #include "gis/elements/quads.hpp"
@@ -127,7 +128,18 @@ class GridMaker {
     for (const auto& corners : mesh.triangles) {
       addElement(made_.grid, std::array{nodes[corners[0]], nodes[corners[1]], nodes[corners[2]]});
       made_.grid.feature_of.push_back(line);
+      judge(mesh.points[corners[0]], mesh.points[corners[1]], mesh.points[corners[2]]);
     }
+  }
+
+  void judge(const Point& a, const Point& b, const Point& c) {
+    constexpr double kRoundingDeg = 1e-6;
+    const double angle = leastAngleDeg(a, b, c);
+    if (angle >= options_.min_angle_deg - kRoundingDeg) return;
+    ++made_.below;
+    if (angle >= made_.least_angle_deg) return;
+    made_.least_angle_deg = angle;
+    made_.least_place = plane_.inverse(centroid(a, b, c));
   }
 
   void setSizes() {

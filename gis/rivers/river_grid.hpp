@@ -28,6 +28,10 @@ struct RiverParts {
 struct RiverGrid {
   Grid grid;
   std::vector<std::vector<std::uint32_t>> ends;  // the nodes across each free end, from bank to bank
+  // Triangles at junctions that miss the bound on angles, since edges of quadrilaterals leave no room.
+  std::size_t below = 0;
+  double least_angle_deg = 180.0;  // of them
+  Point least_place;               // in the mesh's CRS
 };
 
 // The rows and junctions as a grid without boundaries; its features are the lines. `triangle_options`: of junctions.

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/ids.hpp"
 #include "core/metric.hpp"
 #include "core/predicates.hpp"
 #include "core/union_find.hpp"
@@ -125,19 +126,36 @@ double JunctionPlanner::roomOf(std::uint32_t reach) const {
   return courses_[reach].length() - plan_.trim_start[reach] - plan_.trim_end[reach] - shapes_[reach].least_length;
 }
 
-// Trims the branches of a junction, and orders them. Returns a reach that is too short for that.
+// True if a reach without room makes its two junctions one, which must not get too many branches.
+bool JunctionPlanner::isBetween(std::uint32_t reach) const {
+  const std::uint32_t from = sets_.find(network_.reaches[reach].from), to = sets_.find(network_.reaches[reach].to);
+  const std::size_t n = branches_[from].size(), m = branches_[to].size();
+  return from != to && n > 1 && m > 1 && n + m <= kMostBranches + 2;
+}
+
+// Of a reach without room and one that clashes with it, that to be left out: the narrower one.
+std::uint32_t JunctionPlanner::loserOf(std::uint32_t reach,
+                                       const std::pair<std::uint32_t, std::uint32_t>& clash) const {
+  if (isBetween(reach) || (clash.first != reach && clash.second != reach)) return reach;
+  const std::uint32_t other = clash.first == reach ? clash.second : clash.first;
+  return !isBetween(other) && courses_[other].meanWidth() < courses_[reach].meanWidth() ? other : reach;
+}
+
+// Trims the branches of a junction, and orders them. Returns a reach that is too short for that, or in the way.
 std::optional<std::uint32_t> JunctionPlanner::trim(std::vector<RiverBranch>& branches) {
   for (RiverBranch& branch : branches) trimOf(branch) = branch.trim = 0.0;
   if (branches.size() < 2) return std::nullopt;
   for (RiverBranch& branch : branches) grow(branch, kMargin);
+  std::pair<std::uint32_t, std::uint32_t> last{kNone, kNone};
   for (;;) {
     for (const RiverBranch& branch : branches)
-      if (roomOf(branch.reach) < 0.0) return branch.reach;
+      if (roomOf(branch.reach) < 0.0) return loserOf(branch.reach, last);
     const auto clash = findClash(branches);
     if (!clash) break;
+    last = {branches[clash->first].reach, branches[clash->second].reach};
     for (const std::size_t i : {clash->first, clash->second}) {
       const RiverBranch& branch = branches[i];
-      if (branch.trim > kMostWidths * courses_[branch.reach].maxWidth()) return branch.reach;
+      if (branch.trim > kMostWidths * courses_[branch.reach].maxWidth()) return loserOf(branch.reach, last);
     }
     grow(branches[clash->first], kStep);
     if (clash->second != clash->first) grow(branches[clash->second], kStep);
@@ -225,8 +243,7 @@ std::vector<Edge> JunctionPlanner::ladderOf(const RiverBranch& branch) const {
 // A reach between two junctions makes them one, unless they have too many branches; any other is left out.
 void JunctionPlanner::takeAway(std::uint32_t reach) {
   const std::uint32_t from = sets_.find(network_.reaches[reach].from), to = sets_.find(network_.reaches[reach].to);
-  const std::size_t n = branches_[from].size(), m = branches_[to].size();
-  const bool is_between = from != to && n > 1 && m > 1 && n + m <= kMostBranches + 2;
+  const bool is_between = isBetween(reach);
   (is_between ? plan_.in_junction : plan_.left_out)[reach] = 1;
   removeBranches(reach);
   if (!is_between) return;
@@ -242,6 +259,7 @@ void JunctionPlanner::removeBranches(std::uint32_t reach) {
   for (const std::uint32_t end : {network_.reaches[reach].from, network_.reaches[reach].to}) {
     const std::uint32_t node = sets_.find(end);
     std::erase_if(branches_[node], [&](const RiverBranch& branch) { return branch.reach == reach; });
+    for (const RiverBranch& branch : branches_[node]) trimOf(branch) = 0.0;  // until they are trimmed anew
     is_due_[node] = 1;
   }
 }

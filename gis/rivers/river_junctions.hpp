@@ -59,6 +59,8 @@ class JunctionPlanner {
 
   double& trimOf(const RiverBranch& branch);
   double roomOf(std::uint32_t reach) const;
+  bool isBetween(std::uint32_t reach) const;
+  std::uint32_t loserOf(std::uint32_t reach, const std::pair<std::uint32_t, std::uint32_t>& clash) const;
   std::optional<std::uint32_t> trim(std::vector<RiverBranch>& branches);
   void grow(RiverBranch& branch, double share);
   std::vector<RiverSection> order(std::vector<RiverBranch>& branches) const;
@@ -71,7 +73,7 @@ class JunctionPlanner {
   const RiverNetwork& network_;
   std::span<const RiverCourse> courses_;
   std::span<const ReachShape> shapes_;
-  UnionFind sets_;
+  mutable UnionFind sets_;                          // `find` shortens paths
   std::vector<std::vector<RiverBranch>> branches_;  // by root
   std::vector<std::uint8_t> is_due_;                // nodes whose branches have changed
   std::vector<std::uint8_t> gone_;

@@ -41,6 +41,9 @@ class LayerReader {
     map_.emplace(from, toOgr(crs));
   }
 
+  bool hasDepth() const { return depth_ >= 0; }
+  bool hasName() const { return name_ >= 0; }
+
   void read(std::vector<RiverLine>& lines) {
     layer_.ResetReading();
     for (const OGRFeatureUniquePtr& feature : layer_) {
@@ -98,6 +101,11 @@ class LayerReader {
   std::optional<CrsMap> map_;
 };
 
+// A column that is not the usual one must be there.
+void requireNamed(const std::string& source, const std::string& column, const std::string& usual, bool is_there) {
+  if (!is_there && column != usual) throw InputError(sourceInWords(source) + ": has no attribute '" + column + "'");
+}
+
 }  // namespace
 
 std::string nameOf(const RiverLine& line) {
@@ -113,11 +121,17 @@ std::vector<RiverLine> readRiverLines(const std::string& path, const Crs& crs, c
   refuseOddGeojson(source, errors);
   std::vector<RiverLine> lines;
   const bool only = source.dataset->GetLayerCount() == 1;
+  bool has_depth = false, has_name = false;
   for (OGRLayer* layer : source.layers) {
     const std::string name = only ? source.name : source.name + "|" + layer->GetName();
-    LayerReader(*layer, name, crs, columns, usual_width_m).read(lines);
+    LayerReader reader(*layer, name, crs, columns, usual_width_m);
+    reader.read(lines);
     requireReadToEnd(source, errors);
+    has_depth = has_depth || reader.hasDepth();
+    has_name = has_name || reader.hasName();
   }
+  requireNamed(source.name, columns.depth, RiverColumns{}.depth, has_depth);
+  requireNamed(source.name, columns.name, RiverColumns{}.name, has_name);
   if (lines.empty()) throw InputError(sourceInWords(source.name) + ": no feature in it is a line");
   return lines;
 }

@@ -34,7 +34,7 @@ struct RiverColumns {
 // Reads the lines of what `openSource` opens: all vector layers, or the one that `path` names. Coordinates are brought
 // to `crs`; a source without a CRS is taken to be in it. `usual_width_m`: of lines without a width. Features without a
 // shape are left out. Throws InputError: unreadable, damaged; a feature that is no line, has no width, or a depth or a
-// width that is no number; no line at all.
+// width that is no number; no line at all; no column of depths or names, if it is not the usual one.
 std::vector<RiverLine> readRiverLines(const std::string& path, const Crs& crs, const RiverColumns& columns,
                                       const std::optional<double>& usual_width_m);
 

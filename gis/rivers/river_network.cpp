@@ -74,7 +74,7 @@ class NetworkBuilder {
   }
 
  private:
-  double reachOf(std::uint32_t a, std::uint32_t b) const { return 0.5 * std::max(rivers_[a].width, rivers_[b].width); }
+  double reachOf(std::uint32_t a, std::uint32_t b) const { return 0.5 * (rivers_[a].width + rivers_[b].width); }
 
   std::uint32_t addMark(std::uint32_t line, std::uint32_t segment, double share, const Point& place) {
     const auto node = static_cast<std::uint32_t>(places_.size());
@@ -89,7 +89,7 @@ class NetworkBuilder {
   void linkEnd(std::uint32_t line, bool last) {
     const Point end = places_[nodeOfEnd(line, last)];
     std::map<std::uint32_t, std::pair<double, const Piece*>> nearest;  // by line
-    tree_.visit(Box::of(end, end).grownBy(0.5 * widest_), [&](std::uint32_t i) {
+    tree_.visit(Box::of(end, end).grownBy(widest_), [&](std::uint32_t i) {
       const Piece& piece = pieces_[i];
       if (piece.line == line) return;
       const double gap = std::sqrt(squaredDistanceToSegment(end, piece.a, piece.b));

@@ -14,6 +14,8 @@ namespace {
 constexpr double kOfBend = 0.5;
 // The shortest row, as a share of the width of its cells.
 constexpr double kShortest = 0.25;
+// Rows differ in length by at most this share of the distance between them.
+constexpr double kGrowth = 0.5;
 constexpr double kMostRows = 50e6;
 
 // Places of sections: where the integral of rows over length is whole.
@@ -27,9 +29,12 @@ std::vector<double> sectionPlaces(const RiverCourse& course, double from, double
   const double step_wanted = 0.25 * course.meanWidth();
   const auto steps = static_cast<std::size_t>(std::clamp(std::ceil((to - from) / step_wanted), 8.0, kMostRows));
   const double step = (to - from) / static_cast<double>(steps);
+  std::vector<double> lengths;  // in the middle of each step
+  for (std::size_t i = 0; i < steps; ++i) lengths.push_back(lengthAt(from + (static_cast<double>(i) + 0.5) * step));
+  for (std::size_t i = 1; i < steps; ++i) lengths[i] = std::min(lengths[i], lengths[i - 1] + kGrowth * step);
+  for (std::size_t i = steps - 1; i > 0; --i) lengths[i - 1] = std::min(lengths[i - 1], lengths[i] + kGrowth * step);
   std::vector<double> rows_before(1, 0.0);  // at each step
-  for (std::size_t i = 0; i < steps; ++i)
-    rows_before.push_back(rows_before.back() + step / lengthAt(from + (static_cast<double>(i) + 0.5) * step));
+  for (const double length : lengths) rows_before.push_back(rows_before.back() + step / length);
   const double rows = std::max(1.0, std::round(std::min(rows_before.back(), kMostRows)));
   std::vector<double> places(1, from);
   std::size_t i = 0;

@@ -130,13 +130,13 @@ TEST(LayRivers, WhatIsNotConnectedIsLostByName) {
 TEST(LayRivers, EndsCloseToTheWaterAreContinued) {
   const std::vector<RiverLine> lines{lineOf({{-3000, 2050}, {-250, 2050}}, 100.0)};
   const LaidRivers near = layRivers(lines, sea(), {});
-  EXPECT_EQ(near.report.extended, 1u);
+  EXPECT_EQ(near.report.extended.size(), 1u);
   EXPECT_TRUE(lossesOf(near).empty());
   const std::vector<RiverLine> farther{lineOf({{-3000, 2050}, {-450, 2050}}, 100.0)};
   EXPECT_THAT(lossesOf(layRivers(farther, sea(), {})), ::testing::ElementsAre(RiverLoss::Apart));
   RiverOptions options;
   options.reach_m = 500.0;
-  EXPECT_EQ(layRivers(farther, sea(), options).report.extended, 1u);
+  EXPECT_EQ(layRivers(farther, sea(), options).report.extended.size(), 1u);
 }
 
 TEST(LayRivers, TheNarrowerOfTwoThatOverlapIsLost) {

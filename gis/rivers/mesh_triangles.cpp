@@ -1,0 +1,45 @@
+#include "gis/rivers/mesh_triangles.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/metric.hpp"
+#include "core/predicates.hpp"
+
+namespace coastmesh {
+
+MeshTriangles::MeshTriangles(const Grid& grid, const Box& near, const ItemLoop& loop) : grid_(grid) {
+  std::vector<Box> boxes;
+  for (std::uint32_t t = 0; t < grid.triangles.size(); ++t) {
+    Box box;
+    for (const std::uint32_t v : grid.triangles[t]) box.add(grid.nodes[v]);
+    if (!box.meets(near)) continue;
+    triangles_.push_back(t);
+    boxes.push_back(box);
+  }
+  tree_ = BoxTree(boxes, BoxTree::Order::Hilbert, loop);
+}
+
+std::optional<std::uint32_t> MeshTriangles::at(const Point& place) const {
+  std::optional<std::uint32_t> found;
+  visit(Box::of(place, place), [&](std::uint32_t t) {
+    const auto& v = grid_.triangles[t];
+    const Point &a = grid_.nodes[v[0]], &b = grid_.nodes[v[1]], &c = grid_.nodes[v[2]];
+    const int turn = orient2d(a, b, c);
+    const auto isWithin = [&](const Point& p, const Point& q) { return orient2d(p, q, place) * turn >= 0; };
+    if (turn != 0 && isWithin(a, b) && isWithin(b, c) && isWithin(c, a)) found = std::min(found.value_or(t), t);
+  });
+  return found;
+}
+
+double MeshTriangles::zAt(const Point& place) const {
+  const auto t = grid_.z.empty() ? std::nullopt : at(place);
+  if (!t) return std::numeric_limits<double>::quiet_NaN();
+  const auto& v = grid_.triangles[*t];
+  const Point &a = grid_.nodes[v[0]], &b = grid_.nodes[v[1]], &c = grid_.nodes[v[2]];
+  const double whole = cross(b - a, c - a);
+  const double of_a = cross(b - place, c - place) / whole, of_b = cross(c - place, a - place) / whole;
+  return of_a * grid_.z[v[0]] + of_b * grid_.z[v[1]] + (1.0 - of_a - of_b) * grid_.z[v[2]];
+}
+
+}  // namespace coastmesh
