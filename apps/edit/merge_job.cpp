@@ -61,6 +61,7 @@ std::vector<std::string> warningsOf(const InsertedMesh& inserted, const DepthOpt
   if (merged.cut_off > 0)
     all.push_back(in + "it cuts waters off from the rest, which are left out: " + grouped(merged.cut_off) +
                   forCount(merged.cut_off, " triangle", " triangles"));
+  if (const std::string lost = lostWaterText(merged); !lost.empty()) all.push_back(in + lost);
   if (merged.partition_dropped)
     all.emplace_back("the assignment to processes is of the meshes before, and left out; partition makes a new one");
   if (inserted.result.band) std::ranges::move(newNodeWarnings(*inserted.result.band, depth), std::back_inserter(all));

@@ -5,12 +5,14 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "apps/job/available_memory.hpp"
 #include "apps/job/places.hpp"
 #include "apps/report/remesh_texts.hpp"
 #include "apps/report/report_sections.hpp"
+#include "core/union_find.hpp"
 #include "gis/elements/elements.hpp"
 #include "gis/error.hpp"
 #include "gis/for_count.hpp"
@@ -147,6 +149,34 @@ void keepDepths(Grid& grid, const MergedMesh& merged) {
   }
 }
 
+// Rivers that ended up without a connection to what is left of the mesh, as beyond a sliver of water too narrow for them.
+std::string unconnectedText(const Grid& grid, const std::vector<MergeSource>& triangles) {
+  UnionFind waters(grid.nodes.size());
+  for (const auto& corners : grid.triangles) {
+    waters.unite(corners[0], corners[1]);
+    waters.unite(corners[0], corners[2]);
+  }
+  std::vector<std::uint8_t> is_of_mesh(grid.nodes.size(), 0);
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    if (triangles[t].mesh == 0) is_of_mesh[waters.find(grid.triangles[t][0])] = 1;
+  std::map<std::uint32_t, std::string> apart;  // by water: a river of it
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const std::uint32_t water = waters.find(grid.triangles[t][0]);
+    if (is_of_mesh[water] != 0 || apart.contains(water)) continue;
+    std::string& river = apart[water] = "near " + pointText(grid.nodes[grid.triangles[t][0]]);
+    if (grid.feature_of.empty()) continue;
+    for (const auto& [key, value] : grid.features[grid.feature_of[t]].attributes)
+      if (key == "name") river = "'" + value + "' " + river;
+  }
+  if (apart.empty()) return {};
+  std::string text = grouped(apart.size()) + forCount(apart.size(), " river is", " rivers are") +
+                     " not connected with the water of the mesh, which is too narrow where they end: ";
+  std::size_t count = 0;
+  for (const auto& [water, river] : apart)
+    if (++count <= kMostNamed) text += (count > 1 ? ", " : "") + river;
+  return text + (count > kMostNamed ? ", and more" : "") + "; draw them farther into the water";
+}
+
 std::vector<std::uint32_t> numbersBefore(const std::vector<MergeSource>& sources) {
   std::vector<std::uint32_t> numbers;
   for (const MergeSource& source : sources) numbers.push_back(source.mesh == 0 ? source.number : kNone);
@@ -197,7 +227,7 @@ std::string junctionText(const RiverReport& report) {
 }
 
 std::vector<std::string> mergeWarnings(const MergedMesh& merged, const DepthOptions& depth) {
-  std::vector<std::string> all;
+  std::vector<std::string> all{lostWaterText(merged.merged)};
   if (merged.merged.cut_off > 0)
     all.push_back("rivers cut waters off from the rest, which are left out: " + grouped(merged.merged.cut_off) +
                   forCount(merged.merged.cut_off, " triangle", " triangles"));
@@ -239,6 +269,7 @@ EditedMesh runRiversJob(Grid& grid, const std::string& name, const std::vector<s
                      setRiverDepths(laid, grid, job.merge.depth, of_edit, loop)};
     const MergedMesh merged = putIn(grid, name, std::move(laid.grid), job.merge, of_edit, loop);
     std::ranges::move(mergeWarnings(merged, job.merge.depth), std::back_inserter(edit.warnings));
+    edit.warnings.push_back(unconnectedText(grid, merged.triangles));
     std::string text = reportText(laid.report, grid);
     if (merged.band)
       text += "beside them: " + figuresText(merged.band->inside, grid) + "in place of " +

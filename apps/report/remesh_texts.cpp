@@ -5,7 +5,9 @@
 
 #include "apps/job/places.hpp"
 #include "apps/report/report_sections.hpp"
+#include "core/metric.hpp"
 #include "gis/for_count.hpp"
+#include "gis/grid/local_plane.hpp"
 
 namespace coastmesh {
 
@@ -35,6 +37,20 @@ std::vector<std::string> newNodeWarnings(const RemeshReport& report, const Depth
     all.push_back(grouped(report.depth.unknown) + forCount(report.depth.unknown, " new node has", " new nodes have") +
                   " no depth, as no raster and no node around has one");
   return all;
+}
+
+std::string lostWaterText(const MergeReport& merged) {
+  constexpr double kMuch = 0.01;  // of the area replaced
+  double replaced = 0.0;
+  for (const auto& corners : merged.gone.triangles) {
+    const auto [a, b, c] = localPlane(merged.gone, corners);
+    replaced += 0.5 * std::abs(cross(b - a, c - a));
+  }
+  if (merged.lost.area_m2 <= kMuch * replaced) return {};
+  return grouped(static_cast<std::uint64_t>(std::llround(merged.lost.area_m2))) +
+         " square metres of water are left out, where no good triangles fit between "
+         "the two meshes, most of it near " +
+         pointText(merged.lost.place);
 }
 
 }  // namespace coastmesh

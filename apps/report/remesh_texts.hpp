@@ -5,6 +5,7 @@
 
 #include "apps/remesh/remesh_grid.hpp"
 #include "gis/grid/grid.hpp"
+#include "gis/merge/merge_grids.hpp"
 #include "gis/model/depth.hpp"
 
 namespace coastmesh {
@@ -17,5 +18,8 @@ std::string figuresText(const TriangleFigures& figures, const Grid& grid);
 
 // Warnings of new triangles that miss the bounds on angles, and of new nodes' depths.
 std::vector<std::string> newNodeWarnings(const RemeshReport& report, const DepthOptions& depth);
+
+// A warning of water that is lost between two meshes; empty if it is next to nothing of what was replaced.
+std::string lostWaterText(const MergeReport& merged);
 
 }  // namespace coastmesh

@@ -191,6 +191,10 @@ MergeReport mergeGrids(Grid& grid, Grid&& inserted, const ItemLoop& loop) {
   cutLinesOffEdges(grid);
   setSources(grid, joined, inserted_triangles, report);
   if (!grid.feature_of.empty()) sortFeatures(grid);
+  std::vector<std::uint32_t> others;
+  for (std::uint32_t t = 0; t < grid.triangles.size(); ++t)
+    if (report.triangles[t].mesh != 0) others.push_back(t);
+  report.lost = lostWater(report.gone, grid, others, loop);
   return report;
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/item_loop.hpp"
 #include "gis/grid/grid.hpp"
+#include "gis/merge/lost_water.hpp"
 
 namespace coastmesh {
 
@@ -26,6 +27,7 @@ struct MergeReport {
   std::size_t walls = 0;                      // edges of its open boundaries that became land, without water beyond
   bool has_open = true;                       // false: it has no open boundary, and joins all around
   bool partition_dropped = false;             // the assignment to processes
+  LostWater lost;                             // of the grid
   Grid gone;  // the grid's triangles that are not in the merged one, with the depths of their nodes
 };
 

@@ -162,7 +162,7 @@ class RiverLayer {
     if (options_.extent == RiverExtent::Outside) return;
     std::vector<double> longest;
     for (const ReachShape& shape : shapes_) longest.push_back(options_.aspect * shape.cell);
-    limitRows(courses_, longest, [this](const Point& place) { return water_.holds(place); });
+    limitRows(courses_, longest, water_);
   }
 
   std::size_t cellsOf(const RiverReach& reach, double width_m) const {

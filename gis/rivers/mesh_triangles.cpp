@@ -32,6 +32,20 @@ std::optional<std::uint32_t> MeshTriangles::at(const Point& place) const {
   return found;
 }
 
+std::vector<NodePair> MeshTriangles::boundaryEdges() const {
+  std::vector<NodePair> edges;
+  for (const std::uint32_t t : triangles_) {
+    const auto& v = grid_.triangles[t];
+    for (unsigned i = 0; i < 3; ++i) edges.push_back(edgeKey(v[i], v[(i + 1) % 3]));
+  }
+  std::ranges::sort(edges);
+  std::vector<NodePair> single;
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    if ((i == 0 || edges[i - 1] != edges[i]) && (i + 1 == edges.size() || edges[i + 1] != edges[i]))
+      single.push_back(edges[i]);
+  return single;
+}
+
 double MeshTriangles::zAt(const Point& place) const {
   const auto t = grid_.z.empty() ? std::nullopt : at(place);
   if (!t) return std::numeric_limits<double>::quiet_NaN();

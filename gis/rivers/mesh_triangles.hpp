@@ -8,6 +8,7 @@
 #include "core/point.hpp"
 #include "gis/geometry/box.hpp"
 #include "gis/geometry/box_tree.hpp"
+#include "gis/grid/boundary_chains.hpp"
 #include "gis/grid/grid.hpp"
 
 namespace coastmesh {
@@ -22,6 +23,9 @@ class MeshTriangles {
   std::optional<std::uint32_t> at(const Point& place) const;
   // Linear between nodes; NaN outside the triangles, and if the mesh has no depths there.
   double zAt(const Point& place) const;
+
+  // Edges that only one of these triangles has, by their nodes.
+  std::vector<NodePair> boundaryEdges() const;
 
   // Calls `found(t)` for each triangle whose box meets `query`.
   template <typename Found>

@@ -18,6 +18,13 @@ Point nearestOnSegment(const Point& p, const Point& a, const Point& b) {
 MeshWater::MeshWater(const Grid& grid, const RiverPlane& plane, const Box& near, const ItemLoop& loop)
     : grid_(grid), plane_(plane), triangles_(grid, near, loop) {}
 
+std::vector<std::pair<Point, Point>> MeshWater::shores() const {
+  std::vector<std::pair<Point, Point>> edges;
+  for (const auto& [a, b] : triangles_.boundaryEdges())
+    edges.emplace_back(plane_.forward(grid_.nodes[a]), plane_.forward(grid_.nodes[b]));
+  return edges;
+}
+
 std::optional<NearWater> MeshWater::nearest(const Point& plane, double reach) const {
   Box box;
   for (const double dx : {-reach, reach})
@@ -32,7 +39,8 @@ std::optional<NearWater> MeshWater::nearest(const Point& plane, double reach) co
       const double gap = distance(plane, place);
       if (!(gap <= least) || (best && gap == least && !lexLess(place, best->place))) continue;
       least = gap;
-      best = NearWater{place, gap, distance(a, b)};
+      const Point c = plane_.forward(grid_.nodes[v[(k + 2) % 3]]);
+      best = NearWater{place, gap, distance(a, b), centroid(a, b, c)};
     }
   });
   return best;

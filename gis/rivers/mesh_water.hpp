@@ -1,6 +1,8 @@
 #pragma once
 
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "core/item_loop.hpp"
 #include "core/point.hpp"
@@ -11,11 +13,12 @@
 
 namespace coastmesh {
 
-// The place of a mesh that is nearest to another one, and the length of the mesh's edge there.
+// The place of a mesh that is nearest to another one.
 struct NearWater {
   Point place;
   double distance = 0.0;
-  double edge = 0.0;
+  double edge = 0.0;  // length of the mesh's edge there
+  Point inside;       // the middle of the triangle there
 };
 
 // The water of a mesh, near some places, in a working plane.
@@ -27,6 +30,8 @@ class MeshWater {
   bool holds(const Point& plane) const { return triangles_.at(plane_.inverse(plane)).has_value(); }
   // Linear between nodes; NaN outside the mesh, and if it has no depths there.
   double zAt(const Point& plane) const { return triangles_.zAt(plane_.inverse(plane)); }
+  // Edges of the mesh's boundary.
+  std::vector<std::pair<Point, Point>> shores() const;
   // The nearest place of the mesh that is at most `reach` away, in plane units.
   std::optional<NearWater> nearest(const Point& plane, double reach) const;
 

@@ -1,6 +1,7 @@
 #include "gis/rivers/river_connection.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -16,6 +17,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kClose = 3.0;  // widths
+constexpr double kTiny = 1e-6;  // widths
 constexpr double kFar = 300.0;  // widths; beyond, the distance is not reported
 constexpr double kAlike = 2.0;  // ends that are at most this many times as far as the nearest one
 
@@ -84,12 +86,32 @@ class Connector {
   }
   std::uint32_t networkOf(const FreeEnd& end) { return sets_.find(network_.reaches[end.reach].from); }
 
-  // Nothing for an end in the water.
+  // Nothing for an end in the water, or of a river that has just left it.
   std::optional<NearWater> shoreBeside(const FreeEnd& end, double reach) const {
     const Point place = placeOf(end);
-    if (water_.holds(place)) return std::nullopt;
-    const auto shore = water_.nearest(place, reach);
-    return shore && shore->distance > 0.0 ? shore : std::nullopt;
+    return isInWater(end) || comesFromWater(end) ? std::nullopt : water_.nearest(place, reach);
+  }
+
+  bool comesFromWater(const FreeEnd& end) const {
+    constexpr std::array kBefore{0.25, 0.5, 1.0, 1.5, 2.0};  // widths
+    return std::ranges::any_of(kBefore,
+                               [&](double widths) { return water_.holds(placeOf(end) - widths * alongOf(end)); });
+  }
+
+  // An end on a shore may be on either side of it.
+  bool isInWater(const FreeEnd& end) const {
+    constexpr double kOnShore = 1e-3;  // widths
+    const Point place = placeOf(end);
+    if (!water_.holds(place)) return false;
+    const Point beyond = place + kOnShore * alongOf(end);
+    return water_.holds(beyond) && water_.holds(place - kOnShore * alongOf(end));
+  }
+
+  // A width in the direction in which the river ends.
+  Point alongOf(const FreeEnd& end) const {
+    const RiverReach& own = network_.reaches[end.reach];
+    const Point place = placeOf(end), before = end.at_end ? own.points[own.points.size() - 2] : own.points[1];
+    return (widthOf(end) / distance(before, place)) * (place - before);
   }
 
   // The same for water far away, nearby first: most ends have none.
@@ -133,10 +155,46 @@ class Connector {
   }
 
   void extend(const FreeEnd& end, const NearWater& shore) {
-    const Point from = placeOf(end);
-    connection_.extended.push_back(from);
+    const Point from = placeOf(end), gap = shore.place - from;
+    const double least = kTiny * widthOf(end);
+    const Point along = shore.distance > least ? (widthOf(end) / shore.distance) * gap : alongOf(end);
+    auto place = placeWithin(shore.place, along);
+    // A narrow inlet may lie in another direction.
+    if (!place)
+      place =
+          placeWithin(shore.place, (widthOf(end) / distance(shore.place, shore.inside)) * (shore.inside - shore.place));
+    if (!place) place = shore.inside;
+    if (shore.distance > least) connection_.extended.push_back(from);
     connection_.touches[end.reach] = 1;
-    moveEnd(end, shore.place + (widthOf(end) / shore.distance) * (shore.place - from));
+    moveEnd(end, *place);
+  }
+
+  bool holdsBanks(const Point& middle, const Point& along) const {
+    const Point half{-0.5 * along.y, 0.5 * along.x};
+    return water_.holds(middle + half) && water_.holds(middle - half);
+  }
+
+  // A place in the water beyond its shore, from `shore` on in the direction of `along`, a width, or as close to that as
+  // possible: where both banks are in the water too, within three widths; else, as at the head of an inlet, a width
+  // away, or less.
+  std::optional<Point> placeWithin(const Point& shore, const Point& along) const {
+    constexpr double kStep = 0.25;  // widths
+    constexpr std::array kTurnsDeg{0.0, 30.0, -30.0, 60.0, -60.0, 90.0, -90.0};
+    std::optional<Point> narrow;
+    double farthest = 0.0;
+    for (const double turn : kTurnsDeg) {
+      const double c = std::cos(toRadians(turn)), s = std::sin(toRadians(turn));
+      const Point ahead{c * along.x - s * along.y, s * along.x + c * along.y};
+      for (double widths = kStep; widths <= kClose; widths += kStep) {
+        const Point middle = shore + widths * ahead;
+        if (!water_.holds(middle)) break;
+        if (widths >= 1.0 && holdsBanks(middle, ahead)) return middle;
+        if (widths > 1.0 || widths <= farthest) continue;
+        farthest = widths;
+        narrow = middle;
+      }
+    }
+    return narrow;
   }
 
   void moveEnd(const FreeEnd& end, const Point& place) {
@@ -151,22 +209,11 @@ class Connector {
     }
   }
 
-  // An end just behind a shore that the river meets at an angle would have one bank on land.
+  // An end just behind a shore would have a bank on land, if the river meets the shore at an angle or is wider than the
+  // water there.
   void widenMouth(const FreeEnd& end) {
-    constexpr double kStep = 0.25;  // widths
-    const RiverReach& reach = network_.reaches[end.reach];
-    const Point place = placeOf(end);
-    const Point before = end.at_end ? reach.points[reach.points.size() - 2] : reach.points[1];
-    const double width = widthOf(end);
-    const Point along = (width / distance(before, place)) * (place - before), half{-0.5 * along.y, 0.5 * along.x};
-    if (!water_.holds(place)) return;
-    for (double widths = 0.0; widths <= kClose; widths += kStep) {
-      const Point middle = place + widths * along;
-      if (!water_.holds(middle)) return;
-      if (!water_.holds(middle + half) || !water_.holds(middle - half)) continue;
-      if (widths > 0.0) moveEnd(end, middle);
-      return;
-    }
+    if (!isInWater(end) || holdsBanks(placeOf(end), alongOf(end))) return;
+    if (const auto place = placeWithin(placeOf(end), alongOf(end))) moveEnd(end, *place);
   }
 
   // How far the networks without water are from it, for messages.

@@ -84,6 +84,7 @@ class GridMaker {
   void addEnd(std::uint32_t reach, std::size_t row) {
     std::vector<std::uint32_t>& end = made_.ends.emplace_back();
     for (std::size_t i = 0; i <= parts_.rows[reach].cells; ++i) end.push_back(nodeOf(reach, row, i));
+    if (row == 0) std::ranges::reverse(end);
   }
 
   // The nodes of the last sections of a junction's branches, in the order of its outline.
@@ -182,19 +183,24 @@ std::size_t setRiverBoundaries(RiverGrid& rivers, const MeshWater& water, const 
     const Point from = plane.forward(grid.nodes[a]), to = plane.forward(grid.nodes[b]);
     return water.holds(from) || water.holds(to) || water.holds(midpoint(from, to));
   };
+  // Just beyond an end: one at the edge of the water is not in it.
+  const auto hasWaterBeyond = [&](std::uint32_t a, std::uint32_t b) {
+    constexpr double kBeyond = 0.02;  // of the edge
+    const Point from = plane.forward(grid.nodes[a]), to = plane.forward(grid.nodes[b]);
+    const Point out{kBeyond * (to.y - from.y), kBeyond * (from.x - to.x)};
+    return water.holds(from + out) || water.holds(to + out) || water.holds(midpoint(from, to) + out);
+  };
   std::vector<NodePair> inflows;
   for (const std::vector<std::uint32_t>& end : rivers.ends) {
-    std::vector<NodePair> edges;
-    for (std::size_t i = 0; i + 1 < end.size(); ++i) edges.push_back(edgeKey(end[i], end[i + 1]));
+    bool is_inflow = true;
+    for (std::size_t i = 0; i + 1 < end.size(); ++i) is_inflow = is_inflow && !hasWaterBeyond(end[i], end[i + 1]);
     // A mouth may be wider than the water there: what is beside that is no inflow.
-    if (std::ranges::none_of(edges, [&](const NodePair& edge) { return touchesWater(edge[0], edge[1]); }))
-      inflows.insert(inflows.end(), edges.begin(), edges.end());
+    for (std::size_t i = 0; i + 1 < end.size() && is_inflow; ++i) inflows.push_back(edgeKey(end[i], end[i + 1]));
   }
   std::ranges::sort(inflows);
   const auto kindOf = [&](std::uint32_t a, std::uint32_t b) {
-    if (touchesWater(a, b)) return BoundaryKind{BoundaryRole::Open};
-    const bool is_inflow = std::ranges::binary_search(inflows, edgeKey(a, b));
-    return BoundaryKind{is_inflow ? BoundaryRole::River : BoundaryRole::Land};
+    if (std::ranges::binary_search(inflows, edgeKey(a, b))) return BoundaryKind{BoundaryRole::River};
+    return BoundaryKind{touchesWater(a, b) ? BoundaryRole::Open : BoundaryRole::Land};
   };
   grid.boundaries = cutLoops(grid, boundaryLoops(grid), kindOf);
   return static_cast<std::size_t>(

@@ -27,7 +27,8 @@ struct RiverParts {
 
 struct RiverGrid {
   Grid grid;
-  std::vector<std::vector<std::uint32_t>> ends;  // the nodes across each free end, from bank to bank
+  // The nodes across each free end, from bank to bank, with the river to the left.
+  std::vector<std::vector<std::uint32_t>> ends;
   // Triangles at junctions that miss the bound on angles, since edges of quadrilaterals leave no room.
   std::size_t below = 0;
   double least_angle_deg = 180.0;  // of them
@@ -39,8 +40,8 @@ struct RiverGrid {
 RiverGrid riverGrid(const RiverParts& parts, const std::vector<RiverLine>& lines, const RiverPlane& plane,
                     const Crs& crs, const RefineOptions& triangle_options, bool sizes, const ItemLoop& loop = inOrder);
 
-// Sets the boundaries of such a grid: edges that touch the mesh's water are open, free ends of which no edge does are
-// rivers, all others are land. Returns the number of river boundaries.
+// Sets the boundaries of such a grid: free ends without water of the mesh beyond are rivers, other edges that touch that
+// water are open, all others are land. Returns the number of river boundaries.
 std::size_t setRiverBoundaries(RiverGrid& rivers, const MeshWater& water, const RiverPlane& plane);
 
 }  // namespace coastmesh

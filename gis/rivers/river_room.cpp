@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "core/metric.hpp"
@@ -23,9 +24,13 @@ struct Piece {  // between two points of a course
 
 class RoomFinder {
  public:
-  RoomFinder(std::span<const RiverCourse> courses, std::span<const double> longest)
-      : courses_(courses), longest_(longest) {
+  RoomFinder(std::span<const RiverCourse> courses, std::span<const double> longest,
+             std::vector<std::pair<Point, Point>> shores)
+      : courses_(courses), longest_(longest), shores_(std::move(shores)) {
     std::vector<Box> boxes;
+    for (const auto& [a, b] : shores_) boxes.push_back(Box::of(a, b));
+    shore_tree_ = BoxTree(boxes, BoxTree::Order::Hilbert);
+    boxes.clear();
     for (std::uint32_t c = 0; c < courses.size(); ++c) {
       widest_ = std::max(widest_, courses[c].maxWidth());
       const std::span<const Point> points = courses[c].points();
@@ -49,6 +54,10 @@ class RoomFinder {
       const double gap = std::sqrt(squaredDistanceToSegment(place, other.points()[k], other.points()[k + 1]));
       room = std::min(room, gap - half - 0.5 * std::max(other.widthAt(k), other.widthAt(k + 1)));
     });
+    shore_tree_.visit(Box::of(place, place).grownBy(room + half), [&](std::uint32_t s) {
+      const double gap = std::sqrt(squaredDistanceToSegment(place, shores_[s].first, shores_[s].second)) - half;
+      if (gap > 0.0) room = std::min(room, gap);
+    });
     return std::max(0.0, room);
   }
 
@@ -58,18 +67,19 @@ class RoomFinder {
   double widest_ = 0.0;
   std::vector<Piece> pieces_;
   BoxTree tree_;
+  std::vector<std::pair<Point, Point>> shores_;
+  BoxTree shore_tree_;
 };
 
 }  // namespace
 
-void limitRows(std::span<RiverCourse> courses, std::span<const double> longest,
-               const std::function<bool(const Point&)>& in_water) {
-  const RoomFinder finder(courses, longest);
+void limitRows(std::span<RiverCourse> courses, std::span<const double> longest, const MeshWater& water) {
+  const RoomFinder finder(courses, longest, water.shores());
   for (std::uint32_t c = 0; c < courses.size(); ++c) {
     const std::span<const Point> points = courses[c].points();
     std::vector<double> room(points.size(), std::numeric_limits<double>::infinity());
     for (std::size_t i = 0; i < points.size(); ++i)
-      if (in_water(points[i])) room[i] = finder.roomAt(c, i);
+      if (water.holds(points[i])) room[i] = finder.roomAt(c, i);
     courses[c].limitRows(std::move(room));
   }
 }

@@ -1,17 +1,15 @@
 #pragma once
 
-#include <functional>
 #include <span>
 
-#include "core/point.hpp"
+#include "gis/rivers/mesh_water.hpp"
 #include "gis/rivers/river_course.hpp"
 
 namespace coastmesh {
 
-// Limits the rows of each course, where `in_water`, to the distance between its bank and that of another one, or of a
-// remote part of its own: the water between them is filled with triangles, which cannot be good beside edges that are
+// Limits the rows of each course, where it is in the water, to the distance between its bank and that of another one, or
+// of a remote part of its own, or the shore: the water between them is filled with triangles, which cannot be good beside edges that are
 // longer. `longest`: the rows' own length, for each course.
-void limitRows(std::span<RiverCourse> courses, std::span<const double> longest,
-               const std::function<bool(const Point&)>& in_water);
+void limitRows(std::span<RiverCourse> courses, std::span<const double> longest, const MeshWater& water);
 
 }  // namespace coastmesh
