@@ -103,7 +103,8 @@ std::string joined(const std::vector<std::string>& texts) {
   return all;
 }
 
-// Of the lines, or of the mesh there if it is deeper, else of rasters, else of the mesh there; nodes without any get what their neighbours have.
+// Of the lines, or of the mesh there if it is deeper, else of rasters, else of the mesh there; nodes without any get
+// what their neighbours have.
 std::string setRiverDepths(LaidRivers& laid, const Grid& mesh, const DepthOptions& options, const RunControl& control,
                            const ItemLoop& loop) {
   Grid& grid = laid.grid;
@@ -149,7 +150,8 @@ void keepDepths(Grid& grid, const MergedMesh& merged) {
   }
 }
 
-// Rivers that ended up without a connection to what is left of the mesh, as beyond a sliver of water too narrow for them.
+// Rivers that ended up without a connection to what is left of the mesh, as beyond a sliver of water too narrow for
+// them.
 std::string unconnectedText(const Grid& grid, const std::vector<MergeSource>& triangles) {
   UnionFind waters(grid.nodes.size());
   for (const auto& corners : grid.triangles) {

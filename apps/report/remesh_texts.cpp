@@ -40,7 +40,7 @@ std::vector<std::string> newNodeWarnings(const RemeshReport& report, const Depth
 }
 
 std::string lostWaterText(const MergeReport& merged) {
-  constexpr double kMuch = 0.01;  // of the area replaced
+  constexpr double kMuch = 0.05;  // of the area replaced
   double replaced = 0.0;
   for (const auto& corners : merged.gone.triangles) {
     const auto [a, b, c] = localPlane(merged.gone, corners);

@@ -29,8 +29,10 @@ void declareRiversOptions(OptionTable& table, RiversUsage& usage) {
       },
       "which parts of rivers get rows: outside: where MESH has no water, and one row into it; all: in its water too, "
       "as in a flood plain or for a dredged channel");
-  table.number({"--reach", "Reach of ends"}, rivers.reach_m, "M", {0.0, kInfinity},
-               "rivers that end this close to the water of MESH are continued to it; default: three times their width");
+  table.number(
+      {"--reach", "Reach of ends"}, rivers.reach_m, "M", {0.0, kInfinity},
+      "rivers that end this close to the water of MESH are continued to it; default: their width, or three times "
+      "that, or an edge of the shore, if they have no other way to the water");
   table.section(Section::Triangles);
   table.integer({"--elements", "Elements across"}, usage.elements, "N", 1, 1000,
                 "quadrilaterals across each river, at least");
@@ -50,7 +52,8 @@ void declareRiversOptions(OptionTable& table, RiversUsage& usage) {
                "replaces more triangles of MESH");
   declareDepths(table, merge.depth,
                 "raster with the depths of new nodes; can be repeated, the first with a value at a node is used; a "
-                "river's own depth takes precedence. Without either, depths are those of MESH there, or of the nodes "
+                "river's own depth takes precedence, unless MESH is deeper there. Without either, depths are those of "
+                "MESH there, or of the nodes "
                 "around");
   declareTargets(table, usage.job.finish.targets,
                  "repair what the model would reject, in all of the mesh, and report each repair; can be repeated");

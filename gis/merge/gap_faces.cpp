@@ -17,17 +17,19 @@ namespace coastmesh {
 
 namespace {
 
-// A node of the first mesh is left out if it is nearer to an edge of the outline that joins than this share of the edge's
-// length. Near others are no triangles.
+// A node of the first mesh is left out if it is nearer to an edge of the outline that joins than this share of the
+// edge's length. Near others are no triangles.
 constexpr double kNear = 0.45;
 
 class GapFiller {
  public:
   GapFiller(const TriMesh& mesh, std::span<const std::uint32_t> same, std::span<const Cover> cover,
-            std::span<const std::vector<VertexId>> holes, const Outline& outline, const ItemLoop& loop)
+            std::span<const std::vector<VertexId>> holes, std::span<const NodePair> lines, const Outline& outline,
+            const ItemLoop& loop)
       : mesh_(mesh),
         same_(same),
         cover_(cover),
+        lines_(lines),
         outline_(outline),
         loop_(loop),
         shift_(static_cast<std::uint32_t>(mesh.points.size())) {
@@ -50,7 +52,7 @@ class GapFiller {
     if (met_.empty() && hole_edges_.empty()) return faces;
     markNodes();
     gatherPoints();
-    gatherEdges(faces.shore);
+    gatherEdges(faces);
     const TriMesh filled = triangulate();
     indexMet();
     std::vector<std::uint8_t> wanted(filled.triangles.size(), 0);
@@ -168,13 +170,15 @@ class GapFiller {
     return std::nullopt;
   }
 
-  void gatherEdges(std::vector<NodePair>& shore) {
+  void gatherEdges(GapFaces& faces) {
+    std::vector<NodePair>& shore = faces.shore;
     std::vector<NodePair> keys = outline_keys_;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> broken;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> broken, broken_lines;
     for (const TriId t : met_) {
       for (unsigned i = 0; i < 3; ++i) {
         const EdgeRef e = edgeRef(t, i), across = mesh_.twin(e);
-        if (across != kNone && cover_[triOf(across)] != Cover::Free) continue;
+        const bool is_line = isLine(e);
+        if (across != kNone && cover_[triOf(across)] != Cover::Free && !is_line) continue;
         const std::uint32_t from = numberOf(mesh_.origin(e)), to = numberOf(mesh_.target(e));
         const NodePair key = edgeKey(from, to);
         if (std::ranges::binary_search(outline_keys_, key)) continue;
@@ -185,6 +189,13 @@ class GapFiller {
             continue;
           }
           shore.push_back(key);
+        } else if (is_line && cover_[triOf(across)] != Cover::Free) {
+          if (!hasPoint(from) || !hasPoint(to) || crossesOutline(from, to)) {
+            if (e > across) continue;
+            if (hasPoint(from)) broken_lines.emplace_back(from, to);
+            if (hasPoint(to)) broken_lines.emplace_back(to, from);
+            continue;
+          }
         }
         keys.push_back(key);
       }
@@ -197,7 +208,9 @@ class GapFiller {
         if (!std::ranges::binary_search(outline_keys_, key)) keys.push_back(key);
       }
     }
-    continueShores(broken, keys, shore);
+    for (const auto& [end, gone, node] : continued(broken, keys)) shore.push_back(edgeKey(end, node));
+    faces.line_ends = continued(broken_lines, keys);
+    std::ranges::sort(faces.line_ends);
     std::ranges::sort(shore);
     std::ranges::sort(keys);
     const auto repeated = std::ranges::unique(keys);
@@ -205,8 +218,11 @@ class GapFiller {
     edges_ = std::move(keys);
   }
 
-  void continueShores(std::span<const std::pair<std::uint32_t, std::uint32_t>> broken, std::vector<NodePair>& keys,
-                      std::vector<NodePair>& shore) const {
+  // Continues edges, from an end to what is gone, to nodes of the outline if nothing is in the way.
+  std::vector<LineEnd> continued(std::span<const std::pair<std::uint32_t, std::uint32_t>> broken,
+                                 std::vector<NodePair>& keys) const {
+    std::vector<LineEnd> ends;
+    if (broken.empty()) return ends;
     std::vector<Box> boxes;
     for (const NodePair& key : keys) boxes.push_back(Box::of(place(key[0]), place(key[1])));
     const BoxTree tree(boxes, BoxTree::Order::Hilbert, loop_);
@@ -223,10 +239,12 @@ class GapFiller {
       };
       tree.visit(Box::of(place(end), place(*node)), [&](std::uint32_t i) { look(keys[i]); });
       for (const NodePair& other : added) look(other);
-      if (!crosses) added.push_back(key);
+      if (crosses) continue;
+      added.push_back(key);
+      ends.push_back({end, gone, *node});
     }
     keys.insert(keys.end(), added.begin(), added.end());
-    shore.insert(shore.end(), added.begin(), added.end());
+    return ends;
   }
 
   TriMesh triangulate() const {
@@ -253,6 +271,8 @@ class GapFiller {
       throw cannotJoin(error);
     }
   }
+
+  bool isLine(EdgeRef e) const { return std::ranges::binary_search(lines_, edgeKey(mesh_.origin(e), mesh_.target(e))); }
 
   bool isOfHole(EdgeRef e) const {
     return std::ranges::binary_search(hole_edges_, NodePair{mesh_.origin(e), mesh_.target(e)});
@@ -292,6 +312,7 @@ class GapFiller {
   const TriMesh& mesh_;
   std::span<const std::uint32_t> same_;
   std::span<const Cover> cover_;
+  std::span<const NodePair> lines_;
   const Outline& outline_;
   const ItemLoop& loop_;
   std::uint32_t shift_;
@@ -313,8 +334,9 @@ InputError cannotJoin(const BadPslg& error) {
 }
 
 GapFaces fillGap(const TriMesh& mesh, std::span<const std::uint32_t> same, std::span<const Cover> cover,
-                 std::span<const std::vector<VertexId>> holes, const Outline& outline, const ItemLoop& loop) {
-  return GapFiller(mesh, same, cover, holes, outline, loop).fill();
+                 std::span<const std::vector<VertexId>> holes, std::span<const NodePair> lines, const Outline& outline,
+                 const ItemLoop& loop) {
+  return GapFiller(mesh, same, cover, holes, lines, outline, loop).fill();
 }
 
 }  // namespace coastmesh

@@ -62,6 +62,16 @@ std::vector<std::vector<VertexId>> openHoles(const TriMesh& mesh, const EdgeKind
   return holes;
 }
 
+std::vector<NodePair> lineEdges(const Grid& grid) {
+  std::vector<NodePair> edges;
+  for (const GridLine& line : grid.lines) {
+    for (std::size_t i = 0; i + 1 < line.nodes.size(); ++i) edges.push_back(edgeKey(line.nodes[i], line.nodes[i + 1]));
+    if (line.closed) edges.push_back(edgeKey(line.nodes.back(), line.nodes.front()));
+  }
+  std::ranges::sort(edges);
+  return edges;
+}
+
 // Nodes of triangles that are kept and of others, or of the outline, in the whole's numbers.
 std::vector<VertexId> changedNodes(const TriMesh& mesh, std::span<const std::uint32_t> same,
                                    std::span<const Cover> cover) {
@@ -103,6 +113,7 @@ class MeshJoiner {
     leaveOutCutOff();
     countJoined();
     requireBoth();
+    joined_.line_ends = std::move(gap_.line_ends);
     return std::move(joined_);
   }
 
@@ -127,8 +138,8 @@ class MeshJoiner {
   }
 
   void fillGaps() {
-    gap_ =
-        fillGap(joined_.mesh, joined_.same, cover_, openHoles(joined_.mesh, kinds_, outline_, loop_), outline_, loop_);
+    gap_ = fillGap(joined_.mesh, joined_.same, cover_, openHoles(joined_.mesh, kinds_, outline_, loop_),
+                   lineEdges(grid_), outline_, loop_);
     assemble();
     const auto enclosed = fillEnclosed(
         joined_.whole, [this](EdgeRef e) { return endKindOf(e); }, loop_);

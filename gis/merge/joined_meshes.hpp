@@ -8,6 +8,7 @@
 #include "core/tri_mesh.hpp"
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/grid/grid.hpp"
+#include "gis/merge/gap_faces.hpp"
 
 namespace coastmesh {
 
@@ -25,6 +26,7 @@ struct JoinedMeshes {
   std::size_t cut_off = 0;          // triangles of waters that only those connected to the rest: left out
   std::size_t joined = 0;           // edges where the inserted mesh ended, with a triangle beyond now
   bool has_open = true;             // the inserted mesh has an open boundary
+  std::vector<LineEnd> line_ends;
 
   bool isTaken(TriId t) const { return taken[t] != 0; }
 };

@@ -63,8 +63,8 @@ Grid partWithout(const Grid& grid, const std::vector<std::uint8_t>& keeps) {
   return part;
 }
 
-// Leaves out the grid's triangles that are not in the merged mesh, and puts these into `gone_part`. Nodes stay. Returns the edges of the others beyond
-// which some were.
+// Leaves out the grid's triangles that are not in the merged mesh, and puts these into `gone_part`. Nodes stay.
+// Returns the edges of the others beyond which some were.
 std::vector<NodePair> cutOut(Grid& grid, const JoinedMeshes& joined, Grid& gone_part, const ItemLoop& loop) {
   std::vector<std::uint8_t> keeps(grid.triangles.size(), 0);
   for (TriId i = 0; i < joined.first_inserted; ++i) keeps[joined.kept[i]] = joined.taken[i];
@@ -78,6 +78,42 @@ std::vector<NodePair> cutOut(Grid& grid, const JoinedMeshes& joined, Grid& gone_
   std::vector<NodePair> cut;
   for (const Boundary& boundary : boundaries.cuts) std::ranges::move(edgesOf(boundary), std::back_inserter(cut));
   return cut;
+}
+
+// The lines up to nodes of the outline where it passes them. What else is not along edges any more is cut off later.
+std::vector<GridLine> upToOutline(std::vector<GridLine>&& lines, const std::vector<LineEnd>& ends) {
+  if (ends.empty()) return std::move(lines);
+  const auto nodeOf = [&](std::uint32_t from, std::uint32_t gone) {
+    const auto at = std::ranges::lower_bound(ends, LineEnd{from, gone, 0});
+    return at != ends.end() && at->from == from && at->gone == gone ? at->node : kNone;
+  };
+  std::vector<GridLine> all;
+  for (GridLine& line : lines) {
+    if (line.closed) line.nodes.push_back(line.nodes.front());
+    bool is_passed = false;
+    for (std::size_t i = 1; i < line.nodes.size(); ++i)
+      is_passed = is_passed || nodeOf(line.nodes[i - 1], line.nodes[i]) != kNone ||
+                  nodeOf(line.nodes[i], line.nodes[i - 1]) != kNone;
+    if (!is_passed) {
+      if (line.closed) line.nodes.pop_back();
+      all.push_back(std::move(line));
+      continue;
+    }
+    GridLine piece{line.kind, line.name, false, {}};
+    for (std::size_t i = 0; i < line.nodes.size(); ++i) {
+      const std::uint32_t here = line.nodes[i], before = i == 0 ? kNone : line.nodes[i - 1];
+      const std::uint32_t last = i == 0 ? kNone : nodeOf(before, here), first = i == 0 ? kNone : nodeOf(here, before);
+      if (last != kNone || first != kNone) {
+        if (last != kNone) piece.nodes.push_back(last);
+        all.push_back(std::exchange(piece, {line.kind, line.name, false, {}}));
+        if (first != kNone) piece.nodes.push_back(first);
+      }
+      piece.nodes.push_back(here);
+    }
+    all.push_back(std::move(piece));
+  }
+  std::erase_if(all, [](const GridLine& line) { return line.nodes.size() < 2; });
+  return all;
 }
 
 // Appends the gap's triangles, with the feature of the grid's triangle that is nearest through the gap. A part of it
@@ -170,11 +206,14 @@ MergeReport mergeGrids(Grid& grid, Grid&& inserted, const ItemLoop& loop) {
   const std::vector<std::uint32_t> instead = becomes(joined.same, inserted.nodes.size());
   const std::size_t inserted_triangles = inserted.triangles.size();
   SeamOrigin origin;
+  std::vector<GridLine> lines = upToOutline(std::exchange(grid.lines, {}), joined.line_ends);
   for (const auto& [a, b] : cutOut(grid, joined, report.gone, loop))
     origin.cut.push_back(edgeKey(instead[a], instead[b]));
   matchValues(grid, inserted);
   origin.first_inserted = grid.boundaries.size();
   appendGrid(grid, std::move(inserted));
+  std::ranges::move(grid.lines, std::back_inserter(lines));
+  grid.lines = std::move(lines);
   replaceNodes(grid, instead);
   origin.first_gap = static_cast<TriId>(grid.triangles.size());
   appendGap(grid, joined);

@@ -159,10 +159,9 @@ class RiverLayer {
       report_.moved_m = course.moved() / scale;
       report_.moved_place = plane_.inverse(course.movedPlace());
     }
-    if (options_.extent == RiverExtent::Outside) return;
     std::vector<double> longest;
     for (const ReachShape& shape : shapes_) longest.push_back(options_.aspect * shape.cell);
-    limitRows(courses_, longest, water_);
+    limitRows(courses_, longest, water_, options_.extent == RiverExtent::All);
   }
 
   std::size_t cellsOf(const RiverReach& reach, double width_m) const {

@@ -40,8 +40,8 @@ struct RiverGrid {
 RiverGrid riverGrid(const RiverParts& parts, const std::vector<RiverLine>& lines, const RiverPlane& plane,
                     const Crs& crs, const RefineOptions& triangle_options, bool sizes, const ItemLoop& loop = inOrder);
 
-// Sets the boundaries of such a grid: free ends without water of the mesh beyond are rivers, other edges that touch that
-// water are open, all others are land. Returns the number of river boundaries.
+// Sets the boundaries of such a grid: free ends without water of the mesh beyond are rivers, other edges that touch
+// that water are open, all others are land. Returns the number of river boundaries.
 std::size_t setRiverBoundaries(RiverGrid& rivers, const MeshWater& water, const RiverPlane& plane);
 
 }  // namespace coastmesh

@@ -23,8 +23,8 @@ struct RiverNetwork {
   std::vector<std::uint32_t> within;  // lines that are within wider ones, or given before: they have no reach
 };
 
-// Lines become a network where they cross, and where one ends so close to another that, as wide as they are, they touch.
-// Parts of lines within wider ones (`piecesOf`), and those shorter than half their width at such places, are
+// Lines become a network where they cross, and where one ends so close to another that, as wide as they are, they
+// touch. Parts of lines within wider ones (`piecesOf`), and those shorter than half their width at such places, are
 // dropped.
 RiverNetwork riverNetwork(std::span<const PlaneRiver> rivers);
 

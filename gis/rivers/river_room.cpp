@@ -55,13 +55,29 @@ class RoomFinder {
       room = std::min(room, gap - half - 0.5 * std::max(other.widthAt(k), other.widthAt(k + 1)));
     });
     shore_tree_.visit(Box::of(place, place).grownBy(room + half), [&](std::uint32_t s) {
-      const double gap = std::sqrt(squaredDistanceToSegment(place, shores_[s].first, shores_[s].second)) - half;
+      const double gap = gapTo(shores_[s], place) - half;
       if (gap > 0.0) room = std::min(room, gap);
     });
     return std::max(0.0, room);
   }
 
+  // At a mouth: the length of the shortest edge of the shore that passes the river there.
+  double roomAtShore(std::uint32_t of_course, std::size_t i) const {
+    const RiverCourse& own = courses_[of_course];
+    const Point& place = own.points()[i];
+    const double half = 0.5 * own.widthAt(i);
+    double room = std::numeric_limits<double>::infinity();
+    shore_tree_.visit(Box::of(place, place).grownBy(half), [&](std::uint32_t s) {
+      if (gapTo(shores_[s], place) <= half) room = std::min(room, distance(shores_[s].first, shores_[s].second));
+    });
+    return room;
+  }
+
  private:
+  static double gapTo(const std::pair<Point, Point>& shore, const Point& place) {
+    return std::sqrt(squaredDistanceToSegment(place, shore.first, shore.second));
+  }
+
   std::span<const RiverCourse> courses_;
   std::span<const double> longest_;
   double widest_ = 0.0;
@@ -73,13 +89,15 @@ class RoomFinder {
 
 }  // namespace
 
-void limitRows(std::span<RiverCourse> courses, std::span<const double> longest, const MeshWater& water) {
+void limitRows(std::span<RiverCourse> courses, std::span<const double> longest, const MeshWater& water, bool in_water) {
   const RoomFinder finder(courses, longest, water.shores());
   for (std::uint32_t c = 0; c < courses.size(); ++c) {
     const std::span<const Point> points = courses[c].points();
-    std::vector<double> room(points.size(), std::numeric_limits<double>::infinity());
-    for (std::size_t i = 0; i < points.size(); ++i)
-      if (water.holds(points[i])) room[i] = finder.roomAt(c, i);
+    std::vector<double> room;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      room.push_back(finder.roomAtShore(c, i));
+      if (in_water && water.holds(points[i])) room.back() = std::min(room.back(), finder.roomAt(c, i));
+    }
     courses[c].limitRows(std::move(room));
   }
 }

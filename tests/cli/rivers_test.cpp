@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -137,6 +138,48 @@ TEST_F(Rivers, InTheWaterOfTheMeshWithExtentAll) {
   EXPECT_EQ(info["z"][0], -12.0);
 }
 
+// The depths of the nodes of a file in gr3, by their places.
+struct DepthAt {
+  double x, y, depth;
+};
+std::vector<DepthAt> depthsOf(const std::string& text) {
+  std::istringstream lines(text);
+  std::string line;
+  std::size_t elements = 0, nodes = 0, number = 0;
+  std::getline(lines, line);
+  lines >> elements >> nodes;
+  std::vector<DepthAt> all(nodes);
+  for (DepthAt& node : all) lines >> number >> node.x >> node.y >> node.depth;
+  return all;
+}
+
+TEST_F(Rivers, DigNothingBesideThem) {
+  write("plain.asc", "ncols 2\nnrows 2\nxllcorner -10000\nyllcorner -10000\ncellsize 20000\n5 5\n5 5\n");
+  ASSERT_EQ(runProgram({"mesh", file("sea.poly"), "-o", file("plain.nc"), "--size-max", "1000", "--bathymetry",
+                        file("plain.asc"), "--quiet"})
+                .code,
+            0);
+  const std::string inside = lines("inside.csv", {"\"LINESTRING (500 5000, 9500 6000)\",100,3,River"});
+  const ProgramRun run =
+      runProgram({"rivers", file("plain.nc"), inside, "--extent", "all", "-o", file("x.gr3"), "--quiet"});
+  ASSERT_EQ(run.code, 0) << run.errors;
+  std::size_t bed = 0;
+  for (const DepthAt& node : depthsOf(readText(file("x.gr3")))) {
+    EXPECT_TRUE(std::abs(node.depth - 3.0) < 1e-6 || std::abs(node.depth + 5.0) < 1e-6) << node.depth;
+    if (node.depth > 0.0) ++bed;
+  }
+  EXPECT_GT(bed, 100u);
+}
+
+TEST_F(Rivers, AreNoSillsInDeeperWater) {
+  ASSERT_EQ(runProgram({"rivers", sea(), twoRivers(), "-o", file("x.gr3"), "--quiet"}).code, 0);
+  for (const DepthAt& node : depthsOf(readText(file("x.gr3")))) {
+    if (node.x < 9999.0) {
+      EXPECT_NEAR(node.depth, 9.0, 1e-6);
+    }
+  }
+}
+
 TEST_F(Rivers, OneThatIsApartIsNamed) {
   const ProgramRun run =
       runProgram({"rivers", sea(), lines("three.csv", {kMain, kApart, kBranch}), "-o", file("x.nc")});
@@ -169,9 +212,19 @@ TEST_F(Rivers, RefusesAndWritesNothing) {
           {"area.csv', feature 1", "is a polygon, not the centre line of a river"});
   refused({lines("point.csv", {"POINT (9800 5000),200,4,a"})}, 3, {"point.csv', feature 1", "is a point"});
   refused({lines("empty.csv", {})}, 3, {"empty.csv'", "no feature in it is a line"});
+  refused({good, "--depth-column", "dpt"}, 3, {"rivers.csv'", "no attribute 'dpt'"});
+  refused({good, "--name-column", "called"}, 3, {"rivers.csv'", "no attribute 'called'"});
+  refused({lines("degrees.csv", {"\"LINESTRING (3.1 51.4, 3.2 51.5)\",200,4,a"})}, 3,
+          {"sea.nc' has no CRS", "in degrees", "--assume-crs"});
   refused({good, "--elements", "0"}, 2, {"--elements"});
   refused({good, "--extent", "some"}, 2, {"--extent"});
   refused({good, "--numbers", file("n.csv"), "--target", "schism"}, 2, {"--numbers"});
+  ASSERT_EQ(runProgram({"mesh", file("sea.poly"), "-o", file("bare.nc"), "--size-max", "2000", "--quiet"}).code, 0);
+  const ProgramRun bare =
+      runProgram({"rivers", file("bare.nc"), good, "--bathymetry", file("bed.asc"), "-o", file("x.nc")});
+  EXPECT_EQ(bare.code, 3);
+  EXPECT_THAT(bare.errors, HasSubstr("bare.nc' has no depths"));
+  EXPECT_THAT(bare.errors, HasSubstr("convert --bathymetry"));
   const ProgramRun over = runProgram({"rivers", sea(), good, "-o", sea(), "--overwrite"});
   EXPECT_EQ(over.code, 2) << over.errors;
 }

@@ -387,6 +387,11 @@ TEST(MergeGrids, LinesAndFeatures) {
   EXPECT_EQ(grid.lines[0].name, "cable");
   EXPECT_EQ(grid.lines[1].name, "cable");
   EXPECT_EQ(grid.lines[2].name, "dam");
+  // Up to the inserted mesh.
+  EXPECT_EQ(grid.nodes[grid.lines[0].nodes.front()].x, 0.0);
+  EXPECT_EQ(grid.nodes[grid.lines[0].nodes.back()].x, 8.0);
+  EXPECT_EQ(grid.nodes[grid.lines[1].nodes.front()].x, 13.0);
+  EXPECT_EQ(grid.nodes[grid.lines[1].nodes.back()].x, 20.0);
   for (std::size_t t = 0; t < grid.triangles.size(); ++t)
     EXPECT_EQ(grid.features[grid.feature_of[t]].source, report.triangles[t].mesh == 1 ? "" : "sea");
 }

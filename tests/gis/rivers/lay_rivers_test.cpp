@@ -139,6 +139,119 @@ TEST(LayRivers, EndsCloseToTheWaterAreContinued) {
   EXPECT_EQ(layRivers(farther, sea(), options).report.extended.size(), 1u);
 }
 
+TEST(LayRivers, ASpringNearTheWaterIsNoSecondMouth) {
+  const std::vector<RiverLine> lines{lineOf({{-250, 2050}, {-2000, 2050}, {-2000, 500}, {300, 500}}, 100.0)};
+  const LaidRivers laid = layRivers(lines, sea(), {});
+  EXPECT_TRUE(laid.report.extended.empty());
+  ASSERT_EQ(laid.report.left.size(), 1u);
+  EXPECT_NEAR(laid.report.left[0].x, -250.0, 1e-6);
+  EXPECT_EQ(laid.report.inflows, 1u);
+  RiverOptions options;
+  options.reach_m = 300.0;
+  const LaidRivers asked = layRivers(lines, sea(), options);
+  EXPECT_EQ(asked.report.extended.size(), 1u);
+  EXPECT_EQ(asked.report.inflows, 0u);
+}
+
+TEST(LayRivers, ACanalBetweenTwoWatersReachesBoth) {
+  Grid waters = gridOf({20, 20, 200.0, {}, 0.0, [](int column, int) { return column < 8 || column > 11; }});
+  const LaidRivers laid = layRivers({lineOf({{1690, 2050}, {2310, 2050}}, 30.0)}, waters, {});
+  EXPECT_EQ(laid.report.extended.size(), 2u);  // 90 m on either side
+  EXPECT_EQ(laid.report.inflows, 0u);
+}
+
+TEST(LayRivers, BothBanksReachTheWaterWhereALineJustEndsInIt) {
+  for (const double slope : {-1.0, -0.5, 0.3, 1.2}) {
+    SCOPED_TRACE(slope);
+    Grid grid = sea();
+    LaidRivers laid = layRivers({lineOf({{-2999, 2050 - 3000 * slope}, {1, 2050}}, 200.0)}, grid, {});
+    ASSERT_EQ(laid.report.inflows, 1u);
+    const double area = areaOf(grid);
+    mergeMesh(grid, std::move(laid.grid), {});
+    EXPECT_EQ(boundaryLoops(linkGrid(grid).mesh).size(), 1u);
+    EXPECT_GT(areaOf(grid), area + 0.9 * 200.0 * 3000.0 * std::hypot(1.0, slope));
+    // No wall across it.
+    for (const Boundary& boundary : grid.boundaries) {
+      EXPECT_NE(boundary.role, BoundaryRole::Open);
+      for (const NodePair& edge : edgesOf(boundary)) {
+        const Point middle = midpoint(grid.nodes[edge[0]], grid.nodes[edge[1]]);
+        if (boundary.role == BoundaryRole::River || middle.x > 500.0) continue;
+        EXPECT_GT(std::abs(middle.y - 2050 - slope * (middle.x - 1)) / std::hypot(1.0, slope), 95.0) << middle.x;
+      }
+    }
+  }
+}
+
+TEST(LayRivers, AnEndOnAShoreIsConnected) {
+  for (const Point& end : {Point{0, 2000}, Point{0, 2050}, Point{0, 4000}}) {
+    Grid grid = sea();
+    LaidRivers laid = layRivers({lineOf({{-3000, 2500}, end}, 60.0)}, grid, {});
+    EXPECT_TRUE(lossesOf(laid).empty());
+    mergeMesh(grid, std::move(laid.grid), {});
+    EXPECT_EQ(boundaryLoops(linkGrid(grid).mesh).size(), 1u);
+  }
+}
+
+// An inlet that ends in a point, at which the river comes in.
+TEST(LayRivers, ARiverAtTheHeadOfAnInletIsConnected) {
+  Grid grid = sea();
+  // Two triangles beside the sea's western shore, 400 m wide there, with their tip 600 m from it.
+  const auto tip = static_cast<std::uint32_t>(grid.nodes.size());
+  grid.nodes.push_back({-600, 2000});
+  grid.z.push_back(-10.0);
+  const auto nodeAt = [&](double y) {
+    return static_cast<std::uint32_t>(
+        std::ranges::find_if(grid.nodes, [&](const Point& p) { return p.x == 0.0 && p.y == y; }) - grid.nodes.begin());
+  };
+  grid.triangles.push_back({tip, nodeAt(1800), nodeAt(2000)});
+  grid.triangles.push_back({tip, nodeAt(2000), nodeAt(2200)});
+  grid.boundaries = findBoundaries(linkGrid(grid).mesh);
+  for (const double end : {-599.0, -600.0, -605.0, -560.0}) {
+    SCOPED_TRACE(end);
+    Grid whole = grid;
+    LaidRivers laid = layRivers({lineOf({{-4000, 2100}, {end, 2000}}, 100.0)}, whole, {});
+    EXPECT_TRUE(lossesOf(laid).empty());
+    mergeMesh(whole, std::move(laid.grid), {});
+    EXPECT_EQ(boundaryLoops(linkGrid(whole).mesh).size(), 1u);
+  }
+}
+
+TEST(LayRivers, AnEndAtTheEdgeOfTheWaterIsAnInflow) {
+  RiverOptions options;
+  options.extent = RiverExtent::All;
+  for (const double start : {0.0, -60.0}) {
+    const LaidRivers laid = layRivers({lineOf({{start, 2050}, {2000, 2050}}, 100.0)}, sea(), options);
+    EXPECT_EQ(laid.report.inflows, 1u) << start;
+    EXPECT_TRUE(laid.report.extended.empty());
+  }
+}
+
+TEST(LayRivers, RowsBesideAShoreAreShortEnoughForTrianglesBetween) {
+  RiverOptions options;
+  options.extent = RiverExtent::All;
+  Grid grid = sea();
+  LaidRivers laid = layRivers({lineOf({{400, 130}, {3600, 130}}, 100.0)}, grid, options);  // 80 m from the shore
+  const double area = areaOf(grid);
+  const MergedMesh merged = mergeMesh(grid, std::move(laid.grid), {});
+  EXPECT_NEAR(areaOf(grid), area, 1e-6 * area);
+  EXPECT_NEAR(merged.merged.lost.area_m2, 0.0, 1e-3);
+}
+
+TEST(LayRivers, OfTwoThatLeaveAMouthNoRoomTheNarrowerIsLost) {
+  const LaidRivers laid = layRivers({lineOf({{-3000, 2050}, {-480, 2050}, {100, 2050}}, 105.0, "main"),
+                                     lineOf({{-480, 2050}, {-180, 2100}, {100, 2140}, {200, 2150}}, 45.0, "branch")},
+                                    sea(), {});
+  ASSERT_EQ(laid.report.lost.size(), 1u);
+  EXPECT_EQ(laid.report.lost[0].name, "'branch'");
+  EXPECT_NEAR(areaOf(laid.grid), 105.0 * 3100.0, 105.0 * 300.0);
+}
+
+TEST(LayRivers, ALineWiderThanLongIsNamed) {
+  const LaidRivers laid = layRivers({lineOf({{-3000, 2050}, {100, 2050}}, 1e5, "lake")}, sea(), {});
+  ASSERT_EQ(laid.report.lost.size(), 1u);
+  EXPECT_EQ(laid.report.lost[0].why, RiverLoss::Short);
+}
+
 TEST(LayRivers, TheNarrowerOfTwoThatOverlapIsLost) {
   const LaidRivers laid = layRivers({lineOf({{-3000, 2050}, {100, 2050}}, 200.0, "wide"),
                                      lineOf({{-3000, 2250}, {-1000, 2165}, {-800, 2350}, {100, 2400}}, 80.0, "narrow")},

@@ -38,12 +38,12 @@ TEST(RiverNetwork, LinesThatFollowOneAnotherAreOneReachInEitherDirection) {
               ::testing::AnyOf(::testing::ElementsAre(0, 1, 2), ::testing::ElementsAre(2, 1, 0)));
 }
 
-TEST(RiverNetwork, ALineThatEndsWithinHalfAWidthOfAnotherJoinsIt) {
+TEST(RiverNetwork, ALineThatAsWideAsItIsEndsInAnotherJoinsIt) {
   const PlaneRiver main{{{0, 0}, {100, 0}}, 10.0};
-  const RiverNetwork joined = riverNetwork(std::vector{main, PlaneRiver{{{50, 40}, {50, 4.9}}, 2.0}});
+  const RiverNetwork joined = riverNetwork(std::vector{main, PlaneRiver{{{50, 40}, {50, 5.9}}, 2.0}});
   expectSound(joined);
   EXPECT_THAT(degreesOf(joined), ::testing::ElementsAre(1, 1, 1, 3));
-  const RiverNetwork apart = riverNetwork(std::vector{main, PlaneRiver{{{50, 40}, {50, 5.1}}, 2.0}});
+  const RiverNetwork apart = riverNetwork(std::vector{main, PlaneRiver{{{50, 40}, {50, 6.1}}, 2.0}});
   expectSound(apart);
   EXPECT_THAT(degreesOf(apart), ::testing::ElementsAre(1, 1, 1, 1));
 }

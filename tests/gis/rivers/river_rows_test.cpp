@@ -53,6 +53,20 @@ TEST(RiverCourse, SharpTurnsAreRoundedAndTheRestStays) {
   expectConvex(riverRows(course, 0.0, course.length(), 3, 4.0));
 }
 
+TEST(RiverRows, GrowGraduallyOutOfABend) {
+  const RiverCourse course = courseOf({{{0, 0}, {4000, 0}, {6000, 3464}}, 350.0});
+  const RiverRows rows = riverRows(course, 0.0, course.length(), 2, 3.0);
+  double shortest = 1e9, longest = 0.0;
+  for (std::size_t row = 0; row + 2 < rows.sections.size(); ++row) {
+    const double here = distance(rows.sections[row].place, rows.sections[row + 1].place);
+    const double next = distance(rows.sections[row + 1].place, rows.sections[row + 2].place);
+    EXPECT_LT(std::max(here, next), 1.8 * std::min(here, next)) << "row " << row;
+    shortest = std::min(shortest, here);
+    longest = std::max(longest, here);
+  }
+  EXPECT_GT(longest, 2.5 * shortest);
+}
+
 TEST(RiverCourse, StepsOfARasterAreSmoothed) {
   PlaneRiver river{{}, 100.0};
   for (int i = 0; i < 60; ++i) {
