@@ -245,6 +245,14 @@ class FilesTest(unittest.TestCase):
         np.testing.assert_array_equal(read.triangles, mesh.triangles)
         self.assertIsNone(read.report)
 
+    def test_meshes_the_outline_of_a_shape(self):
+        line = {"type": "LineString", "coordinates": POLYGON["coordinates"][0]}
+
+        class Ring:
+            __geo_interface__ = {**line, "type": "LinearRing"}  # of shapely
+
+        np.testing.assert_array_equal(coastmesh.mesh(Ring()).points, coastmesh.mesh(line).points)
+
     def test_geojson_as_dict_text_and_interface(self):
         expected = coastmesh.mesh(POLYGON)
         self.assertEqual(expected.crs, "EPSG:4326")

@@ -115,9 +115,11 @@ def _geojson_of(part):
     if isinstance(part, dict):
         return part
     if not isinstance(part, str):
-        if not isinstance(part.__geo_interface__, dict):
+        geojson = part.__geo_interface__
+        if not isinstance(geojson, dict):
             raise TypeError(f"the __geo_interface__ of a {type(part).__name__} is no dict")
-        return part.__geo_interface__
+        # The outline of a polygon in shapely, which GeoJSON does not know.
+        return {**geojson, "type": "LineString"} if geojson.get("type") == "LinearRing" else geojson
     try:
         return json.loads(part)
     except json.JSONDecodeError as error:
