@@ -296,7 +296,7 @@ def cases():
               "--min-angle": Case("15"), "--max-angle": Case("90"), "--grade": Case("0.02"), "--target": Case("mpas"),
               "--numbers": Case("numbers.csv"), "--assume-crs": Case("EPSG:4326", input="bare.2dm")}
     for name in ("--bathymetry", "--depth-method", "--depth-sign", "--water-level", "--min-depth"):
-        rivers[name] = Case(mesh[name].value, extra=[*mesh[name].extra, "--depth-column", "none"])
+        rivers[name] = Case(mesh[name].value, extra=mesh[name].extra, input="deep.nc")
     return {"mesh": mesh, "check": check, "convert": convert, "clean": clean, "plot": plot, "info": info,
             "partition": partition, "gather": gather, "cut": cut, "remesh": remesh, "merge": merge, "rivers": rivers}
 
