@@ -440,6 +440,66 @@ class ProviderTest(unittest.TestCase):
         self.assertIn("--crs=EPSG:32631 --no-coarsen", self.log.text().replace("--no-coarsen --crs=EPSG:32631",
                                                                            "--crs=EPSG:32631 --no-coarsen"))
 
+    def given(self, **parameters):
+        """The words of the command that give those parameters, whether or not the program takes their values."""
+        self.log.lines.clear()
+        try:
+            self.mesh(memory_layer(LAKE), **parameters)
+        except QgsProcessingException as error:
+            self.log.lines.append(str(error))
+        words = shlex.split(self.command())
+        return [word for word in words for name in parameters if word.startswith(f"--{name.lower().replace('_', '-')}=")]
+
+    def test_each_item_of_a_list_and_each_line_is_a_value_of_a_repeatable_option(self):
+        usage = json.loads(subprocess.run([PROGRAM, "--json-usage"], capture_output=True, check=True).stdout)
+        provider = QgsApplication.processingRegistry().providerById("coastmesh")
+        tried = set()
+        for command in usage["commands"]:
+            algorithm = provider.algorithm(command["command"])
+            for option in command["options"] if algorithm else []:
+                name = option["name"][2:].replace("-", "_").upper()
+                parameter = algorithm.parameterDefinition(name)
+                if not option.get("multiple") or option["type"] == "file" or parameter is None:
+                    continue
+                self.assertTrue(parameter.multiLine(), name)
+                self.assertIn("one value per line, or a list", parameter.help())
+                self.assertIn("one value per line, or a list", algorithm.shortHelpString())
+                if command["command"] != "mesh":
+                    continue
+                tried.add(name)
+                words = [f"{option['name']}=one, 1", f"{option['name']}=two"]
+                for value in (["one, 1", "two"], ("one, 1", "two"), ["one, 1", "", "two"], "one, 1\n\ntwo\n"):
+                    self.assertEqual(self.given(**{name: value}), words, value)
+                self.assertEqual(self.given(**{name: ["two"]}), words[1:])
+                self.assertEqual(self.given(**{name: "two"}), words[1:])
+                self.assertEqual(self.given(**{name: []}), [])
+        self.assertLessEqual({"TARGET", "DEPTH_BAND"}, tried)
+
+    def test_a_list_of_models_makes_a_grid_with_their_repairs(self):
+        # Two squares that meet in a corner: ADCIRC rejects the node there.
+        pinched = memory_layer("MULTIPOLYGON(((0 0, 1 0, 1 1, 0 1, 0 0)), ((1 1, 2 1, 2 2, 1 2, 1 1)))")
+        self.mesh(pinched, TARGET=["adcirc", "schism"], REPORT=self.path("r.json"))
+        with open(self.path("r.json"), encoding="utf-8") as file:
+            repairs = json.load(file)["repairs"]
+        self.assertEqual({each["target"] for each in repairs["done"]}, {"adcirc"})
+
+    def test_values_that_cannot_be_taken_are_refused_and_told_how_to_give_several(self):
+        for value in ("adcirc,schism", "adcirc;schism", "adcirc schism", ["swan", "adcirc,schism"]):
+            with self.assertRaisesRegex(QgsProcessingException, "several values of TARGET are given one per line"):
+                self.mesh(memory_layer(LAKE), TARGET=value)
+        with self.assertRaisesRegex(QgsProcessingException, "several values of DEPTH_BAND are given one per line"):
+            self.mesh(memory_layer(LAKE), DEPTH_BAND="0,10,50;10,20,100", TARGET=["adcirc"])
+        with self.assertRaises(QgsProcessingException) as caught:
+            self.mesh(memory_layer(LAKE), TARGET="adcirk")
+        self.assertNotIn("per line", str(caught.exception))
+        for value in ([["adcirc"]], [None], [True], {"adcirc": "schism"}):
+            with self.assertRaisesRegex(QgsProcessingException, "TARGET", msg=str(value)):
+                self.mesh(memory_layer(LAKE), TARGET=value)
+        for name, value in (("BOUNDARY_COLUMN", ["a", "b"]), ("COARSEN", [False])):
+            with self.assertRaisesRegex(QgsProcessingException, f"{name} takes one value, not {len(value)} in a list"):
+                self.mesh(memory_layer(LAKE), **{name: value})
+        self.assertEqual(os.listdir(self.folder), [])
+
     def test_former_names_of_parameters_are_taken_with_a_warning(self):
         self.mesh(memory_layer(LAKE), SHRINK=False)
         self.assertIn("--no-coarsen", self.log.text())

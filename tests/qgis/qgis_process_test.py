@@ -77,6 +77,13 @@ class QgisProcessTest(unittest.TestCase):
         self.assertEqual(run.returncode, 0)
         self.assertIn("minimum angle of the triangles", run.stdout)
 
+    def test_a_parameter_given_twice_has_both_values(self):
+        run = self.call("run", "coastmesh:mesh", "--", f"INPUT={self.lake}", f"OUTPUT={self.path('a.nc')}", "SIZE_MAX=5000",
+                        "TARGET=adcirc", "TARGET=schism")
+        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+        self.assertIn("--target=adcirc --target=schism", run.stdout)
+        self.assertIn("one value per line, or a list", self.call("help", "coastmesh:mesh").stdout)
+
     def test_an_error_is_shown_and_fails(self):
         empty = self.path("empty.geojson")
         with open(empty, "w", encoding="utf-8") as file:

@@ -19,7 +19,7 @@ from qgis.core import (
     QgsProcessingUtils,
 )
 
-from .parameters import arguments_of, by_present_names, crs_text, make_parameter
+from .parameters import arguments_of, by_present_names, crs_text, help_of, how_to_give_several, make_parameter
 from .program import ProgramError, find_program
 from .running import SHORT, run_program
 from .sources import Sources, takes_selection
@@ -85,7 +85,7 @@ class CoastmeshAlgorithm(QgsProcessingAlgorithm):
             if option["section"] != section:
                 section = option["section"]
                 lines.append(f"<h3>{_html(section)}</h3>")
-            label, said = option["label"], option["help"]
+            label, said = option["label"], help_of(option)
             rest = said[len(label):] if said.lower().startswith(label.lower()) else ": " + said
             lines.append(f"<p><b>{_html(label)}</b>{_html(rest)}</p>")
         return "".join(lines)
@@ -227,7 +227,11 @@ class CoastmeshAlgorithm(QgsProcessingAlgorithm):
             report, made = self._report(arguments)
             if made:
                 arguments.append(f"--report={report}")
-            code = run_program(program, [self.name(), *arguments], feedback, sources.in_words)
+            try:
+                code = run_program(program, [self.name(), *arguments], feedback, sources.in_words)
+            except QgsProcessingException as error:
+                several = how_to_give_several(self.shown_options, parameters, str(error))
+                raise QgsProcessingException(str(error) + several) from error
             if code is None:
                 return {}
             said = self._said(report, feedback, sources.in_words) if report else {}

@@ -6,6 +6,7 @@ from qgis.core import (
     QgsCoordinateTransform,
     QgsPointXY,
     QgsProcessing,
+    QgsProcessingException,
     QgsProcessingParameterBoolean,
     QgsProcessingParameterCrs,
     QgsProcessingParameterDefinition,
@@ -30,6 +31,7 @@ from .verbs import BASIC
 EXTENT_UNIT = "W,S,E,N"
 POINT_UNIT = "LON,LAT"
 WORKING_PLANES = ("auto", "plane")  # what --crs takes besides a CRS
+LISTS = (list, tuple)  # what scripts, and qgis_process for a parameter given twice, have for several values
 NUMBER = r"\s*([-+0-9.eE]+)\s*"
 # XMIN,XMAX,YMIN,YMAX [CRS]
 BOX = re.compile(f"^{NUMBER},{NUMBER},{NUMBER},{NUMBER}(?:\\[(?P<crs>.*)\\])?\\s*$")
@@ -57,10 +59,20 @@ def by_present_names(options, parameters):
 def make_parameter(option):
     """The parameter that stands for an option; its default is the program's own."""
     parameter = _make(option, parameter_name(option), _title(option))
-    parameter.setHelp(option["help"])
+    parameter.setHelp(help_of(option))
     if option["name"] not in BASIC and not option.get("required"):
         parameter.setFlags(parameter.flags() | QgsProcessingParameterDefinition.FlagAdvanced)
     return parameter
+
+
+def help_of(option):
+    """What the program says of the option, and how a parameter of text takes several values."""
+    return f"{option['help']}; one value per line, or a list" if _takes_lines(option) else option["help"]
+
+
+def _takes_lines(option):
+    """Whether each line of the parameter's text is a value: Processing has lists of layers, but none of text."""
+    return option.get("multiple", False) and option["type"] != "file"
 
 
 def _title(option):
@@ -72,6 +84,8 @@ def _make(option, name, title):
     default = option.get("default")
     optional = default is None and not option.get("required", False)
     kind, unit = option["type"], option.get("unit")
+    if _takes_lines(option):
+        return QgsProcessingParameterString(name, title, default, multiLine=True, optional=optional)
     if kind == "flag":
         return QgsProcessingParameterBoolean(name, title, default, optional)
     if kind == "choice":
@@ -88,8 +102,7 @@ def _make(option, name, title):
         return QgsProcessingParameterExtent(name, title, default, optional)
     if unit == POINT_UNIT:
         return QgsProcessingParameterPoint(name, title, default, optional)
-    several = option.get("multiple", False)
-    return QgsProcessingParameterString(name, title, default, multiLine=several, optional=optional)
+    return QgsProcessingParameterString(name, title, default, optional=optional)
 
 
 def _number(option, name, title, optional):
@@ -139,6 +152,10 @@ def arguments_of(option, algorithm, parameters, context, path_of_layer, crs):
     if value is None or value == "" or (isinstance(value, QVariant) and value.isNull()):
         return []
     flag, kind, unit = option["name"], option["type"], option.get("unit")
+    if _takes_lines(option):
+        return [f"{flag}={each}" for each in _lines(algorithm, parameters, name, context)]
+    if isinstance(value, LISTS) and not option.get("multiple"):
+        raise QgsProcessingException(f"{name} takes one value, not {len(value)} in a list")
     if kind == "flag":
         return _flag(option, algorithm.parameterAsBoolean(parameters, name, context))
     if kind == "choice":
@@ -157,12 +174,37 @@ def arguments_of(option, algorithm, parameters, context, path_of_layer, crs):
         point = algorithm.parameterAsPoint(parameters, name, context, crs)
         values = [f"{point.x()!r},{point.y()!r}"]
     else:
-        text = algorithm.parameterAsString(parameters, name, context)
-        values = [line for line in text.splitlines() if line.strip()] if option.get("multiple") else [text]
+        values = [algorithm.parameterAsString(parameters, name, context)]
     if not option.get("multiple") and _is_default(option, values[0]):
         return []
     # One word, so that a value that begins with a dash is not taken for an option.
     return [f"{flag}={value}" for value in values]
+
+
+def how_to_give_several(options, parameters, refused):
+    """A sentence for each parameter of which the program's message `refused` names a value that may be meant as several;
+    empty if there is none."""
+    sentences = ""
+    for option in filter(_takes_lines, options):
+        name = parameter_name(option)
+        values = parameters.get(name)
+        values = [values] if isinstance(values, str) else values if isinstance(values, LISTS) else []
+        if any(re.search(r"\S[,;|\s]+\S", str(value)) and f"'{value}'" in refused for value in values):
+            sentences += f"; several values of {name} are given one per line, or as a list"
+    return sentences
+
+
+def _lines(algorithm, parameters, name, context):
+    """The values of a parameter that takes several: the items of a list, or the lines of a text."""
+    value = parameters[name]
+    if not isinstance(value, LISTS):
+        if isinstance(value, (dict, set, bytes)):
+            raise QgsProcessingException(f"{name} takes a text with one value per line, or a list: {value!r} is neither")
+        value = algorithm.parameterAsString(parameters, name, context).splitlines()
+    for each in value:
+        if not isinstance(each, (str, int, float)) or isinstance(each, bool):
+            raise QgsProcessingException(f"each item of the list {name} is one value, a text: {each!r} is none")
+    return [str(each) for each in value if str(each).strip()]
 
 
 def _is_default(option, text):
