@@ -18,6 +18,7 @@
 #include "gis/error.hpp"
 #include "gis/lower_case.hpp"
 #include "gis/read/odd_geojson.hpp"
+#include "gis/read/osm_ways.hpp"
 
 namespace coastmesh {
 
@@ -30,14 +31,13 @@ bool exists(const std::string& path) {
 
 bool endsWith(const std::string& text, std::string_view ending) { return lowerCase(text).ends_with(ending); }
 
-std::string listed(const std::vector<std::string>& names) {
-  constexpr std::size_t kShown = 8;
+std::string listed(const std::vector<std::string>& names, std::size_t shown = 8) {
   std::string text;
-  for (std::size_t i = 0; i < names.size() && i < kShown; ++i) {
+  for (std::size_t i = 0; i < names.size() && i < shown; ++i) {
     if (i > 0) text += ", ";
     text += names[i];
   }
-  return names.size() > kShown ? text + ", and " + std::to_string(names.size() - kShown) + " more" : text;
+  return names.size() > shown ? text + ", and " + std::to_string(names.size() - shown) + " more" : text;
 }
 
 std::string stemOf(const std::string& entry) { return std::filesystem::path(entry).stem(); }
@@ -195,6 +195,20 @@ std::string pathForOgr(const std::string& path, const std::vector<std::string>& 
   return real;
 }
 
+// "; its fields are …": of all layers.
+std::string fieldsInWords(const OpenSource& source) {
+  std::vector<std::string> names;
+  for (OGRLayer* layer : source.layers) {
+    const OGRFeatureDefn& table = *layer->GetLayerDefn();
+    for (int i = 0; i < table.GetFieldCount(); ++i) {
+      std::string name = oneLine(table.GetFieldDefn(i)->GetNameRef());
+      if (std::ranges::find(names, name) == names.end()) names.push_back(std::move(name));
+    }
+  }
+  constexpr std::size_t kShown = 30;
+  return names.empty() ? "; it has no fields" : "; its fields are " + listed(names, kShown);
+}
+
 [[noreturn]] void refuse(const std::string& name, const std::string& path, const OgrErrors& errors) {
   std::string why;
   if (!errors.text().empty()) why.append(" (").append(errors.text()).append(")");
@@ -249,6 +263,7 @@ OpenSource openSource(const std::string& given, const std::vector<std::string>& 
     const CPLStringList columns(CSLSetNameValue(nullptr, "GEOM_POSSIBLE_NAMES", "geometry,geom,the_geom,wkt_geom"));
     source.dataset.reset(GDALDataset::Open(path.c_str(), kHow, nullptr, columns.List()));
   }
+  if (source.dataset) readWaysAsLines(path, names, source.dataset);
   // GDAL opens TELEMAC's meshes, and makes a polygon of each triangle.
   if (!source.dataset || source.dataset->GetDriverName() == std::string_view("Selafin"))
     refuse(source.name, path, errors);
@@ -309,7 +324,7 @@ std::uint64_t keepWhere(const OpenSource& source, const std::string& where, OgrE
   }
   if (kept > 0) return left_out;
   throw InputError(sourceInWords(source.name) + ": --where \"" + where + "\" cannot be asked of it" +
-                   (reason.empty() ? "" : " (" + reason + ")"));
+                   (reason.empty() ? "" : " (" + reason + ")") + fieldsInWords(source));
 }
 
 }  // namespace coastmesh

@@ -21,6 +21,7 @@
 #include "gis/read/near_box.hpp"
 #include "gis/read/ogr_geometry.hpp"
 #include "gis/read/open_source.hpp"
+#include "gis/read/osm_ways.hpp"
 
 namespace coastmesh {
 
@@ -307,6 +308,7 @@ std::vector<RawLayer> readLayers(const Source& given, const ReadFilter& filter, 
   if (!filter.where.empty()) report.filtered += keepWhere(source, filter.where, errors);
   const bool only = source.dataset->GetLayerCount() == 1;
   const bool of_texts = source.dataset->GetDriverName() == std::string_view("CSV");
+  const bool of_osm = isOsm(*source.dataset);
   for (OGRLayer* layer : source.layers) {
     readers.emplace_back(*layer, only ? source.name : source.name + "|" + layer->GetName(), given.use, of_texts);
   }
@@ -319,6 +321,7 @@ std::vector<RawLayer> readLayers(const Source& given, const ReadFilter& filter, 
         const std::unique_ptr<OGRFeature> feature{source.dataset->GetNextFeature(&layer, nullptr, nullptr, nullptr)}) {
       const auto at = std::find(source.layers.begin(), source.layers.end(), layer);
       if (at == source.layers.end()) continue;
+      if (of_osm) refuseOsmCoast(*feature, source.layers, source.name);
       readers[static_cast<std::size_t>(at - source.layers.begin())].add(*feature, report);
     }
   };
@@ -339,7 +342,8 @@ std::vector<RawLayer> readLayers(const Source& given, const ReadFilter& filter, 
   }
   if (!filter.where.empty() && std::ranges::all_of(readers, isEmpty))
     throw InputError(sourceInWords(source.name) + ": --where \"" + filter.where +
-                     "\" holds for no feature with a geometry in it");
+                     "\" holds for no feature with a geometry in it" +
+                     (of_osm ? "; " + std::string(kHowToReadOsmCoasts) : ""));
   return finishAll(readers, !filter.where.empty() || not_read > 0, source.name, report.skipped_points - points_before);
 }
 
