@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <limits>
@@ -9,8 +10,10 @@
 
 #include "apps/job/places.hpp"
 #include "apps/job/working_plane.hpp"
+#include "core/metric.hpp"
 #include "core/triangulate/delaunay.hpp"
 #include "gis/clean/geodesic_area.hpp"
+#include "gis/clean/whole_turns.hpp"
 #include "gis/coast/feature_bounds.hpp"
 #include "gis/coast/feature_names.hpp"
 #include "gis/coast/group_features.hpp"
@@ -201,15 +204,22 @@ JobInput::JobInput(const InputOptions& options, const ItemLoop& loop) : options_
   requireSurface();
   FrameOptions frame = options_.frame;
   frame.in_plane = options_.crs == "plane";
+  if (working) chosen_ = Projection::to(coastline_.crs, *working);
+  const auto hasLength = [&](const Point& a, const Point& b) {
+    constexpr double kRounding = 1e-9;
+    if (!chosen_) return false;
+    const Point p = chosen_->forward(a), q = chosen_->forward(b);
+    return distance(p, q) > kRounding * (std::abs(p.x) + std::abs(p.y));
+  };
   FrameReport framed;
   try {
-    framed = frameCoastline(coastline_, frame);
+    framed = frameWithWholeTurns(coastline_, frame, options_.edges, hasLength);
   } catch (const InputError&) {
     if (report_.not_read == 0) throw;
     // The refusal says where the input lies: all of it.
     report_ = {}, boundaries_ = {};
     coastline_ = readInput(options_, report_, boundaries_);
-    framed = frameCoastline(coastline_, frame);
+    framed = frameWithWholeTurns(coastline_, frame, options_.edges, hasLength);
   }
   report_.beyond_frame = framed.beyond_frame + report_.not_read;
   for (std::size_t f = 0; f < coastline_.features.size(); ++f)
@@ -227,7 +237,6 @@ JobInput::JobInput(const InputOptions& options, const ItemLoop& loop) : options_
                                ", " + unitOf(coastline_.crs) +
                                ": lengths, as of --size, have that unit; --crs auto works in metres");
   if (working) {
-    chosen_ = Projection::to(coastline_.crs, *working);
     const std::string distorts = judgeWorkingPlane(coastline_, *working, *chosen_);
     if (!distorts.empty()) report_.warnings.push_back(distorts);
     const std::string cut =

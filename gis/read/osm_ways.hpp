@@ -24,8 +24,8 @@ bool isOsm(GDALDataset& dataset);
 void readWaysAsLines(const std::string& path, const std::vector<std::string>& wanted,
                      std::unique_ptr<GDALDataset>& dataset);
 
-// Throws InputError if the feature is a coastline, and `layers`, those to be read of the OpenStreetMap file `name`, do not
-// have all coastlines, or have them both as lines and as polygons.
+// Throws InputError if the feature is a coastline, and `layers`, those to be read of the OpenStreetMap file `name`, do
+// not have all coastlines, or have them both as lines and as polygons.
 void refuseOsmCoast(const OGRFeature& feature, const std::vector<OGRLayer*>& layers, const std::string& name);
 
 }  // namespace coastmesh

@@ -1,6 +1,8 @@
 // Lines, regions and boundary types given by the user: every output holds them, or a warning says what it cannot hold.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/program.hpp"
@@ -110,6 +112,35 @@ TEST_F(NamedLines, RegionsComeThroughEveryFormatThatHoldsThem) {
   }
   done({"convert", file("a.gpkg"), "-o", file("b.gpkg"), "--quiet"});
   EXPECT_TRUE(readText(file("a.gpkg")) == readText(file("b.gpkg")));
+}
+
+// Bands of latitudes round the globe, drawn with a point at each corner of the map.
+TEST_F(NamedLines, RegionsRoundTheGlobe) {
+  const auto band = [](double south, double north) {
+    return LonLatRing{{-180, south}, {180, south}, {180, north}, {-180, north}};
+  };
+  const std::string regions = write("bands.geojson", geoJsonPolygons({{band(-90, -60)}, {band(-20, 20)}}));
+  done({"mesh", "--domain", "globe", "--size", "600000", "--regions", regions, "-o", file("a.gpkg"), "--quiet"});
+  std::map<std::string, double> area_m2;
+  for (const Json& triangle : layerOf(file("a.gpkg"), "triangles"))
+    area_m2[triangle["properties"]["region"].dump()] += triangle["properties"]["area_m2"].get<double>();
+  ASSERT_EQ(area_m2.size(), 3u);
+  const double globe = 5.10065621724e14;
+  // Shares of the ellipsoid, of which its flattening moves less than a hundredth.
+  const auto share = [](double south, double north) {
+    return (std::sin(north * M_PI / 180) - std::sin(south * M_PI / 180)) / 2;
+  };
+  EXPECT_NEAR(area_m2["\"part 0\""] / globe / share(-90, -60), 1, 0.015);
+  EXPECT_NEAR(area_m2["\"part 1\""] / globe / share(-20, 20), 1, 0.015);
+  const std::string bands = write("north.geojson", geoJsonPolygons({{band(60, 80)}}));
+  EXPECT_NE(
+      runProgram({"mesh", bands, "-o", file("b.gpkg")}).errors.find("its edge from -180, 60 to 180, 60 goes once"),
+      std::string::npos);
+  done({"mesh", bands, "--edges", "lonlat", "--size", "300000", "-o", file("b.gpkg"), "--quiet"});
+  double north_m2 = 0;
+  for (const Json& triangle : layerOf(file("b.gpkg"), "triangles"))
+    north_m2 += triangle["properties"]["area_m2"].get<double>();
+  EXPECT_NEAR(north_m2 / globe / share(60, 80), 1, 0.015);
 }
 
 // Two regions have two colours, or one if they have the same name.
