@@ -32,7 +32,7 @@ void declareRiversOptions(OptionTable& table, RiversUsage& usage) {
   table.number(
       {"--reach", "Reach of ends"}, rivers.reach_m, "M", {0.0, kInfinity},
       "rivers that end this close to the water of MESH are continued to it; default: their width, or three times "
-      "that, or an edge of the shore, if they have no other way to the water");
+      "that, or an edge of the shore, if they are mouths");
   table.section(Section::Triangles);
   table.integer({"--elements", "Elements across"}, usage.elements, "N", 1, 1000,
                 "quadrilaterals across each river, at least");

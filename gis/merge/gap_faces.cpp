@@ -166,7 +166,7 @@ class GapFiller {
       });
     std::ranges::sort(candidates);
     for (const auto& [gap, node] : candidates)
-      if (std::ranges::binary_search(joining_, node) && !crossesOutline(end, node)) return node;
+      if (node != end && std::ranges::binary_search(joining_, node) && !crossesOutline(end, node)) return node;
     return std::nullopt;
   }
 

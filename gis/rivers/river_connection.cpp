@@ -60,6 +60,7 @@ class Connector {
   Connector(RiverNetwork& network, std::span<const PlaneRiver> rivers, const MeshWater& water)
       : network_(network), rivers_(rivers), water_(water), ends_(freeEnds(network)), sets_(networksOf(network, {})) {
     for (const RiverReach& own : network.reaches) connection_.touches.push_back(touchesWater(own, water) ? 1 : 0);
+    for (const FreeEnd& end : ends_) is_line_end_.push_back(isLineEnd(end));
   }
 
   RiverConnection connect(double reach) {
@@ -134,20 +135,44 @@ class Connector {
     return has_water;
   }
 
+  // True if the end is the last place of its line, false if it is the first.
+  bool isLineEnd(const FreeEnd& end) const {
+    const RiverReach& own = network_.reaches[end.reach];
+    const std::vector<Point>& line = rivers_[end.at_end ? own.line_of.back() : own.line_of.front()].points;
+    return squaredDistance(placeOf(end), line.back()) < squaredDistance(placeOf(end), line.front());
+  }
+
+  // By network: above 0 if most of its ends in the water are last places of their lines, below 0 if they are first
+  // ones.
+  std::vector<int> directions() {
+    std::vector<int> all(network_.nodes.size(), 0);
+    for (std::size_t i = 0; i < ends_.size(); ++i)
+      if (water_.holds(placeOf(ends_[i]))) all[networkOf(ends_[i])] += is_line_end_[i] ? 1 : -1;
+    return all;
+  }
+
+  // Ends that are close, but not within a width. Springs may be, too: of a network that has water, those are continued
+  // that are mouths if all lines are drawn in the same direction; of others the nearest, and those like it.
   void extendApart() {
     const std::vector<std::uint8_t> has_water = networksWithWater();
+    std::vector<int> direction = directions();
     std::vector<double> least(network_.nodes.size(), kInfinity);  // by network: the nearest of the ends that are close
     std::vector<std::optional<NearWater>> shores;
-    for (const FreeEnd& end : ends_) {
-      std::optional<NearWater> shore = shoreAround(end);
-      if (shore && shore->distance > std::max(kClose * widthOf(end), shore->edge)) shore.reset();
-      if (shore) least[networkOf(end)] = std::min(least[networkOf(end)], shore->distance);
+    for (std::size_t i = 0; i < ends_.size(); ++i) {
+      const std::uint32_t network = networkOf(ends_[i]);
+      std::optional<NearWater> shore = shoreAround(ends_[i]);
+      if (shore && shore->distance > std::max(kClose * widthOf(ends_[i]), shore->edge)) shore.reset();
       shores.push_back(shore);
+      if (!shore || shore->distance >= least[network]) continue;
+      least[network] = shore->distance;
+      if (has_water[network] == 0) direction[network] = is_line_end_[i] ? 1 : -1;
     }
     for (std::size_t i = 0; i < ends_.size(); ++i) {
       if (!shores[i]) continue;
       const std::uint32_t network = networkOf(ends_[i]);
-      if (has_water[network] == 0 && shores[i]->distance <= kAlike * least[network])
+      const bool is_mouth = is_line_end_[i] ? direction[network] > 0 : direction[network] < 0;
+      const bool is_like_nearest = has_water[network] == 0 && shores[i]->distance <= kAlike * least[network];
+      if (is_mouth || is_like_nearest)
         extend(ends_[i], *shores[i]);
       else
         connection_.left.push_back(placeOf(ends_[i]));
@@ -232,6 +257,7 @@ class Connector {
   std::span<const PlaneRiver> rivers_;
   const MeshWater& water_;
   const std::vector<FreeEnd> ends_;
+  std::vector<bool> is_line_end_;  // of each of them, as they were
   UnionFind sets_;
   RiverConnection connection_;
 };

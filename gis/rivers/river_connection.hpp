@@ -20,9 +20,11 @@ struct RiverConnection {
 };
 
 // Continues free ends within `reach` of the water, in plane units: straight, and a width into it. If `reach` is
-// infinite, ends within a width of the water are continued; of a network that is not connected otherwise, also the
-// nearest end within three widths or the length of an edge there, to which the mesh's shore may have been generalised,
-// and those at most twice as far. Ends in the water are continued until both banks are in it, by at most three widths.
+// infinite, ends within a width of the water are continued, and those within three widths, or the length of an edge
+// there, to which the mesh's shore may have been generalised, if they are mouths: of a network that is connected
+// otherwise, those at which lines begin or end as most of them do in the water; of others the nearest, those that are
+// alike, and those at most twice as far. Ends in the water are continued until both banks are in it, by at most three
+// widths.
 RiverConnection connectRivers(RiverNetwork& network, std::span<const PlaneRiver> rivers, const MeshWater& water,
                               double reach);
 

@@ -153,6 +153,21 @@ TEST(LayRivers, ASpringNearTheWaterIsNoSecondMouth) {
   EXPECT_EQ(asked.report.inflows, 0u);
 }
 
+TEST(LayRivers, AMouthBesideAnotherIsContinuedWhicheverWayLinesAreDrawn) {
+  std::vector<RiverLine> lines{lineOf({{-3000, 2050}, {-1500, 2050}, {100, 2050}}, 100.0),
+                               lineOf({{-1500, 2050}, {-1000, 1000}, {-250, 700}}, 60.0)};
+  for (const bool upstream : {false, true}) {
+    SCOPED_TRACE(upstream);
+    const LaidRivers laid = layRivers(lines, sea(), {});
+    // 250 m are more than three widths, and than an edge of the shore.
+    EXPECT_TRUE(laid.report.extended.empty());
+    std::vector<RiverLine> nearer = lines;
+    (upstream ? nearer[1].points.front() : nearer[1].points.back()) = {-170, 700};
+    EXPECT_EQ(layRivers(nearer, sea(), {}).report.extended.size(), 1u);
+    for (RiverLine& line : lines) std::ranges::reverse(line.points);
+  }
+}
+
 TEST(LayRivers, ACanalBetweenTwoWatersReachesBoth) {
   Grid waters = gridOf({20, 20, 200.0, {}, 0.0, [](int column, int) { return column < 8 || column > 11; }});
   const LaidRivers laid = layRivers({lineOf({{1690, 2050}, {2310, 2050}}, 30.0)}, waters, {});
