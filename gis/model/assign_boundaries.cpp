@@ -150,7 +150,7 @@ BoundaryReport assignBoundaries(Grid& grid, const BoundaryOptions& options, cons
   BoundaryEdges boundary = edgesOfLoops(grid, loops);
   const BoundaryPlaces at{grid.crs, grid.nodes, grid.z};
   const std::vector<BoundaryKind> before = boundary.kinds;
-  BoundaryReport report = defineKinds(at, options, boundary);
+  BoundaryReport report = defineKinds(at, options, boundary, loop);
   if (report.edges_by_depth > 0)
     if (std::string warning = coastWarning(openedByDepth(grid, before, boundary), options.open_deeper_m, grid.crs);
         !warning.empty())

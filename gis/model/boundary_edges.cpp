@@ -139,7 +139,8 @@ std::vector<BoundaryRules> readBoundaryFiles(const BoundaryOptions& options) {
   return rules;
 }
 
-BoundaryReport defineKinds(const BoundaryPlaces& at, const BoundaryOptions& options, BoundaryEdges& boundary) {
+BoundaryReport defineKinds(const BoundaryPlaces& at, const BoundaryOptions& options, BoundaryEdges& boundary,
+                           const ItemLoop& loop) {
   BoundaryReport report;
   std::vector<bool> said(boundary.edges.size(), false);
   boundary.asked.assign(boundary.edges.size(), kNone);
@@ -147,7 +148,7 @@ BoundaryReport defineKinds(const BoundaryPlaces& at, const BoundaryOptions& opti
   const auto apply = [&](const BoundaryRules& rules, const std::string& file) {
     if (rules.empty()) return false;
     RuledEdges ruled =
-        rules.roughKindsOf(at.crs, at.places, boundary.edges, boundary.outer, boundary.share, boundary.kinds);
+        rules.roughKindsOf(at.crs, at.places, boundary.edges, boundary.outer, boundary.share, boundary.kinds, loop);
     bool any = false;
     for (std::size_t e = 0; e < said.size(); ++e) {
       if (!ruled.kinds[e]) continue;

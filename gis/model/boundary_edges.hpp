@@ -75,7 +75,8 @@ struct BoundaryPlaces {
 
 // Sets `kinds` by files and depths. Sizes before meshing and the grid both use this function, so that they agree.
 // Throws InputError.
-BoundaryReport defineKinds(const BoundaryPlaces& at, const BoundaryOptions& options, BoundaryEdges& boundary);
+BoundaryReport defineKinds(const BoundaryPlaces& at, const BoundaryOptions& options, BoundaryEdges& boundary,
+                           const ItemLoop& loop = inOrder);
 
 // Merges boundaries shorter than `least_m` metres, the shortest first, into the longer one beside them; returns their
 // number. Each opening or river of a rule keeps its longest part.

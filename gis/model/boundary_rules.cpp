@@ -196,13 +196,14 @@ class BoundaryLayer {
 
   // Sets the types of the edges that it has rules for. `first` is the number of its first rule in `ruled`. `roughly`:
   // see `BoundaryRules::roughKindsOf`.
-  void apply(const EdgesToType& edges, bool roughly, std::size_t first, RuledEdges& ruled) const;
+  void apply(const EdgesToType& edges, bool roughly, std::size_t first, const ItemLoop& loop, RuledEdges& ruled) const;
 
  private:
   struct Typing;
 
   void addRule(const BoundaryKind& kind, const Feature& feature, RuleForm form);
-  void applyRoughly(Typing& typing, std::size_t first, RuledEdges& ruled) const;
+  void set(std::size_t edge, std::size_t rule, std::size_t first, RuledEdges& ruled) const;
+  void applyRoughly(Typing& typing, std::size_t first, const ItemLoop& loop, RuledEdges& ruled) const;
 
   std::optional<Crs> crs_;
   std::vector<BoundaryRule> rules_;
@@ -213,12 +214,20 @@ class BoundaryLayer {
 
 // What is known while edges get their types.
 struct BoundaryLayer::Typing {
-  const RuleShapes& shapes;
-  const LayerPlaces& places;
-  std::vector<bool> used;            // rules with an area that contains an edge
+  const RuleShapes* shapes = nullptr;
+  const LayerPlaces* places = nullptr;
+  std::vector<bool> used{};          // rules with an area that contains an edge
   std::vector<NearEdge> near{};      // edges that may be near a line
   std::vector<std::size_t> index{};  // of these among all
   Box bounds{};                      // of all edges
+
+  // Adds what is known of later edges.
+  void add(const Typing& later) {
+    for (std::size_t rule = 0; rule < used.size(); ++rule) used[rule] = used[rule] || later.used[rule];
+    near.insert(near.end(), later.near.begin(), later.near.end());
+    index.insert(index.end(), later.index.begin(), later.index.end());
+    bounds.add(later.bounds);
+  }
 };
 
 void BoundaryLayer::addRule(const BoundaryKind& kind, const Feature& feature, RuleForm form) {
@@ -258,36 +267,47 @@ void BoundaryLayer::build() {
   if (!jumps_) turned_ = {};
 }
 
-void BoundaryLayer::apply(const EdgesToType& edges, bool roughly, std::size_t first, RuledEdges& ruled) const {
-  const LayerPlaces places(edges.crs, crs_);
-  const RulePlane& plane = places.plane();
-  Typing typing{plane.geographic() && jumps_ ? turned_ : as_given_, places, std::vector(rules_.size(), false)};
-  const auto set = [&](std::size_t e, std::size_t rule) {
-    ruled.kinds[e] = rules_[rule].kind;
-    ruled.rules[e] = static_cast<std::uint32_t>(first + rule);
-  };
-  for (std::size_t e = 0; e < edges.edges.size(); ++e) {
-    const std::optional<PlacedEdge> edge = places.place(edges, e);
-    if (!edge) continue;
-    const auto last = std::max(typing.shapes.lastAlong(*edge, rules_, plane),
-                               typing.shapes.lastAround(*edge, rules_, plane, typing.used));
-    if (last) set(e, *last);
-    if (!roughly) continue;
-    typing.bounds.add(Box::of(edge->a, edge->b));
-    if (!typing.shapes.anyNear(*edge, kAround * edge->element, kSmall * edge->element, plane)) continue;
-    typing.near.push_back({*edge, last, kNone, edges.before.empty() ? BoundaryKind{} : edges.before[e]});
-    typing.index.push_back(e);
-  }
-  if (!roughly) return;
-  linkEdges(edges, typing.index, typing.near);
-  applyRoughly(typing, first, ruled);
-  for (std::size_t i = 0; i < typing.near.size(); ++i)
-    if (typing.near[i].rule) set(typing.index[i], *typing.near[i].rule);
+void BoundaryLayer::set(std::size_t edge, std::size_t rule, std::size_t first, RuledEdges& ruled) const {
+  ruled.kinds[edge] = rules_[rule].kind;
+  ruled.rules[edge] = static_cast<std::uint32_t>(first + rule);
 }
 
-void BoundaryLayer::applyRoughly(Typing& typing, std::size_t first, RuledEdges& ruled) const {
-  const RulePlane& plane = typing.places.plane();
-  for (const MissedPart& part : takeRoughly(typing.shapes, rules_, plane, typing.used, typing.near)) {
+void BoundaryLayer::apply(const EdgesToType& edges, bool roughly, std::size_t first, const ItemLoop& loop,
+                          RuledEdges& ruled) const {
+  constexpr std::size_t kLeast = 512;  // edges for one thread
+  const LayerPlaces places(edges.crs, crs_);
+  const RulePlane& plane = places.plane();
+  const RuleShapes& shapes = plane.geographic() && jumps_ ? turned_ : as_given_;
+  std::vector<std::optional<PlacedEdge>> placed;  // by one thread, as PROJ demands
+  for (std::size_t e = 0; e < edges.edges.size(); ++e) placed.push_back(places.place(edges, e));
+  const auto typeSome = [&](std::size_t begin, std::size_t end) {
+    Typing some{&shapes, &places, std::vector(rules_.size(), false)};
+    for (std::size_t e = begin; e < end; ++e) {
+      const std::optional<PlacedEdge>& edge = placed[e];
+      if (!edge) continue;
+      const auto last =
+          std::max(shapes.lastAlong(*edge, rules_, plane), shapes.lastAround(*edge, rules_, plane, some.used));
+      if (last) set(e, *last, first, ruled);
+      if (!roughly) continue;
+      some.bounds.add(Box::of(edge->a, edge->b));
+      if (!shapes.anyNear(*edge, kAround * edge->element, kSmall * edge->element, plane)) continue;
+      some.near.push_back({*edge, last, kNone, edges.before.empty() ? BoundaryKind{} : edges.before[e]});
+      some.index.push_back(e);
+    }
+    return some;
+  };
+  Typing typing{&shapes, &places, std::vector(rules_.size(), false)};
+  for (const Typing& some : overStretches(loop, placed.size(), typeSome, kLeast)) typing.add(some);
+  if (!roughly) return;
+  linkEdges(edges, typing.index, typing.near);
+  applyRoughly(typing, first, loop, ruled);
+  for (std::size_t i = 0; i < typing.near.size(); ++i)
+    if (typing.near[i].rule) set(typing.index[i], *typing.near[i].rule, first, ruled);
+}
+
+void BoundaryLayer::applyRoughly(Typing& typing, std::size_t first, const ItemLoop& loop, RuledEdges& ruled) const {
+  const RulePlane& plane = typing.places->plane();
+  for (const MissedPart& part : takeRoughly(*typing.shapes, rules_, plane, typing.used, typing.near, loop)) {
     const bool inside = std::ranges::any_of(plane.turns(), [&](double turn) {
       const Point place{part.place.x + turn, part.place.y};
       return typing.bounds.meets(Box::of(place, place));
@@ -297,13 +317,13 @@ void BoundaryLayer::applyRoughly(Typing& typing, std::size_t first, RuledEdges& 
                             rules_[part.rule].name,
                             part.whole,
                             inside,
-                            typing.places.toMesh(part.place),
+                            typing.places->toMesh(part.place),
                             part.parts,
                             {}});
     if (rules_[part.rule].form != RuleForm::Area) continue;
-    const Box box = typing.shapes.boxOf(part.rule);
+    const Box box = typing.shapes->boxOf(part.rule);
     for (const double x : {box.xmin, box.xmax})
-      for (const double y : {box.ymin, box.ymax}) ruled.missed.back().corners.push_back(typing.places.toMesh({x, y}));
+      for (const double y : {box.ymin, box.ymax}) ruled.missed.back().corners.push_back(typing.places->toMesh({x, y}));
   }
 }
 
@@ -373,14 +393,14 @@ std::vector<std::optional<BoundaryKind>> BoundaryRules::kindsOf(const Crs& crs, 
                                                                 const std::vector<NodePair>& edges,
                                                                 const std::vector<bool>& outer,
                                                                 const std::vector<double>& share) const {
-  return ruledEdges({crs, places, edges, outer, share, {}}, false).kinds;
+  return ruledEdges({crs, places, edges, outer, share, {}}, false, inOrder).kinds;
 }
 
 RuledEdges BoundaryRules::roughKindsOf(const Crs& crs, std::span<const Point> places,
                                        const std::vector<NodePair>& edges, const std::vector<bool>& outer,
-                                       const std::vector<double>& share,
-                                       const std::vector<BoundaryKind>& before) const {
-  return ruledEdges({crs, places, edges, outer, share, before}, true);
+                                       const std::vector<double>& share, const std::vector<BoundaryKind>& before,
+                                       const ItemLoop& loop) const {
+  return ruledEdges({crs, places, edges, outer, share, before}, true, loop);
 }
 
 std::size_t BoundaryRules::size() const {
@@ -389,13 +409,13 @@ std::size_t BoundaryRules::size() const {
   return size;
 }
 
-RuledEdges BoundaryRules::ruledEdges(const EdgesToType& edges, bool roughly) const {
+RuledEdges BoundaryRules::ruledEdges(const EdgesToType& edges, bool roughly, const ItemLoop& loop) const {
   RuledEdges ruled;
   ruled.kinds.resize(edges.edges.size());
   ruled.rules.resize(edges.edges.size(), kNone);
   std::size_t first = 0;
   for (const auto& layer : layers_) {
-    layer->apply(edges, roughly, first, ruled);
+    layer->apply(edges, roughly, first, loop, ruled);
     first += layer->size();
   }
   return ruled;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/item_loop.hpp"
 #include "gis/grid/boundary_kinds.hpp"
 #include "gis/grid/grid.hpp"
 
@@ -82,12 +83,12 @@ class BoundaryRules {
   // be openings too; empty: unknown.
   RuledEdges roughKindsOf(const Crs& crs, std::span<const Point> places, const std::vector<NodePair>& edges,
                           const std::vector<bool>& outer, const std::vector<double>& share = {},
-                          const std::vector<BoundaryKind>& before = {}) const;
+                          const std::vector<BoundaryKind>& before = {}, const ItemLoop& loop = inOrder) const;
   // The number of rules.
   std::size_t size() const;
 
  private:
-  RuledEdges ruledEdges(const EdgesToType& edges, bool roughly) const;
+  RuledEdges ruledEdges(const EdgesToType& edges, bool roughly, const ItemLoop& loop) const;
   void add(const std::vector<RawLayer>& layers, const std::string& column, bool all_have_it);
 
   std::vector<std::shared_ptr<const BoundaryLayer>> layers_;  // in their order; a later one takes precedence

@@ -188,7 +188,7 @@ std::optional<Openings> openingsOf(const Domain& domain, const Crs& crs, const B
   if (!by_depth) options.open_deeper_m = std::numeric_limits<double>::infinity();
   const std::vector<BoundaryKind> before = edges.kinds;
   const BoundaryPlaces at{crs, boundary.places(), z};
-  defineKinds(at, options, edges);
+  defineKinds(at, options, edges, loop);
   std::vector<bool> open(edges.edges.size());
   const auto isOpened = [&](std::size_t e) {
     return boundary.pieces[e].segment != kNone && before[e].role != BoundaryRole::Open &&

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
+#include "gis/geometry/box_tree.hpp"
+#include "gis/rules/edge_search.hpp"
+#include "gis/rules/line_walks.hpp"
 #include "gis/rules/rule_chains.hpp"
 
 namespace coastmesh {
@@ -15,90 +17,39 @@ constexpr double kBeside = 0.5;      // elements: a line as close is beside the 
 constexpr double kMostOfEdge = 0.6;  // share of an edge that a line has to pass
 constexpr double kContinues = 0.5;   // elements: a line that begins as close to another's end continues it
 constexpr double kDetour = 2.0;      // edges between two of a line are at most as many times its length
-constexpr double kStep = 0.125;      // of an edge, between samples of a line
-constexpr double kMostSteps = 1e6;   // of a line
 constexpr double kShort = 2.0;       // elements: a shorter line or polygon may be about a single edge
 constexpr double kEnd = 1.5;         // elements: the end of a line that stays as close is not one that leads away
-constexpr double kWall = 3.0;  // elements: a line that goes no farther away, and comes back, is about the boundary
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-// The closest edge.
-struct Closest {
-  std::size_t edge = 0;
-  double distance = kInfinity;
-  double share = 0.0;  // of the way from its first end
-
-  bool any() const { return distance < kInfinity; }
-};
-
-// A place on a line.
-struct Sample {
-  Point place;
-  double length = 0.0;   // of the line, from the sample before
-  std::size_t rule = 0;  // of the line
-  Closest closest;
-};
-
-class EdgeSearch {
- public:
-  EdgeSearch(const std::vector<NearEdge>& edges, const RulePlane& plane) : edges_(edges), plane_(plane) {
-    std::vector<Box> boxes;
-    for (const NearEdge& near : edges) boxes.push_back(Box::of(near.edge.a, near.edge.b));
-    tree_ = BoxTree(boxes, BoxTree::Order::Hilbert);
-  }
-
-  Closest closestTo(const Point& p, bool outer_only) const {
-    Closest best;
-    for (const double turn : plane_.turns()) {
-      const Point place{p.x + turn, p.y};
-      tree_.descend([&](const Box& box, std::size_t, std::size_t) { return distanceOf(place, box) <= best.distance; },
-                    [&](std::uint32_t i) {
-                      const PlacedEdge& edge = edges_[i].edge;
-                      if (outer_only && !edge.outer) return;
-                      double share = 0.0;
-                      const double distance = plane_.distance(place, edge.a, edge.b, &share);
-                      const bool closer = distance < best.distance || (distance == best.distance && i < best.edge);
-                      if (closer) best = {i, distance, share};
-                    });
-    }
-    return best;
-  }
-
- private:
-  double distanceOf(const Point& p, const Box& box) const {
-    const double dx = std::max({0.0, box.xmin - p.x, p.x - box.xmax}) * plane_.shrinkAt(p.y);
-    return std::hypot(dx, std::max({0.0, box.ymin - p.y, p.y - box.ymax}));
-  }
-
-  const std::vector<NearEdge>& edges_;
-  const RulePlane& plane_;
-  BoxTree tree_;
-};
 
 class RoughLines {
  public:
   RoughLines(const RuleShapes& shapes, const std::vector<BoundaryRule>& rules, const RulePlane& plane,
-             std::vector<NearEdge>& edges)
-      : shapes_(shapes), rules_(rules), plane_(plane), edges_(edges), search_(edges, plane) {
+             std::vector<NearEdge>& edges, const ItemLoop& loop)
+      : shapes_(shapes), rules_(rules), plane_(plane), edges_(edges), search_(edges, plane, loop) {
     std::vector<BoundaryKind> kinds;
     for (const BoundaryRule& rule : rules) {
       const auto at = std::ranges::find(kinds, rule.kind);
       kind_of_.push_back(static_cast<std::size_t>(at - kinds.begin()));
       if (at == kinds.end()) kinds.push_back(rule.kind);
     }
-    const auto reach = [this](const Point& end) {
-      const Closest closest = search_.closestTo(end, false);
-      return closest.any() ? kContinues * edges_[closest.edge].edge.element : 0.0;
+    const auto reach = [this, guess = std::size_t{kNone}](const Point& end) mutable {
+      const Closest closest = search_.closestTo(end, false, guess);
+      if (!closest.any()) return 0.0;
+      guess = closest.edge;
+      return kContinues * edges_[closest.edge].edge.element;
     };
-    for (const RuleChain& chain : chainsOf(shapes, rules, plane, reach)) walks_.push_back(samplesOf(chain));
+    walks_ = walksAlong(chainsOf(shapes, rules, plane, reach), edges_, plane, search_, loop);
   }
 
   void takePassed() {
-    std::map<std::pair<std::size_t, std::size_t>, Passed> passed;  // by edge and kind
+    using ByEdgeAndKind = std::map<std::pair<std::size_t, std::size_t>, Passed>;
+    ByEdgeAndKind passed;
+    auto last = passed.end();  // most samples are beside the same edge as the one before
     for (const Walk& walk : walks_) {
       for (const Sample& sample : walk) {
         if (!isBeside(sample, kBeside) || isSettled(sample)) continue;
-        Passed& edge = passed.try_emplace({sample.closest.edge, kind_of_[sample.rule]}).first->second;
+        const ByEdgeAndKind::key_type which{sample.closest.edge, kind_of_[sample.rule]};
+        if (last == passed.end() || last->first != which) last = passed.try_emplace(which).first;
+        Passed& edge = last->second;
         edge.begin = std::min(edge.begin, sample.closest.share);
         edge.end = std::max(edge.end, sample.closest.share);
         edge.rule = std::max(edge.rule, sample.rule);
@@ -131,7 +82,6 @@ class RoughLines {
   }
 
  private:
-  using Walk = std::vector<Sample>;         // along a chain of lines
   using Path = std::vector<std::uint32_t>;  // edges, one after another
   struct Passed {                           // the part of an edge
     double begin = 1.0, end = 0.0;
@@ -154,37 +104,6 @@ class RoughLines {
   bool hasEdge(const Sample& sample) const { return isBeside(sample, kBeside) && isSettled(sample); }
   void give(std::size_t edge, std::size_t rule) {
     edges_[edge].rule = std::max(edges_[edge].rule, std::optional(rule));
-  }
-
-  // Places along a chain, close together beside the boundary.
-  Walk samplesOf(const RuleChain& chain) const {
-    double whole = 0.0;
-    for (const RuleLine& line : chain)
-      for (std::size_t i = 0; i + 1 < line.points.size(); ++i)
-        whole += plane_.distance(line.points[i], line.points[i + 1]);
-    Walk walk;
-    const auto add = [&](const Point& p, double length, std::size_t rule) {
-      walk.push_back({p, length, rule, search_.closestTo(p, false)});
-    };
-    for (const RuleLine& line : chain) {
-      add(line.points.front(), 0.0, line.rule);
-      for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
-        const Point &a = line.points[i], &b = line.points[i + 1];
-        const double length = plane_.distance(a, b);
-        for (double at = 0.0; at < length;) {
-          const double step = std::min(stepAfter(walk.back(), whole), length - at);
-          at = length - at - step < 1e-9 * length ? length : at + step;
-          const double share = at / length;
-          add({a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)}, step, line.rule);
-        }
-      }
-    }
-    return walk;
-  }
-  double stepAfter(const Sample& sample, double whole) const {
-    if (!sample.closest.any()) return whole;
-    const double away = 0.5 * (sample.closest.distance - kWall * edgeAt(sample).element);
-    return std::max({kStep * edgeAt(sample).length, away, whole / kMostSteps});
   }
 
   std::vector<Stretch> stretchesOf(const Walk& walk) const {
@@ -233,13 +152,22 @@ class RoughLines {
     return path;
   }
   bool staysNear(const Path& path, const Walk& walk, const Stretch& stretch) const {
+    const std::size_t first = stretch.first - 1;
+    std::vector<Box> samples;
+    for (std::size_t i = first; i <= stretch.last; ++i) samples.push_back(Box::of(walk[i].place, walk[i].place));
+    const BoxTree tree(samples, BoxTree::Order::Given);
     return std::ranges::all_of(path, [&](std::uint32_t e) {
       const Point middle = edges_[e].edge.middle();
-      double least = kInfinity;
-      for (std::size_t i = stretch.first - 1; i <= stretch.last; ++i)
-        for (const double turn : plane_.turns())
-          least = std::min(least, plane_.distance({middle.x + turn, middle.y}, walk[i].place));
-      return least <= kEnd * edges_[e].edge.element;
+      const double reach = kEnd * edges_[e].edge.element;
+      return std::ranges::any_of(plane_.turns(), [&](double turn) {
+        const Point place{middle.x + turn, middle.y};
+        // Twice the reach: degrees of longitude are shorter halfway to a sample nearer the pole.
+        const Box box = plane_.around({place.x, place.y - reach, place.x, place.y + reach}, 2.0 * reach);
+        bool near = false;
+        tree.descend([&](const Box& of, std::size_t, std::size_t) { return !near && of.meets(box); },
+                     [&](std::uint32_t i) { near = plane_.distance(place, walk[first + i].place) <= reach; });
+        return near;
+      });
     });
   }
 
@@ -300,17 +228,23 @@ class RoughLines {
     const std::size_t before = walk[stretch.first - 1].closest.edge, after = walk[stretch.last].closest.edge;
     const std::size_t rule = walk[stretch.first].rule;
     if (stretch.first == stretch.last && !pathBeside(walk, stretch)) return false;  // of another loop
-    return !areJoined(before, after, rule) && !areJoined(after, before, rule);
+    return !areJoined(before, after, rule);
   }
-  // True if all edges from one to the other, along the boundary, have the rule's type, perhaps without it.
-  bool areJoined(std::size_t first, std::size_t last, std::size_t rule) const {
-    std::size_t steps = 0;
-    for (std::size_t edge = first; edge != last; edge = edges_[edge].next) {
-      const std::uint32_t next = edges_[edge].next;
+  // True if all edges from one to the other, along the boundary in either direction, have the rule's type, perhaps
+  // without it. Goes both ways at once: one is often far longer.
+  bool areJoined(std::size_t a, std::size_t b, std::size_t rule) const {
+    std::optional<std::size_t> from_a = a, from_b = b;  // nullopt after another type, or the end
+    const auto next = [&](std::size_t edge) -> std::optional<std::size_t> {
       const bool is_so = !edges_[edge].rule && edges_[edge].before == rules_[rule].kind;
-      if (!(is_so || isSettled(edge, rule)) || next == kNone || ++steps > edges_.size()) return false;
+      if (!(is_so || isSettled(edge, rule)) || edges_[edge].next == kNone) return std::nullopt;
+      return edges_[edge].next;
+    };
+    for (std::size_t steps = 0; steps <= edges_.size() && (from_a || from_b); ++steps) {
+      if (from_a == b || from_b == a) return true;
+      if (from_a) from_a = next(*from_a);
+      if (from_b) from_b = next(*from_b);
     }
-    return true;
+    return false;
   }
 
   static double lengthOf(const Walk& walk, const Stretch& stretch) {
@@ -343,9 +277,9 @@ class RoughLines {
 }  // namespace
 
 std::vector<MissedPart> takeRoughly(const RuleShapes& shapes, const std::vector<BoundaryRule>& rules,
-                                    const RulePlane& plane, const std::vector<bool>& used,
-                                    std::vector<NearEdge>& edges) {
-  RoughLines lines(shapes, rules, plane, edges);
+                                    const RulePlane& plane, const std::vector<bool>& used, std::vector<NearEdge>& edges,
+                                    const ItemLoop& loop) {
+  RoughLines lines(shapes, rules, plane, edges, loop);
   lines.takePassed();
   lines.takeBetween();
   return lines.missed(used);

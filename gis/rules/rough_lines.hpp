@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/ids.hpp"
+#include "core/item_loop.hpp"
 #include "gis/rules/rule_shapes.hpp"
 
 namespace coastmesh {
@@ -35,7 +36,7 @@ struct MissedPart {
 // have some, or along two elements and more, that are near the boundary. `used` are the rules with areas that contain
 // an edge.
 std::vector<MissedPart> takeRoughly(const RuleShapes& shapes, const std::vector<BoundaryRule>& rules,
-                                    const RulePlane& plane, const std::vector<bool>& used,
-                                    std::vector<NearEdge>& edges);
+                                    const RulePlane& plane, const std::vector<bool>& used, std::vector<NearEdge>& edges,
+                                    const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

@@ -12,27 +12,6 @@ namespace {
 constexpr double kTurn = 360.0;
 constexpr double kFarthest = 0.2;  // share of a mesh edge's length: places farther from a line are not along it
 
-// Even-odd rule for one ring: true if a ray from `p` eastwards crosses it an odd number of times.
-bool crossesOddly(const Ring& ring, const Point& p) {
-  bool odd = false;
-  for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-    const Point &a = ring[i], &b = ring[j];
-    if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) odd = !odd;
-  }
-  return odd;
-}
-
-// True if the ring contains the place in any of its turns.
-bool contains(const Ring& ring, const Point& p, const RulePlane& plane) {
-  return std::ranges::any_of(plane.turns(), [&](double turn) { return crossesOddly(ring, {p.x + turn, p.y}); });
-}
-
-bool contains(const Polygon& polygon, const Point& p, const RulePlane& plane) {
-  bool inside = contains(polygon.outer, p, plane);
-  for (const Ring& hole : polygon.holes) inside = inside != contains(hole, p, plane);
-  return inside;
-}
-
 Box shifted(const Box& box, double dx) { return {box.xmin + dx, box.ymin, box.xmax + dx, box.ymax}; }
 
 }  // namespace
@@ -48,8 +27,7 @@ double RulePlane::distance(const Point& a, const Point& b) const {
   return std::hypot((b.x - a.x) * shrinkAt((a.y + b.y) / 2.0), b.y - a.y);
 }
 
-double RulePlane::distance(const Point& p, const Point& a, const Point& b, double* share) const {
-  const double shrink = shrinkAt(p.y);
+double RulePlane::distance(const Point& p, const Point& a, const Point& b, double shrink, double* share) {
   const double dx = (b.x - a.x) * shrink, dy = b.y - a.y, px = (p.x - a.x) * shrink, py = p.y - a.y;
   const double square = dx * dx + dy * dy;
   const double t = square > 0.0 ? std::clamp((px * dx + py * dy) / square, 0.0, 1.0) : 0.0;
@@ -63,9 +41,7 @@ Box RulePlane::around(const Box& box, double reach) const {
 }
 
 void RuleShapes::addArea(std::size_t rule, Polygon polygon) {
-  Box box;
-  for (const Point& p : polygon.outer) box.add(p);
-  areas_.push_back({rule, std::move(polygon), box});
+  areas_.push_back({rule, AreaSearch(std::move(polygon))});
 }
 
 void RuleShapes::addLine(std::size_t rule, const std::vector<Point>& line, bool closed) {
@@ -75,7 +51,7 @@ void RuleShapes::addLine(std::size_t rule, const std::vector<Point>& line, bool 
 
 void RuleShapes::build() {
   std::vector<Box> boxes;
-  for (const Area& area : areas_) boxes.push_back(area.box);
+  for (const Area& area : areas_) boxes.push_back(area.area.box());
   area_tree_ = BoxTree(boxes, BoxTree::Order::Hilbert);
   boxes.clear();
   for (const Piece& piece : pieces_) boxes.push_back(Box::of(piece.a, piece.b));
@@ -84,11 +60,12 @@ void RuleShapes::build() {
 
 std::vector<std::size_t> RuleShapes::rulesNear(const Point& p, double far, const RulePlane& plane) const {
   std::vector<std::size_t> near;
+  const double shrink = plane.shrinkAt(p.y);
   for (const double turn : plane.turns()) {
     const Point place{p.x + turn, p.y};
     piece_tree_.visit(plane.around(Box::of(place, place), far), [&](std::uint32_t i) {
       const Piece& piece = pieces_[i];
-      if (plane.distance(place, piece.a, piece.b) <= far) near.push_back(piece.rule);
+      if (RulePlane::distance(place, piece.a, piece.b, shrink, nullptr) <= far) near.push_back(piece.rule);
     });
   }
   std::ranges::sort(near);
@@ -132,10 +109,10 @@ std::optional<std::size_t> RuleShapes::lastAround(const PlacedEdge& edge, const 
   for (const double turn : plane.turns()) {
     const Point place{p.x + turn, p.y};
     area_tree_.visit(Box::of(place, place), [&](std::uint32_t i) {
-      const auto& [rule, polygon, box] = areas_[i];
+      const auto& [rule, area] = areas_[i];
       if (last && rule < *last && used[rule]) return;
       if (!edge.outer && rules[rule].opens()) return;
-      if (!contains(polygon, p, plane)) return;
+      if (!area.contains(p, plane)) return;
       used[rule] = true;
       last = std::max(last, std::optional(rule));
     });
@@ -152,7 +129,7 @@ bool RuleShapes::anyNear(const PlacedEdge& edge, double reach, double most, cons
     };
     piece_tree_.descend(enter, [&](std::uint32_t) { found = true; });
     area_tree_.descend(enter, [&](std::uint32_t i) {
-      const Box& area = areas_[i].box;
+      const Box& area = areas_[i].area.box();
       found = found || plane.distance({area.xmin, area.ymin}, {area.xmax, area.ymax}) <= most;
     });
   }
@@ -171,7 +148,7 @@ std::vector<Point> RuleShapes::lineOf(std::size_t rule) const {
 
 Box RuleShapes::boxOf(std::size_t rule) const {
   const auto area = std::ranges::lower_bound(areas_, rule, {}, &Area::rule);
-  return area != areas_.end() && area->rule == rule ? area->box : Box{};
+  return area != areas_.end() && area->rule == rule ? area->area.box() : Box{};
 }
 
 }  // namespace coastmesh

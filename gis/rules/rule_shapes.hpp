@@ -10,6 +10,7 @@
 #include "gis/crs/crs.hpp"
 #include "gis/geometry/box_tree.hpp"
 #include "gis/grid/boundary_kinds.hpp"
+#include "gis/rules/area_search.hpp"
 
 namespace coastmesh {
 
@@ -51,7 +52,11 @@ class RulePlane {
   double shrinkAt(double y) const;
   double distance(const Point& a, const Point& b) const;
   // The distance of `p` from the straight line between `a` and `b`; `share` gets how far along it is nearest, 0 to 1.
-  double distance(const Point& p, const Point& a, const Point& b, double* share = nullptr) const;
+  double distance(const Point& p, const Point& a, const Point& b, double* share = nullptr) const {
+    return distance(p, a, b, shrinkAt(p.y), share);
+  }
+  // The same; `shrink` is that at `p`.
+  static double distance(const Point& p, const Point& a, const Point& b, double shrink, double* share);
   // All places within `reach` of a box.
   Box around(const Box& box, double reach) const;
   // Shifts of x to try.
@@ -92,8 +97,7 @@ class RuleShapes {
  private:
   struct Area {
     std::size_t rule = 0;
-    Polygon polygon;
-    Box box;
+    AreaSearch area;
   };
   struct Piece {  // of a line
     std::size_t rule = 0;
