@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "apps/cli/feature_file_names.hpp"
+#include "apps/cli/output_batch.hpp"
 #include "apps/cli/partition_outputs.hpp"
 #include "apps/cli/run_outputs.hpp"
 #include "apps/cli/shard_file.hpp"
@@ -255,6 +256,12 @@ class Maker {
     return true;
   }
 
+  // Moves into place what still waits for that. To be called after the last `make`.
+  void finish() {
+    const std::lock_guard lock(mutex_);
+    batch_.commit();
+  }
+
   // Warnings for inputs that have no effect on any feature that was meshed, and for openings and rivers that none has.
   std::vector<std::string> idleInputs() const {
     std::vector<std::string> warnings = idle_inputs_.ofAll(meshed_);
@@ -319,14 +326,14 @@ class Maker {
     run_.interrupt.check();
     if (cancelled_()) throw Cancelled();
     result.partition = partitionGrid(result.grid, partition_, inOrder);
-    RunOutputs outputs(usage_.overwrite || usage_.skip_existing, run_.inputs, run_.interrupt);
-    outputs.addGrids(outcome.outputs, usage_.format);
-    const std::vector<std::string> losses = outputs.lossWarnings(result.grid, LossesOf::Input);
+    auto outputs = std::make_unique<RunOutputs>(usage_.overwrite || usage_.skip_existing, run_.inputs, run_.interrupt);
+    outputs->addGrids(outcome.outputs, usage_.format);
+    const std::vector<std::string> losses = outputs->lossWarnings(result.grid, LossesOf::Input);
     outcome.warnings.insert(outcome.warnings.end(), losses.begin(), losses.end());
-    const std::vector<std::string> numbers = outputs.numberWarnings(result.grid);
+    const std::vector<std::string> numbers = outputs->numberWarnings(result.grid);
     outcome.warnings.insert(outcome.warnings.end(), numbers.begin(), numbers.end());
-    for (std::size_t g = 0; g < outputs.grids(); ++g) outputs.writeGrid(g, result.grid, inOrder);
-    outputs.commitAndGoOn();
+    for (std::size_t g = 0; g < outputs->grids(); ++g) outputs->writeGrid(g, result.grid, inOrder);
+    batch_.add(std::move(outputs));
   }
 
   const MeshRunUsage& usage_;
@@ -338,11 +345,51 @@ class Maker {
   Shares& shares_;
   std::function<bool()> cancelled_;
   std::mutex mutex_;
+  OutputBatch batch_;
   std::size_t meshed_ = 0;
   CountedTexts idle_inputs_, idle_notes_;
   std::map<std::size_t, IdleFile> idle_boundaries_;
   std::map<std::string, std::map<std::uint32_t, Missed>> missed_;  // by file and rule
 };
+
+// Returns the number of threads.
+int makeAll(const MeshJob& job, std::vector<Planned>& planned, Maker& maker, const std::function<bool()>& cancelled) {
+  std::vector<std::size_t> order;  // largest first
+  for (std::size_t i = 0; i < planned.size(); ++i)
+    if (planned[i].outcome.state != FeatureState::Skipped) order.push_back(i);
+  std::ranges::stable_sort(order, std::greater(), [&planned](std::size_t i) { return planned[i].points; });
+  int threads = 1;
+  const double memory = availableMemory();
+  const auto makeEach = [&] {
+    threads = threadCount();
+    if (readsFiles(job)) {
+      for (const std::size_t i : order) maker.make(i, planned[i], memory, true);
+      return;
+    }
+    Together together{order.size(), 0, static_cast<std::size_t>(threads)};
+    for (const std::size_t i : order) together.points += planned[i].points;
+    // Features that need more than their share of the memory are meshed afterwards, one by one.
+    std::vector<char> done(order.size(), false);
+    forEachItem(order.size(), RunControl{cancelled, {}}, [&](std::size_t at) {
+      Planned& one = planned[order[at]];
+      done[at] = maker.make(order[at], one, memoryShare(memory, one.points, together), order.size() == 1);
+    });
+    for (std::size_t at = 0; at < order.size(); ++at)
+      if (!done[at]) maker.make(order[at], planned[order[at]], memory, true);
+  };
+  try {
+    withThreads(job.parallel, makeEach);
+  } catch (const OutputError&) {
+    try {
+      maker.finish();
+    } catch (const OutputError&) {
+      // The first error is the one to report.
+    }
+    throw;
+  }
+  maker.finish();
+  return threads;
+}
 
 void warnOf(const std::vector<FeatureOutcome>& features, Run& run) {
   constexpr std::size_t kShown = 20;
@@ -430,36 +477,16 @@ int runPerFeature(const MeshRunUsage& usage, Run& run) {
 
   Shares shares(planned, display);
   Maker maker(usage, coastline, job, partition, run, shares, cancelled);
-  std::vector<std::size_t> order;  // largest first
-  for (std::size_t i = 0; i < planned.size(); ++i)
-    if (planned[i].outcome.state != FeatureState::Skipped) order.push_back(i);
-  std::ranges::stable_sort(order, std::greater(), [&planned](std::size_t i) { return planned[i].points; });
-  int threads = 1;
-  const double memory = availableMemory();
-  withThreads(job.parallel, [&] {
-    threads = threadCount();
-    if (readsFiles(job)) {
-      for (const std::size_t i : order) maker.make(i, planned[i], memory, true);
-      return;
-    }
-    Together together{order.size(), 0, static_cast<std::size_t>(threads)};
-    for (const std::size_t i : order) together.points += planned[i].points;
-    // Features that need more than their share of the memory are meshed afterwards, one by one.
-    std::vector<char> done(order.size(), false);
-    forEachItem(order.size(), RunControl{cancelled, {}}, [&](std::size_t at) {
-      Planned& one = planned[order[at]];
-      done[at] = maker.make(order[at], one, memoryShare(memory, one.points, together), order.size() == 1);
-    });
-    for (std::size_t at = 0; at < order.size(); ++at)
-      if (!done[at]) maker.make(order[at], planned[order[at]], memory, true);
-  });
+  const int threads = makeAll(job, planned, maker, cancelled);
   display.clear();
 
   std::vector<FeatureOutcome> features;
   for (Planned& one : planned) features.push_back(std::move(one.outcome));
   for (const std::string& warning : read.warnings) run.warn(warning);
   // Only for a run of all features: a file may have an effect on others.
-  const bool all = shardOf(usage.shard).second == 1 && order.size() == features.size();
+  const bool skips =
+      std::ranges::any_of(features, [](const FeatureOutcome& f) { return f.state == FeatureState::Skipped; });
+  const bool all = shardOf(usage.shard).second == 1 && !skips;
   for (const std::string& warning : all ? maker.idleInputs() : std::vector<std::string>{}) run.warn(warning);
   warnOf(features, run);
   std::ranges::move(notesOf(features, job), std::back_inserter(read.notes));

@@ -260,27 +260,37 @@ std::vector<std::string> RunOutputs::lossWarnings(const Grid& grid, LossesOf of)
   return warnings;
 }
 
-void RunOutputs::moveIntoPlace() {
+std::vector<StagedFiles*> RunOutputs::made() {
   std::vector<StagedFiles*> made;
   for (StagedOutput& grid : grids_)
     if (grid.files().made()) made.push_back(&grid.files());
   for (const auto& file : files_)
     if (file->made()) made.push_back(file.get());
-  requireMemoryHeld();
-  commitTogether(made);
-}
-
-void RunOutputs::commitAndGoOn() {
-  interrupt_.close();
-  const std::shared_ptr<Interrupt> reopens(&interrupt_, [](Interrupt* interrupt) { interrupt->reopen(); });
-  moveIntoPlace();
+  return made;
 }
 
 void RunOutputs::commit() {
   interrupt_.close();
-  moveIntoPlace();
+  requireMemoryHeld();
+  commitTogether(made());
   if (!guarded_.empty()) outputsAreInPlace();
   std::fputs(report_text_.c_str(), stdout);
+}
+
+void commitInTurn(std::span<const std::unique_ptr<RunOutputs>> parts, const ItemLoop& loop) {
+  if (parts.empty()) return;
+  std::vector<std::vector<StagedFiles*>> groups;
+  std::vector<StagedFiles*> all;
+  for (const auto& part : parts) {
+    groups.push_back(part->made());
+    all.insert(all.end(), groups.back().begin(), groups.back().end());
+  }
+  syncToDisk(all, loop);
+  Interrupt& interrupt = parts.front()->interrupt_;
+  interrupt.close();
+  const std::shared_ptr<Interrupt> reopens(&interrupt, [](Interrupt* closed) { closed->reopen(); });
+  requireMemoryHeld();
+  moveInTurn(groups);
 }
 
 }  // namespace coastmesh

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -65,12 +66,11 @@ class RunOutputs {
   // Moves everything written into place, after Interrupt::close(). Throws OutputError, Cancelled, and std::bad_alloc if
   // any allocation failed.
   void commit();
-  // The same for some of a run's outputs; the run continues and can be interrupted again.
-  void commitAndGoOn();
 
  private:
+  friend void commitInTurn(std::span<const std::unique_ptr<RunOutputs>> parts, const ItemLoop& loop);
   void guard(const StagedFiles& files);
-  void moveIntoPlace();
+  std::vector<StagedFiles*> made();
 
   bool overwrite_;
   std::vector<std::string> inputs_;
@@ -86,5 +86,10 @@ class RunOutputs {
   std::vector<std::string> metre_paths_;        // of formats whose coordinates are read as metres
   std::vector<std::filesystem::path> guarded_;  // copied, so that releasing them allocates nothing
 };
+
+// Moves several parts of a run's outputs into place, one after another: each appears whole or not at all. First waits
+// once until all of them are on disk, with `loop`. The run continues and can be interrupted again. REQUIRES: they have
+// the same `Interrupt`. Throws as `commit`; then the parts before the one that failed may be in place.
+void commitInTurn(std::span<const std::unique_ptr<RunOutputs>> parts, const ItemLoop& loop);
 
 }  // namespace coastmesh

@@ -81,7 +81,7 @@ std::vector<fs::path> filesIn(const fs::path& folder) {
 }
 
 // Starts writing a file to disk, if the system can: several started together finish sooner. Errors are left to
-// `flushToDisk`.
+// `errorOfFlushing`.
 void beginToFlush([[maybe_unused]] const fs::path& path) {
 #ifdef SYNC_FILE_RANGE_WRITE
   const int handle = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
@@ -91,13 +91,14 @@ void beginToFlush([[maybe_unused]] const fs::path& path) {
 #endif
 }
 
-// Waits until a file, or the entries of a folder, are on disk: some systems report a full disk only then.
-void flushToDisk(const fs::path& path, const fs::path& target) {
+// Waits until a file, or the entries of a folder, are on disk: some systems report a full disk only then. Returns the
+// system's error, 0 if there is none.
+int errorOfFlushing(const fs::path& path) {
   const int handle = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (handle < 0) failToWrite(target, std::strerror(errno));
+  if (handle < 0) return errno;
   const int failure = ::fsync(handle) == 0 ? 0 : errno;
   ::close(handle);
-  if (failure != 0 && failure != EINVAL) failToWrite(target, std::strerror(failure));
+  return failure == EINVAL ? 0 : failure;
 }
 
 // Renames that can be undone.
@@ -125,10 +126,7 @@ class Moves {
 
   bool placed(const fs::path& target) const { return placed_.contains(target); }
 
-  void flushFolders() const {
-    for (const fs::path& folder : folders_)
-      if (::access(folder.c_str(), R_OK) == 0) flushToDisk(folder, folder);
-  }
+  const std::set<fs::path>& folders() const { return folders_; }
 
   void undo() {
     std::error_code ignored;  // the first error is the one to report
@@ -149,6 +147,15 @@ class Moves {
   std::vector<std::pair<fs::path, fs::path>> done_;
   std::set<fs::path> placed_, folders_;
 };
+
+void flushFolders(std::span<const Moves> moves) {
+  std::set<fs::path> folders;
+  for (const Moves& some : moves) folders.insert(some.folders().begin(), some.folders().end());
+  for (const fs::path& folder : folders) {
+    if (::access(folder.c_str(), R_OK) != 0) continue;
+    if (const int failure = errorOfFlushing(folder); failure != 0) failToWrite(folder, std::strerror(failure));
+  }
+}
 
 }  // namespace
 
@@ -221,26 +228,18 @@ void StagedFiles::keep(const std::string& target) {
   kept_.insert(target);
 }
 
-void StagedFiles::checkAndFlush() const {
-  assert(made_ && !staging_folder_.empty());
-  requireFree();
-  for (const fs::path& file : filesIn(staging_folder_)) {
-    const fs::path target = folderOf(path_) / file.filename();
-    requireReplaceable(target, overwrite_);
-    flushToDisk(file, target);
-  }
-}
-
 template <typename Moves>
 void StagedFiles::move(Moves& moves) const {
   const fs::path staging(staging_folder_), folder = folderOf(path_), backups = staging / kBackupFolder;
-  std::error_code error;
   const std::vector<fs::path> staged = filesIn(staging);  // sorted: a partition has two files per process
-  fs::create_directory(backups, error);
-  if (error) failToWrite(path_, error.message());
   std::vector<fs::path> old(files_.targets.begin(), files_.targets.end());
   old.insert(old.end(), files_.stale.begin(), files_.stale.end());
   if (!files_.prj.empty() && !std::ranges::count(old, fs::path(files_.prj))) old.emplace_back(files_.prj);
+  const auto replacesAny = [&](const fs::path& file) { return isThere(folder / file.filename()); };
+  if (std::error_code error; std::ranges::any_of(old, replacesAny) || std::ranges::any_of(staged, replacesAny)) {
+    fs::create_directory(backups, error);
+    if (error) failToWrite(path_, error.message());
+  }
   for (const fs::path& file : old) {
     const bool replaced = std::ranges::binary_search(staged, staging / file.filename());
     if (!replaced && !kept_.contains(file.string()) && !moves.placed(folder / file.filename()))
@@ -258,22 +257,58 @@ void StagedFiles::commit() {
   commitTogether({&self, 1});
 }
 
-void commitTogether(std::span<StagedFiles* const> outputs) {
-  for (const StagedFiles* output : outputs)
-    for (const fs::path& file : filesIn(output->staging_folder_)) beginToFlush(file);
-  for (const StagedFiles* output : outputs) output->checkAndFlush();
-  Moves moves;
+void syncToDisk(std::span<StagedFiles* const> outputs, const ItemLoop& loop) {
+  std::vector<fs::path> files, targets;
+  for (const StagedFiles* output : outputs) {
+    assert(output->made_ && !output->staging_folder_.empty());
+    output->requireFree();
+    for (const fs::path& file : filesIn(output->staging_folder_)) {
+      files.push_back(file);
+      targets.push_back(folderOf(output->path_) / file.filename());
+      requireReplaceable(targets.back(), output->overwrite_);
+      beginToFlush(file);
+    }
+  }
+  std::vector<int> failures(files.size());
+  forItems(loop, files.size(), [&](std::size_t i) { failures[i] = errorOfFlushing(files[i]); });
+  for (std::size_t i = 0; i < files.size(); ++i)
+    if (failures[i] != 0) failToWrite(targets[i], std::strerror(failures[i]));
+}
+
+void moveInTurn(std::span<const std::vector<StagedFiles*>> groups) {
+  const auto endOf = [&](std::size_t group) {  // all of it is in place
+    for (StagedFiles* output : groups[group]) {
+      removeFolder(output->staging_folder_.c_str());
+      output->staging_folder_.clear();
+    }
+  };
+  std::vector<Moves> moves(groups.size());
+  std::size_t moved = 0;
   try {
-    for (const StagedFiles* output : outputs) output->move(moves);
-    moves.flushFolders();
+    for (; moved < groups.size(); ++moved)
+      for (const StagedFiles* output : groups[moved]) output->move(moves[moved]);
+    flushFolders(moves);
   } catch (...) {
-    moves.undo();
+    if (moved == groups.size()) {
+      for (Moves& some : std::views::reverse(moves)) some.undo();
+    } else {
+      moves[moved].undo();
+      try {
+        flushFolders({moves.data(), moved});
+      } catch (const OutputError&) {
+        // The first error is the one to report.
+      }
+      for (std::size_t group = 0; group < moved; ++group) endOf(group);
+    }
     throw;
   }
-  for (StagedFiles* output : outputs) {
-    removeFolder(output->staging_folder_.c_str());  // all is in place
-    output->staging_folder_.clear();
-  }
+  for (std::size_t group = 0; group < groups.size(); ++group) endOf(group);
+}
+
+void commitTogether(std::span<StagedFiles* const> outputs) {
+  syncToDisk(outputs);
+  const std::vector<StagedFiles*> group(outputs.begin(), outputs.end());
+  moveInTurn({&group, 1});
 }
 
 }  // namespace coastmesh

@@ -5,7 +5,9 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "core/item_loop.hpp"
 #include "gis/file/output_files.hpp"
 
 namespace coastmesh {
@@ -38,9 +40,9 @@ class StagedFiles {
   const std::string& stagingFolder() const { return staging_folder_; }
 
  private:
-  friend void commitTogether(std::span<StagedFiles* const> outputs);
+  friend void syncToDisk(std::span<StagedFiles* const> outputs, const ItemLoop& loop);
+  friend void moveInTurn(std::span<const std::vector<StagedFiles*>> groups);
   void requireFree() const;
-  void checkAndFlush() const;
   template <typename Moves>
   void move(Moves& moves) const;
 
@@ -51,6 +53,15 @@ class StagedFiles {
   std::set<std::string> kept_;
   std::string staging_folder_;
 };
+
+// Waits until all files are on disk. Takes little longer for many files than for one if `loop` has threads to wait.
+// REQUIRES: all are made. Throws OutputError, also for files that may not be replaced.
+void syncToDisk(std::span<StagedFiles* const> outputs, const ItemLoop& loop = inOrder);
+
+// Moves the outputs of one group after another into place, and syncs that to disk once, in the end. Of each group either
+// all are in place or none; if one fails, those before it are in place, those after it are not; if it is syncing that
+// fails, none is. REQUIRES: `syncToDisk` was called for all. Throws OutputError.
+void moveInTurn(std::span<const std::vector<StagedFiles*>> groups);
 
 // Syncs all files to disk, moves them into place, and syncs that too. Either all are in place or, if one fails, none:
 // the previous ones are then restored. REQUIRES: all are made. Throws OutputError.
