@@ -12,7 +12,7 @@
 namespace coastmesh {
 namespace {
 
-constexpr int kDepth = 4;  // levels of folders; there is one, for replaced files
+constexpr int kDepth = 4;  // levels of folders; there are none unless a library makes some
 
 // A spare descriptor, or -1. Several threads and signal handlers may compete for it.
 int g_spare = -1;

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kBackupFolder = ".before";  // within the staging folder
+constexpr const char* kBackupEnding = "~";  // of replaced files, in the staging folder
 
 fs::path folderOf(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
@@ -230,25 +230,21 @@ void StagedFiles::keep(const std::string& target) {
 
 template <typename Moves>
 void StagedFiles::move(Moves& moves) const {
-  const fs::path staging(staging_folder_), folder = folderOf(path_), backups = staging / kBackupFolder;
+  const fs::path staging(staging_folder_), folder = folderOf(path_);
   const std::vector<fs::path> staged = filesIn(staging);  // sorted: a partition has two files per process
   std::vector<fs::path> old(files_.targets.begin(), files_.targets.end());
   old.insert(old.end(), files_.stale.begin(), files_.stale.end());
   if (!files_.prj.empty() && !std::ranges::count(old, fs::path(files_.prj))) old.emplace_back(files_.prj);
-  const auto replacesAny = [&](const fs::path& file) { return isThere(folder / file.filename()); };
-  if (std::error_code error; std::ranges::any_of(old, replacesAny) || std::ranges::any_of(staged, replacesAny)) {
-    fs::create_directory(backups, error);
-    if (error) failToWrite(path_, error.message());
-  }
+  const auto backupOf = [&](const fs::path& file) { return staging / (file.filename().string() + kBackupEnding); };
   for (const fs::path& file : old) {
     const bool replaced = std::ranges::binary_search(staged, staging / file.filename());
     if (!replaced && !kept_.contains(file.string()) && !moves.placed(folder / file.filename()))
-      moves.remove(folder / file.filename(), backups / file.filename());
+      moves.remove(folder / file.filename(), backupOf(file));
   }
   for (const fs::path& file : staged) {
     const fs::path target = folder / file.filename();
     // Another output of the run, such as a .msh beside this .2dm, may have written the same .prj.
-    if (!moves.placed(target)) moves.replace(file, target, backups / file.filename());
+    if (!moves.placed(target)) moves.replace(file, target, backupOf(file));
   }
 }
 

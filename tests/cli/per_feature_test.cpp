@@ -312,6 +312,36 @@ TEST_F(PerFeature, StoppedAndGoneOnWithItIsTheWhole) {
   }
 }
 
+// Several small files are moved into place after a single wait for the disk.
+TEST_F(PerFeature, ManyFilesAreAllThere) {
+  constexpr std::size_t kFeatures = 600;
+  Json features = Json::array();
+  for (std::size_t i = 0; i < kFeatures; ++i)
+    features.push_back(
+        square(5 + 0.1 * static_cast<double>(i % 30), 40 + 0.1 * static_cast<double>(i / 30), 0.02, Json::object()));
+  const std::string input = writeFeatures(features);
+  for (const char* last : {"none", "599.2dm"}) {  // the second time a file is there that cannot be replaced
+    if (last != std::string("none")) {
+      for (const std::string& name : names())
+        if (name.ends_with(".2dm")) std::filesystem::resize_file(file(name), 0);
+      std::filesystem::remove(file(last));
+      std::filesystem::create_directory(file(last));
+    }
+    const ProgramRun run = mesh(input, {"-o", file("{}.2dm"), "--threads", "2", "--overwrite", "--quiet"});
+    EXPECT_EQ(run.code, last == std::string("none") ? 0 : 4) << run.errors;
+    std::size_t whole = 0;
+    for (const std::string& name : names()) {
+      EXPECT_FALSE(name.starts_with(".")) << name;
+      if (!name.ends_with(".2dm") || name == last) continue;
+      const std::string text = readText(file(name));
+      EXPECT_TRUE(text.empty() || text.starts_with("MESH2D")) << name;
+      whole += !text.empty();
+    }
+    EXPECT_GT(whole, kFeatures / 2);
+    if (last == std::string("none")) EXPECT_EQ(whole, kFeatures);
+  }
+}
+
 TEST_F(PerFeature, WhatDoesNotGoTogetherIsRefused) {
   const std::string input = lakes();
   const std::string out = file("{}.2dm");
