@@ -55,11 +55,23 @@ class Chaining {
     for (RuleLine& line : chain) std::ranges::reverse(line.points);
   }
 
-  // The closest end of a line of the same type; nullopt if there is none within reach.
+  // The closest end of a line of the same type; nullopt if there is none within reach. Where many lines end within
+  // reach, most chains go on much closer: there it is searched for first.
   std::optional<Meeting> nextOf(const RuleLine& line) const {
     if (rules_[line.rule].form != RuleForm::Line) return std::nullopt;
+    const double reach = reach_(line.points.back());
+    for (const double share : {1.0 / 1024.0, 1.0 / 32.0})
+      // Half of it: degrees of longitude are shorter halfway to an end nearer the pole.
+      if (const auto [meeting, distance] = closestWithin(share * reach, line);
+          meeting && distance <= 0.5 * share * reach)
+        return meeting;
+    return closestWithin(reach, line).first;
+  }
+
+  // With its distance.
+  std::pair<std::optional<Meeting>, double> closestWithin(double reach, const RuleLine& line) const {
     const Point& end = line.points.back();
-    double closest = reach_(end);
+    double closest = reach;
     std::optional<Meeting> best;
     for (const double turn : plane_.turns()) {
       const Point place{end.x + turn, end.y};
@@ -75,7 +87,7 @@ class Chaining {
         best = {other, at_back, -turn};
       });
     }
-    return best;
+    return {best, closest};
   }
 
   std::vector<RuleLine> lines_;
