@@ -58,9 +58,9 @@ class StagedFiles {
 // REQUIRES: all are made. Throws OutputError, also for files that may not be replaced.
 void syncToDisk(std::span<StagedFiles* const> outputs, const ItemLoop& loop = inOrder);
 
-// Moves the outputs of one group after another into place, and syncs that to disk once, in the end. Of each group either
-// all are in place or none; if one fails, those before it are in place, those after it are not; if it is syncing that
-// fails, none is. REQUIRES: `syncToDisk` was called for all. Throws OutputError.
+// Moves the outputs of one group after another into place, and syncs that to disk once, in the end. Of each group
+// either all are in place or none; if one fails, those before it are in place, those after it are not; if it is syncing
+// that fails, none is. REQUIRES: `syncToDisk` was called for all. Throws OutputError.
 void moveInTurn(std::span<const std::vector<StagedFiles*>> groups);
 
 // Syncs all files to disk, moves them into place, and syncs that too. Either all are in place or, if one fails, none:

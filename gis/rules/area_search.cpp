@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "gis/rules/rule_shapes.hpp"
-
 namespace coastmesh {
 namespace {
 

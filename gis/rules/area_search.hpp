@@ -4,10 +4,9 @@
 
 #include "gis/coast/coastline.hpp"
 #include "gis/geometry/box_tree.hpp"
+#include "gis/rules/rule_plane.hpp"
 
 namespace coastmesh {
-
-class RulePlane;
 
 // A polygon, searchable by places.
 class AreaSearch {

@@ -1,15 +1,25 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "core/ids.hpp"
 #include "core/item_loop.hpp"
 #include "gis/geometry/box_tree.hpp"
-#include "gis/rules/rough_lines.hpp"
+#include "gis/rules/rule_shapes.hpp"
 
 namespace coastmesh {
+
+// A boundary edge that may be near a rule's line or polygon.
+struct NearEdge {
+  PlacedEdge edge;
+  std::optional<std::size_t> rule{};  // the last that applies to it
+  std::uint32_t next = kNone;         // the edge after it along the boundary; kNone if that is not near
+  BoundaryKind before{};              // its type without rules
+};
 
 // The closest edge.
 struct Closest {

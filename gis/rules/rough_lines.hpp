@@ -1,22 +1,12 @@
 #pragma once
 
-#include <cstdint>
-#include <optional>
 #include <vector>
 
-#include "core/ids.hpp"
 #include "core/item_loop.hpp"
+#include "gis/rules/edge_search.hpp"
 #include "gis/rules/rule_shapes.hpp"
 
 namespace coastmesh {
-
-// A boundary edge that may be near a rule's line or polygon.
-struct NearEdge {
-  PlacedEdge edge;
-  std::optional<std::size_t> rule{};  // the last that applies to it
-  std::uint32_t next = kNone;         // the edge after it along the boundary; kNone if that is not near
-  BoundaryKind before{};              // its type without rules
-};
 
 // A part of the boundary that a rule asks for and does not get.
 struct MissedPart {

@@ -8,8 +8,6 @@
 #include <random>
 #include <vector>
 
-#include "gis/rules/rule_shapes.hpp"
-
 namespace coastmesh {
 namespace {
 
