@@ -232,7 +232,10 @@ TEST(LossesIn, NothingOfAPlainMesh) {
   grid.lines.clear();
   grid.features.clear();
   grid.feature_of.clear();
-  for (Boundary& boundary : grid.boundaries) boundary.ibtype = -1;
+  for (Boundary& boundary : grid.boundaries) {
+    boundary.ibtype = -1;
+    boundary.name.clear();
+  }
   for (const GridFormat& format : gridFormats()) EXPECT_EQ(lossesIn(grid, format, LossesOf::Grid), "") << format.name;
 }
 
