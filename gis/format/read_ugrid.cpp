@@ -309,8 +309,6 @@ std::vector<double> readFaceData(const NetcdfReader& file, const std::string& na
 
 // Gives features their names and sources. `fids`: of each face, if the features have their numbers as fids; else empty.
 void nameFeatures(const NetcdfReader& file, const std::string& mesh, const std::vector<double>& fids, Grid& grid) {
-  if (const std::string source = file.globalText("source_of_features"); !source.empty())
-    for (GridFeature& feature : grid.features) feature.source = source;
   if (fids.empty()) return;
   const auto textsOf = [&](const std::string& name) {
     return file.hasVariable(mesh + name) ? file.texts(mesh + name) : std::vector<std::string>();

@@ -283,8 +283,8 @@ void defineRegions(UgridFile& ugrid, const Grid& grid, const Elements& elements,
   ugrid.names("region_name", ugrid.dimension("mesh2d_nRegions", names.size()), "names of the regions", names);
 }
 
-// The name and the source of each feature, and its number for each face, as fids may repeat; of features with one source
-// and no name only that source.
+// The name and the source of each feature, and its number for each face, as fids may repeat. Nothing for features without
+// names from one source, whose fids tell them apart.
 void defineFeatureNames(UgridFile& ugrid, const Grid& grid, const Elements& elements, int faces) {
   std::vector<std::string> names, sources;
   for (const GridFeature& feature : grid.features) {
@@ -294,9 +294,8 @@ void defineFeatureNames(UgridFile& ugrid, const Grid& grid, const Elements& elem
   const auto allEmpty = [](const std::vector<std::string>& texts) {
     return std::ranges::all_of(texts, &std::string::empty);
   };
-  if (grid.feature_of.empty() || (allEmpty(names) && allEmpty(sources))) return;
-  if (allEmpty(names) && std::ranges::adjacent_find(sources, std::not_equal_to()) == sources.end())
-    return ugrid.file().attribute(NC_GLOBAL, "source_of_features", sources.front());
+  const bool several = std::ranges::adjacent_find(sources, std::not_equal_to()) != sources.end();
+  if (grid.feature_of.empty() || (allEmpty(names) && !several)) return;
   ugrid.dataOfEach("feature_number", faces, "face",
                    "number of the source feature in the tables of names and sources, from 1", {}, elements.size(),
                    [&grid, &elements](std::size_t face) {

@@ -106,17 +106,19 @@ TEST_F(Rivers, NamesOfRiversAreThoseOfTheirBoundaries) {
   EXPECT_THAT(run.output, HasSubstr("river boundaries, by number among all boundaries"));
   EXPECT_THAT(run.output, HasSubstr("'Main', 3 nodes, near (20000, 5000)\n"));
   EXPECT_THAT(run.output, HasSubstr("'Branch', 3 nodes, near (15000, 9000)\n"));
-  EXPECT_THAT(text("both.gr3"), HasSubstr("3 = number of nodes of open boundary 1: "));
-  EXPECT_THAT(text("both.gr3"), HasSubstr(": Main\n"));
+  EXPECT_THAT(readText(file("both.gr3")), HasSubstr("3 = number of nodes of open boundary 1: "));
+  EXPECT_THAT(readText(file("both.gr3")), HasSubstr(": Main\n"));
   EXPECT_THAT(run.errors, Not(HasSubstr("both.nc' cannot hold")));
 
   ASSERT_EQ(runProgram({"convert", file("both.nc"), "-o", file("again.geojson")}).code, 0);
   std::set<std::string> names;
-  for (const Json& feature : Json::parse(text("again_boundaries.geojson"))["features"])
+  const Json boundaries = Json::parse(readText(file("again_boundaries.geojson")));
+  for (const Json& feature : boundaries["features"])
     if (feature["properties"]["role"] == "river") names.insert(feature["properties"]["name"]);
   EXPECT_EQ(names, (std::set<std::string>{"Branch", "Main"}));
   names.clear();
-  for (const Json& feature : Json::parse(text("again.geojson"))["features"]) {
+  const Json triangles = Json::parse(readText(file("again.geojson")));
+  for (const Json& feature : triangles["features"]) {
     if (feature["properties"]["name"].is_string()) names.insert(feature["properties"]["name"]);
     EXPECT_GT(feature["properties"]["area_m2"], 0.0);
     EXPECT_GT(feature["properties"]["min_angle"], 15.0);
