@@ -194,7 +194,7 @@ void readNodesOf(ListReader& file, std::uint64_t count, const NodeNumbers& numbe
   }
 }
 
-// The name after the number of a boundary, where `writeFort14` puts it: "3 = number of nodes of open boundary 2: Thames".
+// The name after the number of a boundary, as `writeFort14` has it: "3 = number of nodes of open boundary 2: Thames".
 std::string nameInComment(std::string_view line) {
   constexpr std::string_view kBefore = " boundary ";
   const std::size_t before = line.find(kBefore), mark = line.find(kNameMark);

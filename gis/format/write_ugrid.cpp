@@ -283,8 +283,8 @@ void defineRegions(UgridFile& ugrid, const Grid& grid, const Elements& elements,
   ugrid.names("region_name", ugrid.dimension("mesh2d_nRegions", names.size()), "names of the regions", names);
 }
 
-// The name and the source of each feature, and its number for each face, as fids may repeat. Nothing for features without
-// names from one source, whose fids tell them apart.
+// The name and the source of each feature, and its number for each face, as fids may repeat. Nothing for features
+// without names from one source, whose fids tell them apart.
 void defineFeatureNames(UgridFile& ugrid, const Grid& grid, const Elements& elements, int faces) {
   std::vector<std::string> names, sources;
   for (const GridFeature& feature : grid.features) {
