@@ -101,7 +101,8 @@ Command declarePlot(CLI::App& root) {
   table.option("--bbox").needs(on_plane, "with a globe as --view");
   table.choice({"--color", "Colour of triangles"}, usage->color, plotColorNames(),
                "what the colour of triangles shows; in a page, the initial choice (default: angle); quality is 4 "
-               "sqrt(3) area / sum of squared edges, 1 for equilateral triangles");
+               "sqrt(3) area / sum of squared edges, 1 for equilateral triangles, and of quadrilaterals the smallest "
+               "sine of their angles (scaled Jacobian), 1 for rectangles");
   table.flag({"--edges,!--no-edges", "Draw edges"}, usage->plot.edges, "draw edges of the triangles");
   table.flag({"--degrees", "Dots on irregular nodes"}, usage->plot.degrees,
              "draw a dot on each interior node that does not have six neighbours: green for 5, orange for 7, purple "

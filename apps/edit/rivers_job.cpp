@@ -239,6 +239,25 @@ std::vector<std::string> mergeWarnings(const MergedMesh& merged, const DepthOpti
   return all;
 }
 
+// The river boundaries by their numbers in files.
+std::string boundariesText(const Grid& grid) {
+  std::string text;
+  std::size_t rivers = 0, openings = 0;
+  for (std::size_t b = 0; b < grid.boundaries.size(); ++b) {
+    const Boundary& boundary = grid.boundaries[b];
+    const bool is_river = boundary.role == BoundaryRole::River;
+    if (is_river || boundary.role == BoundaryRole::Open) ++openings;
+    if (!is_river || ++rivers > kMostNamed) continue;
+    text += "  " + grouped(b + 1) + ", " + grouped(openings) + ": " +
+            (boundary.name.empty() ? "without a name" : "'" + boundary.name + "'") + ", " +
+            grouped(boundary.nodes.size()) + " nodes, near " +
+            pointText(grid.nodes[boundary.nodes[boundary.nodes.size() / 2]]) + "\n";
+  }
+  if (rivers == 0) return {};
+  if (rivers > kMostNamed) text += "  and " + grouped(rivers - kMostNamed) + " more\n";
+  return "river boundaries, by number among all boundaries, and among the open ones of hgrid.gr3:\n" + text;
+}
+
 MergedMesh putIn(Grid& grid, const std::string& name, Grid&& rivers, const MergeOptions& options,
                  const RunControl& control, const ItemLoop& loop) {
   try {
@@ -279,7 +298,8 @@ EditedMesh runRiversJob(Grid& grid, const std::string& name, const std::vector<s
     edit.sources.nodes = numbersBefore(merged.nodes);
     edit.sources.triangles = numbersBefore(merged.triangles);
     edit.text = [text](const Grid& finished) {
-      return text + grouped(finished.nodes.size()) + " nodes, " + elementCount(finished, grouped) + "\n";
+      return text + grouped(finished.nodes.size()) + " nodes, " + elementCount(finished, grouped) + "\n" +
+             boundariesText(finished);
     };
     return edit;
   };

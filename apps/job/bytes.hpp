@@ -18,8 +18,8 @@ auto partsOf(auto& crs) requires std::is_same_v<std::remove_cvref_t<decltype(crs
   return std::tie(wkt, authority, geographic, semi_major_m, flattening);
 }
 auto partsOf(auto& boundary) requires std::is_same_v<std::remove_cvref_t<decltype(boundary)>, Boundary> {
-  auto& [role, closed, nodes, ibtype, back_nodes, repeats_first, weir] = boundary;
-  return std::tie(role, closed, nodes, ibtype, back_nodes, repeats_first, weir);
+  auto& [role, closed, nodes, ibtype, back_nodes, repeats_first, weir, name] = boundary;
+  return std::tie(role, closed, nodes, ibtype, back_nodes, repeats_first, weir, name);
 }
 auto partsOf(auto& line) requires std::is_same_v<std::remove_cvref_t<decltype(line)>, GridLine> {
   auto& [kind, name, closed, nodes] = line;

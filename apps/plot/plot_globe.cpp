@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "apps/plot/globe_chart.hpp"
+#include "apps/plot/mesh_shape.hpp"
 #include "apps/plot/plot_canvas.hpp"
 #include "apps/plot/plot_lines.hpp"
 #include "apps/plot/plot_style.hpp"
@@ -57,7 +58,8 @@ class GlobePlot {
         options_(options),
         places_(places),
         chart_(chart),
-        canvas_(path, (-kRoom) * chart.half(), kRoom * chart.half(), static_cast<double>(options.size_px), kStripPx) {
+        canvas_(path, (-kRoom) * chart.half(), kRoom * chart.half(), static_cast<double>(options.size_px), kStripPx),
+        quads_(quadAnglesOf(grid)) {
     for (const SphereVector& place : places) seen_.push_back(chart.see(place));
     mesh_ = linkGrid(grid).mesh;
   }
@@ -89,7 +91,7 @@ class GlobePlot {
     const auto& [a, b, c] = grid_.triangles[t];
     return flatAnglesDeg(places_[a], places_[b], places_[c]);
   }
-  double smallestAngle(TriId t) const { return std::ranges::min(anglesOf(t)); }
+  double smallestAngle(TriId t) const { return quads_.has(t) ? quads_.least_deg[t] : std::ranges::min(anglesOf(t)); }
 
   // Squared sides of the flat triangle, in units of the sphere's radius.
   std::array<double, 3> squaresOf(TriId t) const {
@@ -134,6 +136,7 @@ class GlobePlot {
         shares_.high = "1 quality";
         return takeShares(
             [this](TriId t) {
+              if (quads_.has(t)) return quads_.quality(t);
               const auto [a, b, c] = squaresOf(t);
               return 4.0 * std::numbers::sqrt3 * areaOf(t) / (a + b + c);
             },
@@ -317,6 +320,7 @@ class GlobePlot {
   Shares shares_;
   GlobeChart::Triangles areas_;  // of one triangle of the mesh
   std::vector<int> regions_;     // per feature
+  const QuadAngles quads_;
 };
 
 }  // namespace

@@ -109,7 +109,8 @@ class MeshPlot {
         options_(options),
         canvas_(path, window.low, window.high, static_cast<double>(options.size_px), kStripPx),
         lines_(colouredLines(grid)),
-        diagonals_(diagonalsOf(grid)) {
+        diagonals_(diagonalsOf(grid)),
+        quads_(quadAnglesOf(grid)) {
     pixels_.reserve(mesh_.points.size());
     for (const Point& p : mesh_.points) pixels_.push_back(canvas_.toPixel(p));
     centre_ = {(window.low.x + window.high.x) / 2, (window.low.y + window.high.y) / 2};
@@ -142,13 +143,19 @@ class MeshPlot {
   }
   bool shows(TriId t) const { return canvas_.showsAny(corners(t).data(), 3); }
   double smallestAngle(TriId t) const {
+    if (const std::uint32_t own = piece_.triangles[t]; quads_.has(own)) return quads_.least_deg[own];
     const auto& v = mesh_.triangles[t].v;
     if (!piece_.places.empty())
       return std::ranges::min(spaceAnglesDeg(piece_.places[v[0]], piece_.places[v[1]], piece_.places[v[2]]));
     return leastAngleDeg(mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]]);
   }
   bool isHalf(TriId t) const { return !diagonals_.empty() && diagonals_[piece_.triangles[t]] != kNoDiagonal; }
-  bool isBad(TriId t) const { return !isHalf(t) && smallestAngle(t) < options_.min_angle_deg - kAngleSlackDeg; }
+  bool isBad(TriId t) const { return smallestAngle(t) < options_.min_angle_deg - kAngleSlackDeg; }
+  double qualityOf(TriId t) const {
+    if (const std::uint32_t own = piece_.triangles[t]; quads_.has(own)) return quads_.quality(own);
+    const auto& v = mesh_.triangles[t].v;
+    return shapeQuality(mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]]);
+  }
   double area(TriId t) const {
     const auto& v = mesh_.triangles[t].v;
     return std::abs(signedArea(mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]]));
@@ -173,11 +180,8 @@ class MeshPlot {
     switch (options_.color) {
       case PlotColor::Angle:
         return rampColor(smallestAngle(t) / 60.0);
-      case PlotColor::Quality: {
-        const auto& v = mesh_.triangles[t].v;
-        const double quality = shapeQuality(mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]]);
-        return rampColor((quality - kLeastQuality) / (1.0 - kLeastQuality));
-      }
+      case PlotColor::Quality:
+        return rampColor((qualityOf(t) - kLeastQuality) / (1.0 - kLeastQuality));
       case PlotColor::Feature:
       case PlotColor::Piece:  // stored as regions: see `plotMesh`
         return featureColor(static_cast<std::size_t>(std::max(0, mesh_.regions[t])));
@@ -482,6 +486,7 @@ class MeshPlot {
   std::vector<std::uint32_t> parts_;  // per triangle, if parts are shown
   std::vector<PlotLines> lines_;
   const std::vector<std::uint8_t> diagonals_;
+  const QuadAngles quads_;
 };
 
 }  // namespace

@@ -72,14 +72,19 @@ void addAxis(PageData& data, const std::string& name, std::size_t count,
   data.add(name, packIntegers(values));
 }
 
-// The smallest angle of each triangle, in thousandths of a degree.
-void addAngles(PageData& data, std::size_t count, const std::function<std::array<double, 3>(std::size_t)>& angles_deg) {
-  std::vector<std::int32_t> smallest(count);
-  for (std::size_t t = 0; t < count; ++t) {
-    const double angle = std::ranges::min(angles_deg(t));
-    smallest[t] = std::isfinite(angle) ? static_cast<std::int32_t>(std::lround(angle * 1000.0)) : 0;
-  }
+// The smallest angle of each triangle, or of the quadrilateral that it is a half of, in thousandths of a degree; of the
+// latter also the greatest, 0 for a triangle.
+void addAngles(PageData& data, const Grid& grid, const std::function<std::array<double, 3>(std::size_t)>& angles_deg) {
+  const auto thousandths = [](double angle) {
+    return std::isfinite(angle) ? static_cast<std::int32_t>(std::lround(angle * 1000.0)) : 0;
+  };
+  const QuadAngles quads = quadAnglesOf(grid);
+  std::vector<std::int32_t> smallest(grid.triangles.size()), greatest(quads.greatest_deg.size());
+  for (std::size_t t = 0; t < smallest.size(); ++t)
+    smallest[t] = thousandths(quads.has(t) ? quads.least_deg[t] : std::ranges::min(angles_deg(t)));
+  std::ranges::transform(quads.greatest_deg, greatest.begin(), thousandths);
   data.add("angle", packIntegers(smallest));
+  if (!greatest.empty()) data.add("greatest_of_quad", packIntegers(greatest));
 }
 
 // Plane length over true length on a lattice over the area shown, rows from south to north; for a plane on Earth.
@@ -105,7 +110,7 @@ void addGlobe(PageData& data, const std::vector<Point>& geographic, const std::o
   data.facts["view"] = {{"kind", "globe"}, {"above", {above.lon, above.lat}}};
   for (std::size_t axis = 0; axis < 3; ++axis)
     addAxis(data, std::string("place_") + "xyz"[axis], places.size(), [&](std::size_t i) { return places[i][axis]; });
-  addAngles(data, grid.triangles.size(), [&](std::size_t t) {
+  addAngles(data, grid, [&](std::size_t t) {
     const auto& [a, b, c] = grid.triangles[t];
     return flatAnglesDeg(places[a], places[b], places[c]);
   });
@@ -133,7 +138,7 @@ void addPlane(PageData& data, const Grid& grid, const GridPiece& piece) {
   addAxis(data, "place_x", shares.size(), [&](std::size_t i) { return shares[i].x; });
   addAxis(data, "place_y", shares.size(), [&](std::size_t i) { return shares[i].y; });
   if (!grid.crs.isPlane()) addScales(data, piece, low, high);
-  addAngles(data, piece.mesh.triangles.size(), [&](std::size_t t) {
+  addAngles(data, grid, [&](std::size_t t) {
     const auto& [a, b, c] = piece.mesh.triangles[t].v;
     return anglesDeg(piece.mesh.points[a], piece.mesh.points[b], piece.mesh.points[c]);
   });

@@ -73,6 +73,7 @@ py::list boundariesOf(const Grid& grid) {
   for (const Boundary& boundary : grid.boundaries) {
     py::dict entry;
     entry["role"] = std::string(toString(boundary.role));
+    entry["name"] = boundary.name;
     entry["closed"] = boundary.closed;
     entry["nodes"] = py::array_t<std::uint32_t>(static_cast<py::ssize_t>(boundary.nodes.size()), boundary.nodes.data());
     list.append(entry);

@@ -33,7 +33,7 @@ FormatRecord adcircFormat() {
            .description = "ADCIRC's fort.14, depth positive down",
            .readable = true,
            .writable = true,
-           .holds = {GridPart::Title, GridPart::Rivers, GridPart::Ibtypes, GridPart::Weirs},
+           .holds = {GridPart::Title, GridPart::Rivers, GridPart::Ibtypes, GridPart::Weirs, GridPart::BoundaryNames},
            .says_depth = true,
            .needs_depths = true,
            .places = NodePlaces::OneTurn,

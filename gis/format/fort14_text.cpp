@@ -17,12 +17,14 @@ namespace coastmesh {
 namespace {
 
 constexpr std::string_view kNoTitle = "coastmesh";
+constexpr std::string_view kNameMark = ": ";  // before the name of a boundary, in the comment on its number of nodes
 
 // A segment of nodes as the file has it.
 struct Segment {
   std::vector<std::uint32_t> nodes;
   int type = 0;
   const Boundary* weir = nullptr;
+  std::string name;
 };
 
 // ADCIRC would misread a weir's number without heights: the role's own number is written instead. It would close a part
@@ -50,12 +52,12 @@ std::vector<Segment> segmentsOf(const Grid& grid, Fort14Kind kind, bool open) {
     const bool weir = kind == Fort14Kind::Adcirc && !open && !boundary.weir.empty();
     const bool closes_itself = !open && findIbtype(type)->closesItself();
     if (!boundary.closed || closes_itself || weir) {
-      segments.push_back({boundary.nodes, type, weir ? &boundary : nullptr});
+      segments.push_back({boundary.nodes, type, weir ? &boundary : nullptr, boundary.name});
       continue;
     }
     const auto begin = boundary.nodes.begin(), end = boundary.nodes.end(), middle = begin + (end - begin) / 2;
-    segments.push_back({{begin, middle + 1}, type, nullptr});
-    segments.push_back({{middle, end}, type, nullptr});
+    segments.push_back({{begin, middle + 1}, type, nullptr, boundary.name});
+    segments.push_back({{middle, end}, type, nullptr, boundary.name});
     segments.back().nodes.push_back(boundary.nodes.front());
   }
   return segments;
@@ -73,7 +75,9 @@ void writeSegments(TextWriter& file, const Grid& grid, Fort14Kind kind, bool ope
     file << segment.nodes.size();
     // ADCIRC reads a second number here, SCHISM only for land.
     if (!open || kind == Fort14Kind::Adcirc) file << ' ' << segment.type;
-    file << " = number of nodes of " << (open ? "open" : "land") << " boundary " << ++number << '\n';
+    file << " = number of nodes of " << (open ? "open" : "land") << " boundary " << ++number;
+    if (!segment.name.empty()) file << kNameMark << oneLine(segment.name);
+    file << '\n';
     for (std::size_t i = 0; i < segment.nodes.size(); ++i) {
       file << segment.nodes[i] + 1;
       if (segment.weir != nullptr) {
@@ -190,6 +194,17 @@ void readNodesOf(ListReader& file, std::uint64_t count, const NodeNumbers& numbe
   }
 }
 
+// The name after the number of a boundary, as `writeFort14` has it: "3 = number of nodes of open boundary 2: Thames".
+std::string nameInComment(std::string_view line) {
+  constexpr std::string_view kBefore = " boundary ";
+  const std::size_t before = line.find(kBefore), mark = line.find(kNameMark);
+  if (before == line.npos || mark == line.npos || mark < before + kBefore.size()) return {};
+  const std::string_view number = line.substr(before + kBefore.size(), mark - before - kBefore.size());
+  if (number.empty() || number.find_first_not_of("0123456789") != number.npos) return {};
+  const std::string_view name = line.substr(mark + kNameMark.size());
+  return std::string(name.substr(0, name.find_last_not_of(" \t\r") + 1));
+}
+
 void closeLoop(Boundary& boundary) {
   const bool repeats = boundary.nodes.size() > 1 && boundary.nodes.front() == boundary.nodes.back();
   boundary.closed = boundary.weir.empty() && (repeats || boundary.role == BoundaryRole::Island);
@@ -203,6 +218,7 @@ void readOpenSegments(ListReader& file, std::uint64_t count, const NodeNumbers& 
   for (std::uint64_t s = 0; s < count; ++s) {
     Boundary boundary{BoundaryRole::Open, false, {}};
     const std::uint64_t length = needCountLine(file);
+    boundary.name = nameInComment(file.text().line());
     readNodesOf(file, length, numbers, {}, boundary);
     nodes += length;
     closeLoop(boundary);
@@ -222,6 +238,7 @@ void readLandSegments(ListReader& file, std::uint64_t count, const NodeNumbers& 
     const Ibtype* const type = number < 0 || number > 200 ? nullptr : findIbtype(static_cast<int>(number));
     if (type == nullptr) file.fail("ADCIRC has no boundary type " + std::to_string(number));
     Boundary boundary{type->role, false, {}, type->number};
+    boundary.name = nameInComment(file.text().line());
     readNodesOf(file, length, numbers, *type, boundary);
     nodes += length + boundary.back_nodes.size();
     closeLoop(boundary);

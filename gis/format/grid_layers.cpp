@@ -109,6 +109,16 @@ void addClosedAndLength(const std::vector<Chain>& chains, const Grid& grid, cons
   layer.columns.push_back({"length_m", LayerColumn::Real(lengthsOf(chains, grid, loop))});
 }
 
+// Adds a column with their names, unless none has one.
+template <typename Chain>
+void addNames(const std::vector<Chain>& chains, GridLayer& layer) {
+  std::size_t longest = 0;
+  for (const Chain& chain : chains) longest = std::max(longest, chain.name.size());
+  if (longest == 0) return;
+  layer.columns.push_back(
+      {"name", LayerColumn::Text([&chains](std::size_t row) { return std::string_view(chains[row].name); }), longest});
+}
+
 GridLayer boundaryLayer(const Grid& grid, const ItemLoop& loop) {
   GridLayer layer = chainLayer(kBoundaryLayer, grid.boundaries);
   constexpr std::size_t kLongestRole = std::string_view("island").size();
@@ -119,6 +129,7 @@ GridLayer boundaryLayer(const Grid& grid, const ItemLoop& loop) {
     layer.columns.push_back(
         {"ibtype", LayerColumn::Whole([&grid](std::size_t row) { return grid.boundaries[row].ibtype; },
                                       [&grid](std::size_t row) { return grid.boundaries[row].ibtype < 0; })});
+  addNames(grid.boundaries, layer);
   addClosedAndLength(grid.boundaries, grid, loop, layer);
   return layer;
 }
@@ -128,12 +139,7 @@ GridLayer lineLayer(const Grid& grid, const ItemLoop& loop) {
   constexpr std::size_t kLongestKind = std::string_view("region border").size();
   layer.columns.push_back(
       {"kind", LayerColumn::Text([&grid](std::size_t row) { return toString(grid.lines[row].kind); }), kLongestKind});
-  std::size_t longest = 0;
-  for (const GridLine& line : grid.lines) longest = std::max(longest, line.name.size());
-  if (longest > 0)
-    layer.columns.push_back(
-        {"name", LayerColumn::Text([&grid](std::size_t row) { return std::string_view(grid.lines[row].name); }),
-         longest});
+  addNames(grid.lines, layer);
   addClosedAndLength(grid.lines, grid, loop, layer);
   return layer;
 }

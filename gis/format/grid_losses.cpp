@@ -112,6 +112,12 @@ std::string wordsFor(GridPart part, const Grid& grid, const GridFormat& format) 
           countBoundaries(grid, [](const Boundary& boundary) { return boundary.role == BoundaryRole::River; });
       return rivers == 0 ? "" : "that " + counted(rivers, "boundary is a river", "boundaries are rivers");
     }
+    case GridPart::BoundaryNames: {
+      const std::size_t named = countBoundaries(grid, [](const Boundary& boundary) { return !boundary.name.empty(); });
+      return named == 0 || !format.holds.has(GridPart::Rivers) ? ""
+                                                               : "the " + std::string(named == 1 ? "name" : "names") +
+                                                                     " of " + counted(named, "boundary", "boundaries");
+    }
     case GridPart::Ibtypes: {
       const auto hasIbtype = [](const Boundary& boundary) { return boundary.ibtype >= 0; };
       const std::size_t types = countBoundaries(grid, hasIbtype);
@@ -173,14 +179,14 @@ std::string datumShiftOf(const Grid& grid, const GridFormat& format) {
   return has_prj ? "the datum shift of the CRS: readers of the .prj may place the mesh some 100 m away" : "";
 }
 
-constexpr std::array kGivenParts{GridPart::Regions,   GridPart::Pieces,    GridPart::Lines,
-                                 GridPart::LineNames, GridPart::Rivers,    GridPart::Ibtypes,
-                                 GridPart::Weirs,     GridPart::BareWeirs, GridPart::PartIslands};
+constexpr std::array kGivenParts{GridPart::Regions,     GridPart::Pieces,       GridPart::Lines, GridPart::LineNames,
+                                 GridPart::Rivers,      GridPart::Ibtypes,      GridPart::Weirs, GridPart::BareWeirs,
+                                 GridPart::PartIslands, GridPart::BoundaryNames};
 constexpr std::array kAllParts{
-    GridPart::Title,        GridPart::Quads,       GridPart::Sizes,     GridPart::Features,
-    GridPart::FeatureNames, GridPart::Regions,     GridPart::Pieces,    GridPart::Lines,
-    GridPart::LineNames,    GridPart::Rivers,      GridPart::Ibtypes,   GridPart::Weirs,
-    GridPart::BareWeirs,    GridPart::PartIslands, GridPart::Partition, GridPart::NodePartition};
+    GridPart::Title,     GridPart::Quads,        GridPart::Sizes,     GridPart::Features,    GridPart::FeatureNames,
+    GridPart::Regions,   GridPart::Pieces,       GridPart::Lines,     GridPart::LineNames,   GridPart::Rivers,
+    GridPart::Ibtypes,   GridPart::Weirs,        GridPart::BareWeirs, GridPart::PartIslands, GridPart::BoundaryNames,
+    GridPart::Partition, GridPart::NodePartition};
 
 // Length in the grid's CRS over length on the ground, for a sample of edges. REQUIRES: a projected CRS in metres.
 double meanScale(const Grid& grid) {

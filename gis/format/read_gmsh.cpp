@@ -343,6 +343,16 @@ int ibtypeOfName(const std::string& name) {
   return type;
 }
 
+// The name in one that `writeGmsh` gave: "Thames" in "river 5 Thames ibtype 52". Empty if there is none.
+std::string nameInName(const std::string& name) {
+  const std::size_t number = name.find(' ');
+  if (number == std::string::npos) return {};
+  const std::size_t end = name.find_first_not_of("0123456789", number + 1);
+  if (end == std::string::npos || end == number + 1 || name[end] != ' ') return {};
+  const std::size_t mark = ibtypeOfName(name) >= 0 ? name.rfind(kIbtypeMark) : name.size();
+  return mark > end ? name.substr(end + 1, mark - end - 1) : std::string();
+}
+
 // "weir North" is a weir called "North"; names given by other programs are kept, and their lines are constraints.
 std::pair<LineKind, std::string> lineOfName(const std::string& name) {
   for (const LineKind kind : kLineKinds) {
@@ -388,6 +398,7 @@ void readCurves(const Contents& contents, const IdMap& node_index, const std::st
       const BoundaryRole by_shape = chain.closed ? roleOfLoop(grid.nodes, chain.nodes, grid.crs) : BoundaryRole::Land;
       chain.role = role.value_or(by_shape);
       chain.ibtype = role ? ibtypeOfName(name) : -1;
+      if (role) chain.name = nameInName(name);
       grid.boundaries.push_back(std::move(chain));
     }
   }

@@ -449,6 +449,7 @@ void readBoundaries(const Companion& companion, const OgrErrors& errors, const N
   LayerReader reader(*companion.layer, companion.path, errors);
   const int id_field = reader.field("id"), role_field = reader.field("role"), type_field = reader.field("ibtype");
   if (id_field < 0 || role_field < 0) return;
+  const int name_field = reader.field("name");
   LineReader lines(grid, index, LineNodes::Along::Boundary);
   std::vector<std::int64_t> ids;
   while (const OGRFeature* feature = reader.next()) {
@@ -461,6 +462,7 @@ void readBoundaries(const Companion& companion, const OgrErrors& errors, const N
     boundary.role = *known;
     if (type_field >= 0 && feature->IsFieldSetAndNotNull(type_field))
       boundary.ibtype = feature->GetFieldAsInteger(type_field);
+    boundary.name = textOf(*feature, name_field);
     boundary.nodes = lines.nodesAlong(*feature, reader);
     boundary.closed = boundary.nodes.size() > 1 && boundary.nodes.front() == boundary.nodes.back();
     if (boundary.closed) boundary.nodes.pop_back();

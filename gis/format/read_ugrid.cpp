@@ -307,6 +307,23 @@ std::vector<double> readFaceData(const NetcdfReader& file, const std::string& na
   return file.doubles(name);
 }
 
+// Gives features their names and sources. `fids`: of each face, if the features have their numbers as fids; else empty.
+void nameFeatures(const NetcdfReader& file, const std::string& mesh, const std::vector<double>& fids, Grid& grid) {
+  if (fids.empty()) return;
+  const auto textsOf = [&](const std::string& name) {
+    return file.hasVariable(mesh + name) ? file.texts(mesh + name) : std::vector<std::string>();
+  };
+  const std::vector<std::string> names = textsOf("_feature_name"), sources = textsOf("_feature_source");
+  for (GridFeature& feature : grid.features) {
+    const auto at = static_cast<std::size_t>(std::max<std::int64_t>(0, feature.fid - 1));
+    if (at < names.size() && !names[at].empty()) feature.attributes.emplace_back("name", names[at]);
+    if (at < sources.size()) feature.source = sources[at];
+  }
+  constexpr double kExact = 9007199254740992.0;  // 2^53
+  for (std::size_t face = 0; face < grid.feature_of.size(); ++face)
+    if (std::abs(fids[face]) <= kExact) grid.features[grid.feature_of[face]].fid = std::llround(fids[face]);
+}
+
 void readFaceArrays(const NetcdfReader& file, const std::string& mesh, Grid& grid) {
   const Elements elements(grid);
   const std::size_t faces = elements.size();
@@ -317,9 +334,12 @@ void readFaceArrays(const NetcdfReader& file, const std::string& mesh, Grid& gri
   readInto(grid.min_angle_deg, "_min_angle");
   readInto(grid.area_m2, "_area");
   const std::string region_name = mesh + "_region_name";
-  addFeatures(readFaceData(file, mesh + "_feature", faces),
+  const std::vector<double> fids = readFaceData(file, mesh + "_feature", faces);
+  const std::vector<double> numbers = readFaceData(file, mesh + "_feature_number", faces);
+  addFeatures(numbers.empty() ? fids : numbers,
               file.hasVariable(region_name) ? readFaceData(file, mesh + "_region", faces) : std::vector<double>(),
               file.hasVariable(region_name) ? file.texts(region_name) : std::vector<std::string>(), grid);
+  nameFeatures(file, mesh, numbers.empty() ? std::vector<double>() : fids, grid);
   for (const double piece : readFaceData(file, mesh + "_piece", faces))
     grid.piece_of.push_back(piece >= 1.0 ? static_cast<std::uint32_t>(std::min(piece, 4e9)) - 1 : 0);
   for (const double part : readFaceData(file, mesh + "_partition", faces))
@@ -341,7 +361,11 @@ void readBoundaries(const NetcdfReader& file, const std::string& mesh, Grid& gri
   const std::vector<std::int64_t> type =
       file.hasVariable(type_name) ? file.integers(type_name) : std::vector<std::int64_t>(number.size(), -1);
   if (type.size() != number.size()) file.fail("\"" + type_name + "\" has another length than \"" + number_name + "\"");
+  const std::string names_name = mesh + "_boundary_name";
+  const std::vector<std::string> names =
+      file.hasVariable(names_name) ? file.texts(names_name) : std::vector<std::string>();
   std::vector<std::vector<NodePair>> groups;
+  std::vector<std::string> name_of;
   std::vector<BoundaryRole> roles;
   std::vector<int> types;
   for (std::size_t e = 0; e < number.size(); ++e) {
@@ -349,6 +373,9 @@ void readBoundaries(const NetcdfReader& file, const std::string& mesh, Grid& gri
       if (role[e] < 0 || role[e] >= static_cast<std::int64_t>(kBoundaryRoles.size()))
         file.fail("\"" + role_name + "\" holds " + std::to_string(role[e]));
       groups.emplace_back();
+      name_of.push_back(number[e] >= 1 && number[e] <= std::ssize(names)
+                            ? names[static_cast<std::size_t>(number[e]) - 1]
+                            : std::string());
       roles.push_back(static_cast<BoundaryRole>(role[e]));
       types.push_back(static_cast<int>(std::clamp<std::int64_t>(type[e], -1, 1000)));
     }
@@ -359,6 +386,7 @@ void readBoundaries(const NetcdfReader& file, const std::string& mesh, Grid& gri
     for (Boundary& chain : chainEdges(groups[g])) {
       chain.role = roles[g];
       chain.ibtype = types[g];
+      chain.name = name_of[g];
       grid.boundaries.push_back(std::move(chain));
     }
   }

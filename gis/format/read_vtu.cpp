@@ -326,11 +326,13 @@ std::vector<std::string> readTexts(const VtuFile& file, const char* name) {
 
 void readBoundaries(const VtuFile& file, Grid& grid) {
   const auto types = file.array("FieldData", "boundary_ibtypes");
+  const std::vector<std::string> names = readTexts(file, "boundary_names");
   for (Chain& chain : readChains(file, "boundary", "roles", kBoundaryRoles.size(), grid.nodes.size())) {
     const std::size_t b = grid.boundaries.size();
     const bool known = types && b < types->size() && (*types)[b] >= 0.0 && (*types)[b] < 1000.0;
     grid.boundaries.push_back(
         {kBoundaryRoles[chain.kind], chain.closed, std::move(chain.nodes), known ? static_cast<int>((*types)[b]) : -1});
+    if (b < names.size()) grid.boundaries.back().name = names[b];
   }
 }
 

@@ -54,7 +54,7 @@ FormatRecord schismFormat() {
            .description = "SCHISM's hgrid.gr3 and hgrid.ll, depth positive down",
            .readable = true,
            .writable = true,
-           .holds = {GridPart::Title, GridPart::Quads},
+           .holds = {GridPart::Title, GridPart::Quads, GridPart::BoundaryNames},
            .says_depth = true,
            .needs_depths = true,
            .places = NodePlaces::OneTurn,

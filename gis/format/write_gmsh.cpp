@@ -19,9 +19,9 @@ namespace {
 
 constexpr int kLine = 1, kTriangle = 2, kQuadrilateral = 3;  // element types
 
-constexpr GridParts kParts22{GridPart::Quads,   GridPart::Features,  GridPart::Regions,
-                             GridPart::Lines,   GridPart::LineNames, GridPart::Rivers,
-                             GridPart::Ibtypes, GridPart::BareWeirs, GridPart::PartIslands};
+constexpr GridParts kParts22{GridPart::Quads,       GridPart::Features,     GridPart::Regions, GridPart::Lines,
+                             GridPart::LineNames,   GridPart::Rivers,       GridPart::Ibtypes, GridPart::BareWeirs,
+                             GridPart::PartIslands, GridPart::BoundaryNames};
 
 // Curves are tagged from 1 in the order of the boundaries, then of the lines; surfaces continue in the order of the
 // features. Physical groups have the tags of their entities; lines of the same kind and name are one group.
@@ -49,6 +49,7 @@ std::size_t surfaceOf(const Grid& grid, std::size_t triangle) {
 
 std::string groupName(const Boundary& boundary, std::size_t tag) {
   std::string name = std::string(toString(boundary.role)) + ' ' + std::to_string(tag);
+  if (!boundary.name.empty()) name += ' ' + quotable(boundary.name);
   if (boundary.ibtype >= 0) name += std::string(kIbtypeMark) + std::to_string(boundary.ibtype);
   return name;
 }
@@ -416,9 +417,9 @@ void writeGmsh22(const Grid& grid, const std::string& path, const ItemLoop& loop
 }  // namespace
 
 FormatRecord gmshFormat() {
-  constexpr GridParts kParts41{GridPart::Quads,       GridPart::Features, GridPart::Regions, GridPart::Lines,
-                               GridPart::LineNames,   GridPart::Rivers,   GridPart::Ibtypes, GridPart::BareWeirs,
-                               GridPart::PartIslands, GridPart::Partition};
+  constexpr GridParts kParts41{GridPart::Quads,       GridPart::Features,  GridPart::Regions,      GridPart::Lines,
+                               GridPart::LineNames,   GridPart::Rivers,    GridPart::Ibtypes,      GridPart::BareWeirs,
+                               GridPart::PartIslands, GridPart::Partition, GridPart::BoundaryNames};
   return {{.name = "gmsh",
            .endings = {".msh"},
            .description = "Gmsh 4.1 for Thetis, Firedrake, SLIM and FEniCS",

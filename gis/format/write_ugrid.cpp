@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "core/bulk_list.hpp"
+#include "gis/coast/feature_names.hpp"
 #include "gis/elements/elements.hpp"
 #include "gis/elements/quads.hpp"
 #include "gis/file/cf_grid_mapping.hpp"
@@ -237,6 +238,13 @@ std::vector<T> ofBoundaryEdges(const Grid& grid, Value&& value) {
   return values;
 }
 
+void defineBoundaryNames(UgridFile& ugrid, const Grid& grid) {
+  std::vector<std::string> names;
+  for (const Boundary& boundary : grid.boundaries) names.push_back(boundary.name);
+  if (std::ranges::all_of(names, &std::string::empty)) return;
+  ugrid.names("boundary_name", ugrid.dimension("mesh2d_nBoundaries", names.size()), "names of the boundaries", names);
+}
+
 void defineBoundaries(UgridFile& ugrid, const Grid& grid, int two, const std::vector<NodePair>& edges) {
   if (edges.empty()) return;
   const int dimension = ugrid.dimension("mesh2d_nBoundaryEdges", edges.size());
@@ -248,6 +256,7 @@ void defineBoundaries(UgridFile& ugrid, const Grid& grid, int two, const std::ve
   });
   ugrid.file().attribute(role, "flag_values", std::vector<signed char>{0, 1, 2, 3});
   ugrid.file().attribute(role, "flag_meanings", "land island open river");
+  defineBoundaryNames(ugrid, grid);
   if (std::ranges::none_of(grid.boundaries, [](const Boundary& boundary) { return boundary.ibtype >= 0; })) return;
   const int type = ugrid.data(
       "boundary_ibtype", NC_INT, dimension, "boundary", "ADCIRC's type of the edge", {},
@@ -274,6 +283,29 @@ void defineRegions(UgridFile& ugrid, const Grid& grid, const Elements& elements,
   ugrid.names("region_name", ugrid.dimension("mesh2d_nRegions", names.size()), "names of the regions", names);
 }
 
+// The name and the source of each feature, and its number for each face, as fids may repeat. Nothing for features
+// without names from one source, whose fids tell them apart.
+void defineFeatureNames(UgridFile& ugrid, const Grid& grid, const Elements& elements, int faces) {
+  std::vector<std::string> names, sources;
+  for (const GridFeature& feature : grid.features) {
+    names.emplace_back(nameOf(feature.attributes));
+    sources.push_back(feature.source);
+  }
+  const auto allEmpty = [](const std::vector<std::string>& texts) {
+    return std::ranges::all_of(texts, &std::string::empty);
+  };
+  const bool several = std::ranges::adjacent_find(sources, std::not_equal_to()) != sources.end();
+  if (grid.feature_of.empty() || (allEmpty(names) && !several)) return;
+  ugrid.dataOfEach("feature_number", faces, "face",
+                   "number of the source feature in the tables of names and sources, from 1", {}, elements.size(),
+                   [&grid, &elements](std::size_t face) {
+                     return static_cast<std::int32_t>(grid.feature_of[elements.triangleOf(face)]) + 1;
+                   });
+  const int features = ugrid.dimension("mesh2d_nFeatures", names.size());
+  if (!allEmpty(names)) ugrid.names("feature_name", features, "names of the source features", names);
+  if (!allEmpty(sources)) ugrid.names("feature_source", features, "files of the source features", sources);
+}
+
 // REQUIRES: `elements` outlive the writing.
 void defineFaces(UgridFile& ugrid, const Grid& grid, const Elements& elements, int faces) {
   const auto data = [&](const std::string& name, const std::string& long_name, const std::string& units,
@@ -295,6 +327,7 @@ void defineFaces(UgridFile& ugrid, const Grid& grid, const Elements& elements, i
       data("feature", what, {}, [fidOf](std::size_t t) { return static_cast<double>(fidOf(t)); });
     }
   }
+  defineFeatureNames(ugrid, grid, elements, faces);
   defineRegions(ugrid, grid, elements, faces);
   if (!grid.piece_of.empty())
     data("piece", "piece that the face was refined in, from 1", {},
@@ -414,7 +447,8 @@ FormatRecord ugridFormat() {
            .writable = true,
            .holds = {GridPart::Title, GridPart::Quads, GridPart::Sizes, GridPart::Features, GridPart::Regions,
                      GridPart::Pieces, GridPart::Partition, GridPart::Lines, GridPart::LineNames, GridPart::Rivers,
-                     GridPart::Ibtypes, GridPart::BareWeirs, GridPart::PartIslands},
+                     GridPart::Ibtypes, GridPart::BareWeirs, GridPart::PartIslands, GridPart::FeatureNames,
+                     GridPart::BoundaryNames},
            .places = NodePlaces::OneTurn},
           {writeUgrid, readUgrid, nullptr, nullptr, depthRemark}};
 }

@@ -92,13 +92,15 @@ struct ChainArrays {
 struct FieldArrays {
   ChainArrays boundaries, lines;
   std::vector<std::int64_t> ibtypes;
-  std::vector<std::uint8_t> line_names, region_names;
+  std::vector<std::uint8_t> boundary_names, line_names, region_names;
 
   FieldArrays(const Grid& grid, const std::vector<std::string>& regions) {
     for (const Boundary& boundary : grid.boundaries) {
       boundaries.add(boundary, boundary.role);
       ibtypes.push_back(boundary.ibtype);
+      addText(boundary.name, boundary_names);
     }
+    if (boundary_names.size() == grid.boundaries.size()) boundary_names.clear();  // all are empty
     if (std::ranges::none_of(ibtypes, [](std::int64_t type) { return type >= 0; })) ibtypes.clear();
     for (const GridLine& line : grid.lines) {
       lines.add(line, line.kind);
@@ -112,6 +114,8 @@ struct FieldArrays {
   void declare(Appendix& appendix) const {
     if (!boundaries.ends.empty()) boundaries.declare(appendix, "boundary", "roles");
     if (!ibtypes.empty()) appendix.declare("Int64", "boundary_ibtypes", 1, ibtypes.size() * 8, ibtypes.size());
+    if (!boundary_names.empty())
+      appendix.declare("UInt8", "boundary_names", 1, boundary_names.size(), boundary_names.size());
     if (!lines.ends.empty()) lines.declare(appendix, "line", "kinds");
     if (!line_names.empty()) appendix.declare("UInt8", "line_names", 1, line_names.size(), line_names.size());
     if (!region_names.empty()) appendix.declare("UInt8", "region_names", 1, region_names.size(), region_names.size());
@@ -120,6 +124,7 @@ struct FieldArrays {
   void write(Appendix& appendix) const {
     if (!boundaries.ends.empty()) boundaries.write(appendix);
     if (!ibtypes.empty()) appendix.write(ibtypes);
+    if (!boundary_names.empty()) appendix.write(boundary_names);
     if (!lines.ends.empty()) lines.write(appendix);
     if (!line_names.empty()) appendix.write(line_names);
     if (!region_names.empty()) appendix.write(region_names);
@@ -242,9 +247,9 @@ void writeVtuGlobe(const Grid& grid, const std::string& path, const ItemLoop& lo
   writeFile(grid, {place, [&nodes](std::size_t i) { return asLonLat(nodes[i]); }}, path, loop);
 }
 
-constexpr GridParts kParts{GridPart::Quads,   GridPart::Features,  GridPart::Regions,
-                           GridPart::Lines,   GridPart::LineNames, GridPart::Rivers,
-                           GridPart::Ibtypes, GridPart::BareWeirs, GridPart::PartIslands};
+constexpr GridParts kParts{GridPart::Quads,       GridPart::Features,     GridPart::Regions, GridPart::Lines,
+                           GridPart::LineNames,   GridPart::Rivers,       GridPart::Ibtypes, GridPart::BareWeirs,
+                           GridPart::PartIslands, GridPart::BoundaryNames};
 
 }  // namespace
 

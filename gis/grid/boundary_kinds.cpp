@@ -75,6 +75,7 @@ std::vector<Boundary> cutLoops(const Grid& grid, const std::vector<std::vector<s
       const BoundaryKind& kind = kinds.front();
       const BoundaryRole role = isShore(kind.role) ? roleOfLoop(grid.nodes, loop, grid.crs) : kind.role;
       boundaries.push_back({role, true, loop, kind.ibtype});
+      boundaries.back().name = kind.name;
       continue;
     }
     for (std::size_t k = 0; k < n; ++k) {
@@ -82,6 +83,7 @@ std::vector<Boundary> cutLoops(const Grid& grid, const std::vector<std::vector<s
       if (changesAt(i)) {
         const BoundaryRole role = isShore(kinds[i].role) ? BoundaryRole::Land : kinds[i].role;
         boundaries.push_back({role, false, {loop[i]}, kinds[i].ibtype});
+        boundaries.back().name = kinds[i].name;
       }
       boundaries.back().nodes.push_back(loop[(i + 1) % n]);
     }
@@ -91,7 +93,7 @@ std::vector<Boundary> cutLoops(const Grid& grid, const std::vector<std::vector<s
 
 EdgeKinds::EdgeKinds(const Grid& grid) {
   for (std::uint32_t b = 0; b < grid.boundaries.size(); ++b) {
-    kinds_.push_back({grid.boundaries[b].role, grid.boundaries[b].ibtype, b});
+    kinds_.push_back({grid.boundaries[b].role, grid.boundaries[b].ibtype, b, grid.boundaries[b].name});
     for (const auto& [from, to] : edgesOf(grid.boundaries[b])) edges_.emplace_back(edgeKey(from, to), b);
   }
   std::ranges::sort(edges_);
@@ -102,7 +104,7 @@ BoundaryKind EdgeKinds::forCutting(std::uint32_t a, std::uint32_t b) const {
   const BoundaryKind* const kind = find(a, b);
   if (kind == nullptr) return {};
   const BoundaryRole role = kind->role == BoundaryRole::Island ? BoundaryRole::Land : kind->role;
-  return {role, kind->ibtype, separators_[kind->segment]};
+  return {role, kind->ibtype, separators_[kind->segment], kind->name};
 }
 
 const BoundaryKind* EdgeKinds::find(std::uint32_t a, std::uint32_t b) const& {

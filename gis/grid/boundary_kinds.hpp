@@ -16,6 +16,7 @@ struct BoundaryKind {
   BoundaryRole role = BoundaryRole::Land;
   int ibtype = -1;            // as in Boundary
   std::uint32_t segment = 0;  // distinguishes adjacent boundaries of the same role
+  std::string name{};         // as in Boundary
 
   friend bool operator==(const BoundaryKind&, const BoundaryKind&) = default;
 };

@@ -34,6 +34,7 @@ struct Boundary {
   std::vector<std::uint32_t> back_nodes{};  // of a weir between two shores: for each node the one across
   bool repeats_first = false;               // a file's segment repeated its first node at its end
   std::vector<double> weir{};               // of a weir: heights and coefficients, the same number for each node
+  std::string name{};                       // of the river or opening; empty: none
 };
 
 // A line inside the mesh, given by the user: a chain of nodes along edges, with the mesh on both sides; a closed one

@@ -358,7 +358,8 @@ std::vector<Boundary> piecesOf(const Boundary& boundary, const std::function<boo
     const bool whole = stretch.closed == boundary.closed && stretch.at.size() == n;
     pieces.push_back({boundary.role, stretch.closed, partOf(boundary.nodes, 1, stretch), boundary.ibtype,
                       partOf(boundary.back_nodes, 1, stretch), whole && boundary.repeats_first,
-                      partOf(boundary.weir, boundary.weir.size() / std::max<std::size_t>(1, n), stretch)});
+                      partOf(boundary.weir, boundary.weir.size() / std::max<std::size_t>(1, n), stretch),
+                      boundary.name});
   }
   return pieces;
 }

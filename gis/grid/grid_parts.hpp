@@ -18,10 +18,11 @@ enum class GridPart : std::uint8_t {
   NodePartition,
   Lines,  // lines inside the mesh, and their kinds
   LineNames,
-  Rivers,       // which boundaries are rivers
-  Ibtypes,      // ADCIRC's types of boundaries that do not follow from the role
-  Weirs,        // nodes across, heights and coefficients of weirs
-  BareWeirs,    // boundaries of a weir's type without these
+  Rivers,     // which boundaries are rivers
+  Ibtypes,    // ADCIRC's types of boundaries that do not follow from the role
+  Weirs,      // nodes across, heights and coefficients of weirs
+  BareWeirs,  // boundaries of a weir's type without these
+  BoundaryNames,
   PartIslands,  // boundaries of an island's type that are only a part of a shore
 };
 

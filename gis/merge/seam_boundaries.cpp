@@ -114,7 +114,7 @@ class SeamBoundaries {
       const Boundary& boundary = grid_.boundaries[b];
       const std::uint32_t segment = isWeir(boundary) ? kWeir : b + 1;
       for (const auto& [from, to] : edgesOf(boundary))
-        kinds_[edgeKey(from, to)] = {boundary.role, boundary.ibtype, segment};
+        kinds_[edgeKey(from, to)] = {boundary.role, boundary.ibtype, segment, boundary.name};
       if (boundary.back_nodes.empty()) continue;
       for (const auto& [from, to] : edgesOf({boundary.role, boundary.closed, boundary.back_nodes}))
         kinds_.try_emplace(edgeKey(from, to), BoundaryKind{boundary.role, boundary.ibtype, kWeir});
@@ -133,7 +133,8 @@ class SeamBoundaries {
       } else {
         is_new[i] = true;
         if (const BoundaryKind* const before = origin_.kind_before(from, to))
-          kinds[i] = BoundaryKind{!isOpening(*before) ? BoundaryRole::Land : before->role, before->ibtype, 0};
+          kinds[i] =
+              BoundaryKind{!isOpening(*before) ? BoundaryRole::Land : before->role, before->ibtype, 0, before->name};
       }
     }
     resolveUnknown(kinds);
@@ -166,6 +167,7 @@ class SeamBoundaries {
     const auto goesOn = [&](std::size_t i, std::size_t j) {
       const BoundaryKind &a = *kinds[i], &b = *kinds[j];
       if (a.segment == kWeir || b.segment == kWeir || a.role != b.role || a.ibtype != b.ibtype) return false;
+      if (a.name != b.name && !a.name.empty() && !b.name.empty()) return false;
       return a.segment == b.segment || !isOpening(a) || a.segment == 0 || b.segment == 0 ||
              areOneOpening(a, b, loop, i);
     };
@@ -176,10 +178,16 @@ class SeamBoundaries {
       std::size_t end = k + 1;
       while (end < n && goesOn((start + end - 1) % n, (start + end) % n)) ++end;
       std::uint32_t least = 0;
-      for (std::size_t i = k; i < end; ++i)
-        if (const std::uint32_t segment = kinds[(start + i) % n]->segment; segment != 0)
-          least = least == 0 ? segment : std::min(least, segment);
-      for (; k < end; ++k) kinds[(start + k) % n]->segment = least;
+      std::string name;  // of the first that has one
+      for (std::size_t i = k; i < end; ++i) {
+        const BoundaryKind& kind = *kinds[(start + i) % n];
+        if (kind.segment != 0) least = least == 0 ? kind.segment : std::min(least, kind.segment);
+        if (name.empty()) name = kind.name;
+      }
+      for (; k < end; ++k) {
+        kinds[(start + k) % n]->segment = least;
+        kinds[(start + k) % n]->name = name;
+      }
     }
   }
 
@@ -197,9 +205,10 @@ class SeamBoundaries {
       std::size_t end = k;
       while (!kinds[(start + end) % n]) ++end;
       const BoundaryKind before = *kinds[(start + k - 1) % n], after = *kinds[(start + end) % n];
-      const BoundaryKind kind = before.role == BoundaryRole::Open  ? BoundaryKind{before.role, before.ibtype, 0}
-                                : after.role == BoundaryRole::Open ? BoundaryKind{after.role, after.ibtype, 0}
-                                                                   : BoundaryKind{};
+      const BoundaryKind kind =
+          before.role == BoundaryRole::Open  ? BoundaryKind{before.role, before.ibtype, 0, before.name}
+          : after.role == BoundaryRole::Open ? BoundaryKind{after.role, after.ibtype, 0, after.name}
+                                             : BoundaryKind{};
       for (; k < end; ++k) kinds[(start + k) % n] = kind;
     }
   }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "core/metric.hpp"
@@ -85,6 +86,7 @@ class GridMaker {
     std::vector<std::uint32_t>& end = made_.ends.emplace_back();
     for (std::size_t i = 0; i <= parts_.rows[reach].cells; ++i) end.push_back(nodeOf(reach, row, i));
     if (row == 0) std::ranges::reverse(end);
+    made_.end_names.push_back(lines_[parts_.rows[reach].sections[row].line].name);
   }
 
   // The nodes of the last sections of a junction's branches, in the order of its outline.
@@ -170,6 +172,19 @@ class GridMaker {
   RiverGrid made_;
 };
 
+// Gives river boundaries the names of the rivers at whose ends they are.
+void nameBoundaries(RiverGrid& rivers) {
+  std::map<NodePair, std::size_t> end_of;
+  for (std::size_t e = 0; e < rivers.ends.size(); ++e)
+    for (std::size_t i = 0; i + 1 < rivers.ends[e].size(); ++i)
+      end_of.emplace(edgeKey(rivers.ends[e][i], rivers.ends[e][i + 1]), e);
+  for (Boundary& boundary : rivers.grid.boundaries) {
+    if (boundary.role != BoundaryRole::River) continue;
+    const auto end = end_of.find(edgeKey(boundary.nodes[0], boundary.nodes[1]));
+    if (end != end_of.end()) boundary.name = rivers.end_names[end->second];
+  }
+}
+
 }  // namespace
 
 RiverGrid riverGrid(const RiverParts& parts, const std::vector<RiverLine>& lines, const RiverPlane& plane,
@@ -203,6 +218,7 @@ std::size_t setRiverBoundaries(RiverGrid& rivers, const MeshWater& water, const 
     return BoundaryKind{touchesWater(a, b) ? BoundaryRole::Open : BoundaryRole::Land};
   };
   grid.boundaries = cutLoops(grid, boundaryLoops(grid), kindOf);
+  nameBoundaries(rivers);
   return static_cast<std::size_t>(
       std::ranges::count_if(grid.boundaries, [](const Boundary& b) { return b.role == BoundaryRole::River; }));
 }

@@ -29,6 +29,7 @@ struct RiverGrid {
   Grid grid;
   // The nodes across each free end, from bank to bank, with the river to the left.
   std::vector<std::vector<std::uint32_t>> ends;
+  std::vector<std::string> end_names;  // of the river at each; empty: none
   // Triangles at junctions that miss the bound on angles, since edges of quadrilaterals leave no room.
   std::size_t below = 0;
   double least_angle_deg = 180.0;  // of them
@@ -41,7 +42,7 @@ RiverGrid riverGrid(const RiverParts& parts, const std::vector<RiverLine>& lines
                     const Crs& crs, const RefineOptions& triangle_options, bool sizes, const ItemLoop& loop = inOrder);
 
 // Sets the boundaries of such a grid: free ends without water of the mesh beyond are rivers, other edges that touch
-// that water are open, all others are land. Returns the number of river boundaries.
+// that water are open, all others are land. Rivers get their names. Returns the number of river boundaries.
 std::size_t setRiverBoundaries(RiverGrid& rivers, const MeshWater& water, const RiverPlane& plane);
 
 }  // namespace coastmesh

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -95,6 +96,34 @@ TEST_F(Rivers, TwoThatMeetAreAddedToASea) {
   const std::size_t kept = table.rows.at("triangle") - table.new_ones.at("triangle");
   EXPECT_GT(kept, before["triangles"].get<std::size_t>() / 2);
   EXPECT_LT(kept, before["triangles"].get<std::size_t>());
+}
+
+// In files, also after repairs, and in the summary, by which inflows are assigned to boundaries.
+TEST_F(Rivers, NamesOfRiversAreThoseOfTheirBoundaries) {
+  const ProgramRun run = runProgram({"rivers", sea(), twoRivers(), "-o", file("both.nc"), "-o", file("both.gr3"),
+                                     "--target", "schism", "--aspect", "1.5"});
+  ASSERT_EQ(run.code, 0) << run.errors;
+  EXPECT_THAT(run.output, HasSubstr("river boundaries, by number among all boundaries"));
+  EXPECT_THAT(run.output, HasSubstr("'Main', 3 nodes, near (20000, 5000)\n"));
+  EXPECT_THAT(run.output, HasSubstr("'Branch', 3 nodes, near (15000, 9000)\n"));
+  EXPECT_THAT(readText(file("both.gr3")), HasSubstr("3 = number of nodes of open boundary 1: "));
+  EXPECT_THAT(readText(file("both.gr3")), HasSubstr(": Main\n"));
+  EXPECT_THAT(run.errors, Not(HasSubstr("both.nc' cannot hold")));
+
+  ASSERT_EQ(runProgram({"convert", file("both.nc"), "-o", file("again.geojson")}).code, 0);
+  std::set<std::string> names;
+  const Json boundaries = Json::parse(readText(file("again_boundaries.geojson")));
+  for (const Json& feature : boundaries["features"])
+    if (feature["properties"]["role"] == "river") names.insert(feature["properties"]["name"]);
+  EXPECT_EQ(names, (std::set<std::string>{"Branch", "Main"}));
+  names.clear();
+  const Json triangles = Json::parse(readText(file("again.geojson")));
+  for (const Json& feature : triangles["features"]) {
+    if (feature["properties"]["name"].is_string()) names.insert(feature["properties"]["name"]);
+    EXPECT_GT(feature["properties"]["area_m2"], 0.0);
+    EXPECT_GT(feature["properties"]["min_angle"], 15.0);
+  }
+  EXPECT_EQ(names, (std::set<std::string>{"Branch", "Main"}));
 }
 
 TEST_F(Rivers, HaveTheDepthsOfTheirLines) {

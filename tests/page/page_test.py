@@ -402,6 +402,29 @@ class Page(unittest.TestCase):
             self.assertEqual(sum(self.counts()), 4, color)
             self.assertTrue(self.text("#histogram-text").startswith("least 0"), color)
 
+    def test_halves_of_quadrilaterals_have_its_own_angles(self):
+        # A rectangle of 1:3, a parallelogram of 45 degrees, and a triangle.
+        nodes = [(0, 0), (3, 0), (3, 1), (0, 1), (4, 2), (1, 2)]
+        mesh, html = self.path("quads.2dm"), self.path("quads.html")
+        with open(mesh, "w", encoding="utf-8") as file:
+            print("MESH2D", "E4Q 1 1 2 3 4 1", "E4Q 2 4 3 5 6 1", "E3T 3 2 5 3 1", sep="\n", file=file)
+            for i, (x, y) in enumerate(nodes):
+                print("ND", i + 1, x, y, 0, file=file)
+        self.assertEqual(plot(mesh, "-o", html, "--color", "quality").returncode, 0)
+        self.open(html)
+        self.settled()
+        qualities = []
+        for t, (least, greatest) in enumerate(((90, 90), (90, 90), (45, 135), (45, 135))):
+            self.browser.evaluate(f"page.find('triangle {t + 1}')")
+            numbers = self.wait_picked(f"Triangle {t + 1}")
+            self.assertIn("quadrilateral", numbers["half of"])
+            self.assertAlmostEqual(float(numbers["smallest angle"].rstrip("°")), least, delta=0.001)
+            self.assertAlmostEqual(float(numbers["largest angle"].rstrip("°")), greatest, delta=0.001)
+            qualities.append(float(numbers["quality"]))
+        self.assertEqual(qualities, [1.0, 1.0, 0.7071, 0.7071])
+        self.browser.evaluate("page.find('triangle 5')")
+        self.assertNotIn("half of", self.wait_picked("Triangle 5"))
+
     def test_depths_that_no_triangle_has_are_unknown(self):
         shore, depths, mesh = self.path("some.geojson"), self.path("some.asc"), self.path("some.nc")
         with open(shore, "w", encoding="utf-8") as file:

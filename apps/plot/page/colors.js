@@ -60,6 +60,7 @@ async function valuesOf(mesh, color) {
     return values;
   }
   await spacePlaces(mesh);
+  await loadQuads(mesh);
   const z = color === "timestep" ? await arrays.get("z") : null;
   for (let t = 0; t < count; ++t) values[t] = shapeValue(mesh, color, t, z);
   return values;
@@ -75,11 +76,18 @@ function shapeValue(mesh, color, t, z) {
     }
     return deepest > 0 ? Math.min(...lengths) / Math.sqrt(mesh.facts.gravity * deepest) : NaN;
   }
+  if (color === "quality" && mesh.quads?.greatest[t] > 0) return quadQuality(mesh, t);
   const area = areaOfEdges(mesh, lengths);
   // The edge of an equilateral triangle of the same area.
   if (color === "size") return Math.sqrt(area * 4 / Math.sqrt(3));
   const squares = lengths[0] ** 2 + lengths[1] ** 2 + lengths[2] ** 2;
   return squares > 0 ? 4 * Math.sqrt(3) * area / squares : 0;
+}
+
+// The smallest sine of the angles of the quadrilateral that the triangle is a half of: one of the extreme angles has it.
+function quadQuality({ quads: { least, greatest } }, t) {
+  const sine = angle => Math.sin(angle / 1000 * Math.PI / 180);
+  return Math.max(0, Math.min(sine(least[t]), greatest[t] < 180000 ? sine(greatest[t]) : 0));
 }
 
 // Returns the scale of values, from 0 at `low` to 1 at `high`, logarithmic if `log`; for kinds only the palette.
@@ -138,7 +146,7 @@ function histogramOf(mesh, color, values, scale) {
   }
   const unknown = values.length - known;
   if (lowest === Infinity) return { bins: [], unknown, least, greatest, mean: sum / known };
-  const whole = color === "angle" ? [0, 60] : [lowest, greatest];
+  const whole = color === "angle" ? [0, Math.max(60, greatest)] : [lowest, greatest];
   const at = scale.log ? Math.log : Number, back = scale.log ? Math.exp : Number;
   const low = at(whole[0]), step = (at(whole[1]) - low) / BINS;
   const count = step > 0 ? BINS : 1, bins = [];

@@ -189,6 +189,14 @@ function edgeLengths(mesh, t) {
   return [edgeLength(mesh, b, c), edgeLength(mesh, c, a), edgeLength(mesh, a, b)];
 }
 
+// The smallest and greatest angles of quadrilaterals, in thousandths of a degree, for both halves of each; the greatest
+// is 0 for a triangle that is no half.
+async function loadQuads(mesh) {
+  const { arrays } = mesh;
+  if (mesh.quads || !arrays.has("greatest_of_quad")) return;
+  mesh.quads = { least: await arrays.get("angle"), greatest: await arrays.get("greatest_of_quad") };
+}
+
 // Returns degrees at the three corners: in the plane, or on the globe of the flat triangle through them.
 function anglesOf(mesh, t) {
   const corners = [0, 1, 2].map(c => mesh.places.map(axis => axis[mesh.corners[3 * t + c]]));

@@ -76,9 +76,11 @@ async function numbersOfNode(mesh, node) {
 async function numbersOfTriangle(mesh, t) {
   const { facts, arrays, corners } = mesh, rows = [];
   await spacePlaces(mesh);
-  const lengths = edgeLengths(mesh, t), angles = anglesOf(mesh, t);
+  await loadQuads(mesh);
+  const lengths = edgeLengths(mesh, t), angles = anglesOf(mesh, t), of_quad = (mesh.quads?.greatest[t] ?? 0) / 1000;
+  if (of_quad > 0) rows.push(["half of", "a quadrilateral: angles and quality are its own"]);
   rows.push(["smallest angle", ((await arrays.get("angle"))[t] / 1000).toFixed(3) + "°"]);
-  rows.push(["largest angle", Math.max(...angles).toFixed(3) + "°"]);
+  rows.push(["largest angle", (of_quad > 0 ? of_quad : Math.max(...angles)).toFixed(3) + "°"]);
   rows.push(["edges", [...lengths].sort((a, b) => a - b).map(length => lengthText(mesh, length, 6)).join(", ")]);
   rows.push(["area", areaText(mesh, areaOfEdges(mesh, lengths))]);
   rows.push(["quality", shapeValue(mesh, "quality", t).toFixed(4)]);

@@ -73,6 +73,24 @@ TEST(MergeMesh, SizesGrowFromTheFinerMeshToTheCoarser) {
     EXPECT_NEAR(grid.z[n], -10.0 - 0.25 * grid.nodes[n].x + 0.125 * grid.nodes[n].y, 0.15);
 }
 
+// Those of new triangles, between the meshes too, and of a mesh that has none.
+TEST(MergeMesh, AnglesAndAreasOfAllTrianglesAreMeasured) {
+  for (const int columns : {10, 20}) {
+    Grid grid = gridOf({40, 40});
+    grid.area_m2.assign(grid.triangles.size(), 0.5);
+    grid.min_angle_deg.assign(grid.triangles.size(), 45.0);
+    mergeAndCheck(grid, gridOf({columns, columns, 1.0, {12.3, 12.4}, 0.2}, BoundaryRole::Open));
+    ASSERT_EQ(grid.area_m2.size(), grid.triangles.size());
+    ASSERT_EQ(grid.min_angle_deg.size(), grid.triangles.size());
+    for (std::size_t t = 0; t < grid.triangles.size(); ++t) {
+      const GridCorners& v = grid.triangles[t];
+      const Point &a = grid.nodes[v[0]], &b = grid.nodes[v[1]], &c = grid.nodes[v[2]];
+      EXPECT_NEAR(grid.area_m2[t], signedArea(a, b, c), 1e-9) << t;
+      EXPECT_NEAR(grid.min_angle_deg[t], leastAngleDeg(a, b, c), 1e-6) << t;
+    }
+  }
+}
+
 TEST(MergeMesh, ASteeperGradationReplacesLess) {
   const Grid fine = gridOf({60, 50, 0.1, {17.3, 18.4}, 0.2}, BoundaryRole::Open);
   const auto replacedBy = [&](double gradation) {

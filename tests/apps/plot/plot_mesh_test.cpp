@@ -194,6 +194,73 @@ TEST_F(PlotMesh, QualityIsThatOfTheShapeAlone) {
   EXPECT_TRUE(holds(colors(grid, PlotColor::Quality, 200), kBest));
 }
 
+// Two by two quadrilaterals beside one another, each `wide` and 1 high, leaning by `lean`.
+Grid quadBoard(double wide, double lean) {
+  Grid grid;
+  for (const double y : {0.0, 1.0, 2.0})
+    for (const double x : {0.0, wide, 2.0 * wide}) grid.nodes.push_back({x + lean * y, y});
+  for (const std::uint32_t a : {0u, 1u, 3u, 4u}) addElement(grid, std::array{a, a + 1, a + 4, a + 3});
+  return grid;
+}
+
+// The halves of such a rectangle have 14 degrees, and a quality of 0.41.
+TEST_F(PlotMesh, RectanglesAreOfTheBestColor) {
+  constexpr std::uint32_t kBest = 0x2e7da8;
+  const Grid rectangles = quadBoard(4.0, 0.0);
+  for (const PlotColor color : {PlotColor::Angle, PlotColor::Quality}) {
+    const std::set<std::uint32_t> found = colors(rectangles, color, 400);
+    EXPECT_EQ(found.size(), 1u);
+    EXPECT_TRUE(holds(found, kBest));
+    Grid halves = rectangles;
+    halves.quad_of.clear();
+    EXPECT_FALSE(holds(colors(halves, color, 400), kBest));
+  }
+}
+
+TEST_F(PlotMesh, HalvesOfALeaningQuadrilateralHaveTheColorOfItsAngle) {
+  const double lean = 1.0;  // 45 and 135 degrees
+  const Grid grid = quadBoard(3.0, lean);
+  const auto is = [this, &grid](PlotColor color, double share) {
+    const Color wanted = rampColor(share);
+    const auto byte = [](double channel) { return static_cast<std::uint32_t>(std::lround(channel * 255.0)); };
+    return holds({colorInTheMiddle(grid, color)}, byte(wanted.red) << 16 | byte(wanted.green) << 8 | byte(wanted.blue));
+  };
+  EXPECT_TRUE(is(PlotColor::Angle, 45.0 / 60.0));
+  EXPECT_TRUE(is(PlotColor::Quality, (std::sqrt(0.5) - kLeastQuality) / (1.0 - kLeastQuality)));
+}
+
+// Whole quadrilaterals are red if an angle of theirs is too small, also on a globe.
+TEST_F(PlotMesh, TooSmallAnglesOfQuadrilateralsAreRed) {
+  constexpr std::uint32_t kRed = 0xe01a1a;
+  PlotOptions options;
+  options.color = PlotColor::None;
+  options.edges = false;
+  options.size_px = 400;
+  const auto reds = [&](double lean, bool globe) {
+    Grid grid = quadBoard(2.0, lean);
+    options.min_angle_deg = 30.0;
+    if (globe) {
+      grid.crs = wgs84();
+      plotGlobe(grid, options, GlobeView{.above = LonLat{2.0, 1.0}}, file("red.png"));
+    } else {
+      plotMesh(grid, options, file("red.png"));
+    }
+    const std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> picture(
+        cairo_image_surface_create_from_png(file("red.png").c_str()), cairo_surface_destroy);
+    const unsigned char* const bytes = cairo_image_surface_get_data(picture.get());
+    const int stride = cairo_image_surface_get_stride(picture.get());
+    std::size_t count = 0;
+    for (int y = 0; y < cairo_image_surface_get_height(picture.get()) - static_cast<int>(kStripPx); ++y)
+      for (int x = 0; x < cairo_image_surface_get_width(picture.get()); ++x)
+        count += holds({reinterpret_cast<const std::uint32_t*>(bytes + y * stride)[x] & 0xffffff}, kRed);
+    return count;
+  };
+  for (const bool globe : {false, true}) {
+    EXPECT_EQ(reds(0.0, globe), 0u) << globe;  // the halves have 27 degrees
+    EXPECT_GT(reds(3.0, globe), 0u) << globe;  // 18 degrees
+  }
+}
+
 // The inner nodes of a board have six neighbours; flipping the diagonal of one square takes one from two of its corners
 // and adds one to the other two.
 TEST_F(PlotMesh, DegreesAreDotsWhereNeighboursAreNotSix) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -82,6 +83,17 @@ TEST_F(PlotPage, SaysWhatItShows) {
   EXPECT_EQ(facts["colors"], (Json{"none", "angle", "quality", "size", "region"}));
   EXPECT_EQ(facts["view"]["half"], (Json{1.0, 0.5}));
   EXPECT_EQ(facts["lines"], (Json{{{"kind", "shore"}, {"array", "line_0"}}}));
+}
+
+TEST_F(PlotPage, HalvesOfQuadrilateralsHaveTheGreatestAngleOfTheWhole) {
+  const auto hasQuads = [this](const Grid& grid) {
+    const Json arrays = factsOf(pageOf(grid, {}))["arrays"];
+    return std::ranges::any_of(arrays, [](const Json& array) { return array["name"] == "greatest_of_quad"; });
+  };
+  Grid grid = square();
+  EXPECT_FALSE(hasQuads(grid));
+  grid.quad_of = {0, 0};
+  EXPECT_TRUE(hasQuads(grid));
 }
 
 TEST_F(PlotPage, RiversWeirsAndLinesAreToldApart) {

@@ -27,7 +27,7 @@ struct Carried {
 
 Carried carriedBy(const std::string& format) {
   if (format == "gpkg" || format == "geojson" || format == "shp" || format == "fgb") return {false, true, true, true};
-  if (format == "ugrid") return {true, false, true, true};
+  if (format == "ugrid") return {true, true, true, true};
   if (format == "2dm") return {false, false, true, false};
   if (format == "vtu") return {false, false, true, true};
   if (format == "adcirc" || format == "schism" || format == "telemac") return {true, false, false, false, false};

@@ -70,7 +70,11 @@ Grid namedGrid() {
     grid.feature_of.push_back(least % 7 < 2 ? 0 : least % 7 < 4 ? 1 : 2);
   }
   grid.boundaries = findBoundaries(mesh);
-  for (Boundary& boundary : grid.boundaries) boundary.ibtype = boundary.role == BoundaryRole::Island ? 11 : 10;
+  for (Boundary& boundary : grid.boundaries) {
+    const bool is_island = boundary.role == BoundaryRole::Island;
+    boundary.ibtype = is_island ? 11 : 10;
+    boundary.name = is_island ? "Nès, 2: boundary 3" : "";
+  }
   const auto at = [](std::uint32_t i, std::uint32_t j) { return j * 7 + i; };
   grid.lines = {{LineKind::Weir, "Old dam, 1950", false, {at(1, 1), at(2, 1), at(3, 1), at(4, 2)}},
                 {LineKind::Constraint, "", false, {at(1, 5), at(2, 5)}},
@@ -140,6 +144,24 @@ TEST_P(NamedGrid, ComesBackAsTheFormatSays) {
   }
   EXPECT_EQ(losses.find("names and sources of features") == std::string::npos,
             format.holds.has(GridPart::FeatureNames));
+  if (format.holds.has(GridPart::FeatureNames)) {
+    for (std::size_t t = 0; t < grid.triangles.size(); ++t) {
+      const GridFeature &wanted = grid.features[grid.feature_of[t]], &found = got.features[got.feature_of[t]];
+      EXPECT_EQ(found.source, wanted.source) << t;
+      EXPECT_EQ(found.attributes, wanted.attributes) << t;
+    }
+  }
+
+  std::map<NodePair, std::string> names, names_got;
+  for (const auto& [of, into] : {std::pair(&grid, &names), std::pair(&got, &names_got)})
+    for (const Boundary& boundary : of->boundaries)
+      for (const auto& [a, b] : edgesOf(boundary)) (*into)[edgeKey(a, b)] = boundary.name;
+  const bool with_boundaries = format.holds.has(GridPart::Rivers) || format.holds.has(GridPart::BoundaryNames);
+  EXPECT_EQ(losses.find("the name of 1 boundary") != std::string::npos,
+            with_boundaries && !format.holds.has(GridPart::BoundaryNames));
+  if (format.holds.has(GridPart::BoundaryNames)) {
+    EXPECT_EQ(names_got, names);
+  }
 
   std::map<NodePair, int> types, types_got;
   for (const auto& [of, into] : {std::pair(&grid, &types), std::pair(&got, &types_got)}) {
@@ -210,7 +232,10 @@ TEST(LossesIn, NothingOfAPlainMesh) {
   grid.lines.clear();
   grid.features.clear();
   grid.feature_of.clear();
-  for (Boundary& boundary : grid.boundaries) boundary.ibtype = -1;
+  for (Boundary& boundary : grid.boundaries) {
+    boundary.ibtype = -1;
+    boundary.name.clear();
+  }
   for (const GridFormat& format : gridFormats()) EXPECT_EQ(lossesIn(grid, format, LossesOf::Grid), "") << format.name;
 }
 

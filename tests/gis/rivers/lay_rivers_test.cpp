@@ -56,6 +56,21 @@ TEST(LayRivers, ARiverEndsARowIntoTheWater) {
   EXPECT_TRUE(lossesOf(laid).empty());
 }
 
+TEST(LayRivers, BoundariesHaveTheNamesOfTheirRivers) {
+  const LaidRivers laid =
+      layRivers({lineOf({{-3000, 2050}, {2000, 2050}}, 100.0, "Ouse"), lineOf({{-3000, 3050}, {2000, 3050}}, 80.0, ""),
+                 lineOf({{-3000, 1050}, {2000, 1050}}, 60.0, "Don")},
+                sea(), {});
+  std::multiset<std::string> names;
+  for (const Boundary& boundary : laid.grid.boundaries) {
+    if (boundary.role == BoundaryRole::River)
+      names.insert(boundary.name);
+    else
+      EXPECT_EQ(boundary.name, "");
+  }
+  EXPECT_EQ(names, (std::multiset<std::string>{"", "Don", "Ouse"}));
+}
+
 TEST(LayRivers, WhatOfAMouthIsWiderThanTheWaterIsLand) {
   // The water ends at y = 4000.
   RiverOptions options;
