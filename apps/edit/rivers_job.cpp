@@ -1,18 +1,15 @@
 #include "apps/edit/rivers_job.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
-#include <limits>
-#include <map>
 #include <utility>
 
 #include "apps/job/available_memory.hpp"
 #include "apps/job/places.hpp"
 #include "apps/report/remesh_texts.hpp"
 #include "apps/report/report_sections.hpp"
-#include "core/union_find.hpp"
+#include "apps/report/rivers_texts.hpp"
 #include "gis/elements/elements.hpp"
 #include "gis/error.hpp"
 #include "gis/for_count.hpp"
@@ -25,7 +22,6 @@ namespace coastmesh {
 namespace {
 
 constexpr double kBytesPerQuad = 1500.0;  // of the whole program
-constexpr std::size_t kMostNamed = 20;    // rivers and places of one kind
 
 std::vector<RiverLine> readLines(const std::vector<std::string>& paths, const Crs& crs, const RiversJob& job) {
   std::vector<RiverLine> lines;
@@ -55,46 +51,6 @@ void requireOnePlane(const std::vector<RiverLine>& lines, const Grid& grid, cons
     throw InputError("'" + name +
                      "' has no CRS, and the lines seem to be in degrees: name the mesh's with "
                      "--assume-crs");
-}
-
-std::string whyText(RiverLoss why) {
-  switch (why) {
-    case RiverLoss::Apart:
-      return "not connected with the water of the mesh (--reach continues ends farther)";
-    case RiverLoss::InWater:
-      return "in the water of the mesh (--extent all has rows there too)";
-    case RiverLoss::Crowded:
-      return "without room beside others";
-    case RiverLoss::Within:
-      return "within wider ones, or given twice";
-    case RiverLoss::Short:
-      break;
-  }
-  return "shorter than a row, or than their width";
-}
-
-// A sentence for the rivers that are lost for one reason; empty if there are none.
-std::string lostText(const std::vector<LostRiver>& all, RiverLoss why, const Grid& grid) {
-  std::string places;
-  std::size_t count = 0;
-  for (const LostRiver& lost : all) {
-    if (lost.why != why || ++count > kMostNamed) continue;
-    if (!places.empty()) places += ", ";
-    places += lost.name + " near " + pointText(lost.place);
-    if (why == RiverLoss::Apart && std::isfinite(lost.distance) && lost.distance > 0.0)
-      places += ", " + lengthText(lost.distance, grid) + " away";
-  }
-  if (count == 0) return {};
-  if (count > kMostNamed) places += ", and more";
-  return grouped(count) + forCount(count, " reach is", " reaches are") + " left out, " + whyText(why) + ": " + places;
-}
-
-std::vector<std::string> lostTexts(const RiverReport& report, const Grid& grid) {
-  std::vector<std::string> texts;
-  for (const RiverLoss why :
-       {RiverLoss::Apart, RiverLoss::InWater, RiverLoss::Crowded, RiverLoss::Within, RiverLoss::Short})
-    if (std::string text = lostText(report.lost, why, grid); !text.empty()) texts.push_back(std::move(text));
-  return texts;
 }
 
 std::string joined(const std::vector<std::string>& texts) {
@@ -150,82 +106,10 @@ void keepDepths(Grid& grid, const MergedMesh& merged) {
   }
 }
 
-// Rivers that ended up without a connection to what is left of the mesh, as beyond a sliver of water too narrow for
-// them.
-std::string unconnectedText(const Grid& grid, const std::vector<MergeSource>& triangles) {
-  UnionFind waters(grid.nodes.size());
-  for (const auto& corners : grid.triangles) {
-    waters.unite(corners[0], corners[1]);
-    waters.unite(corners[0], corners[2]);
-  }
-  std::vector<std::uint8_t> is_of_mesh(grid.nodes.size(), 0);
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-    if (triangles[t].mesh == 0) is_of_mesh[waters.find(grid.triangles[t][0])] = 1;
-  std::map<std::uint32_t, std::string> apart;  // by water: a river of it
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const std::uint32_t water = waters.find(grid.triangles[t][0]);
-    if (is_of_mesh[water] != 0 || apart.contains(water)) continue;
-    std::string& river = apart[water] = "near " + pointText(grid.nodes[grid.triangles[t][0]]);
-    if (grid.feature_of.empty()) continue;
-    for (const auto& [key, value] : grid.features[grid.feature_of[t]].attributes)
-      if (key == "name") river = "'" + value + "' " + river;
-  }
-  if (apart.empty()) return {};
-  std::string text = grouped(apart.size()) + forCount(apart.size(), " river is", " rivers are") +
-                     " not connected with the water of the mesh, which is too narrow where they end: ";
-  std::size_t count = 0;
-  for (const auto& [water, river] : apart)
-    if (++count <= kMostNamed) text += (count > 1 ? ", " : "") + river;
-  return text + (count > kMostNamed ? ", and more" : "") + "; draw them farther into the water";
-}
-
 std::vector<std::uint32_t> numbersBefore(const std::vector<MergeSource>& sources) {
   std::vector<std::uint32_t> numbers;
   for (const MergeSource& source : sources) numbers.push_back(source.mesh == 0 ? source.number : kNone);
   return numbers;
-}
-
-std::string placesText(const std::vector<Point>& places) {
-  std::string text;
-  for (std::size_t i = 0; i < std::min(places.size(), kMostNamed); ++i)
-    text += (i > 0 ? ", " : "") + pointText(places[i]);
-  return places.size() > kMostNamed ? text + " and more" : text;
-}
-
-std::string reportText(const RiverReport& report, const Grid& grid) {
-  std::string text = "rivers: " + grouped(report.reaches) + forCount(report.reaches, " reach, ", " reaches, ") +
-                     grouped(report.quads) + forCount(report.quads, " quadrilateral", " quadrilaterals");
-  if (report.junctions > 0)
-    text += ", " + grouped(report.triangles) + " triangles at " + grouped(report.junctions) +
-            forCount(report.junctions, " junction", " junctions");
-  text += ", " + grouped(report.inflows) + forCount(report.inflows, " river boundary", " river boundaries") + "\n";
-  if (!report.extended.empty())
-    text += "continued to the water of the mesh: " + grouped(report.extended.size()) +
-            forCount(report.extended.size(), " end", " ends") + ", near " + placesText(report.extended) + "\n";
-  if (!report.left.empty())
-    text += "close to the water of the mesh, but not continued to it, since the river has another way there: " +
-            grouped(report.left.size()) + forCount(report.left.size(), " end", " ends") + ", near " +
-            placesText(report.left) + " (--reach continues them too)\n";
-  if (report.moved_m > 0.0)
-    text += "centre lines that turn too sharply for their width moved by at most " + lengthText(report.moved_m, grid) +
-            ", near " + pointText(report.moved_place) + "\n";
-  return text;
-}
-
-std::string narrowedText(const RiverReport& report) {
-  if (report.narrowed == 0) return {};
-  return grouped(report.narrowed) +
-         forCount(report.narrowed, " reach comes closer to itself than its width, and is",
-                  " reaches come closer to themselves than their width, and are") +
-         " narrower there: near " + pointText(report.narrowed_place);
-}
-
-std::string junctionText(const RiverReport& report) {
-  if (report.below == 0) return {};
-  return grouped(report.below) +
-         forCount(report.below, " triangle at a junction of rivers misses", " triangles at junctions of rivers miss") +
-         " --min-angle, beside quadrilaterals that leave no room for it; the smallest angle is " +
-         amount("%.1f", report.least_angle_deg) + " degrees, near " + pointText(report.least_place);
 }
 
 std::vector<std::string> mergeWarnings(const MergedMesh& merged, const DepthOptions& depth) {
@@ -237,25 +121,6 @@ std::vector<std::string> mergeWarnings(const MergedMesh& merged, const DepthOpti
     all.emplace_back("the assignment to processes is of the mesh before, and left out; partition makes a new one");
   if (merged.band) std::ranges::move(newNodeWarnings(*merged.band, depth), std::back_inserter(all));
   return all;
-}
-
-// The river boundaries by their numbers in files.
-std::string boundariesText(const Grid& grid) {
-  std::string text;
-  std::size_t rivers = 0, openings = 0;
-  for (std::size_t b = 0; b < grid.boundaries.size(); ++b) {
-    const Boundary& boundary = grid.boundaries[b];
-    const bool is_river = boundary.role == BoundaryRole::River;
-    if (is_river || boundary.role == BoundaryRole::Open) ++openings;
-    if (!is_river || ++rivers > kMostNamed) continue;
-    text += "  " + grouped(b + 1) + ", " + grouped(openings) + ": " +
-            (boundary.name.empty() ? "without a name" : "'" + boundary.name + "'") + ", " +
-            grouped(boundary.nodes.size()) + " nodes, near " +
-            pointText(grid.nodes[boundary.nodes[boundary.nodes.size() / 2]]) + "\n";
-  }
-  if (rivers == 0) return {};
-  if (rivers > kMostNamed) text += "  and " + grouped(rivers - kMostNamed) + " more\n";
-  return "river boundaries, by number among all boundaries, and among the open ones of hgrid.gr3:\n" + text;
 }
 
 MergedMesh putIn(Grid& grid, const std::string& name, Grid&& rivers, const MergeOptions& options,
@@ -282,16 +147,16 @@ EditedMesh runRiversJob(Grid& grid, const std::string& name, const std::vector<s
     const std::vector<RiverLine> read = readLines(lines, grid.crs, job);
     requireOnePlane(read, grid, name);
     LaidRivers laid = layRivers(read, grid, options, of_edit, loop);
-    const std::vector<std::string> lost = lostTexts(laid.report, grid);
+    const std::vector<std::string> lost = lostRiverTexts(laid.report, grid);
     if (laid.grid.triangles.empty()) throw InputError("no river can be added to '" + name + "': " + joined(lost));
     for (const std::string& text : lost) warn(text);
     MeshEdit edit;
-    edit.warnings = {narrowedText(laid.report), junctionText(laid.report),
+    edit.warnings = {narrowedRiversText(laid.report), junctionTrianglesText(laid.report),
                      setRiverDepths(laid, grid, job.merge.depth, of_edit, loop)};
     const MergedMesh merged = putIn(grid, name, std::move(laid.grid), job.merge, of_edit, loop);
     std::ranges::move(mergeWarnings(merged, job.merge.depth), std::back_inserter(edit.warnings));
-    edit.warnings.push_back(unconnectedText(grid, merged.triangles));
-    std::string text = reportText(laid.report, grid);
+    edit.warnings.push_back(unconnectedRiversText(grid, merged.triangles));
+    std::string text = riversText(laid.report, grid);
     if (merged.band)
       text += "beside them: " + figuresText(merged.band->inside, grid) + "in place of " +
               grouped(merged.replaced + merged.merged.covered) + "\n";
@@ -299,7 +164,7 @@ EditedMesh runRiversJob(Grid& grid, const std::string& name, const std::vector<s
     edit.sources.triangles = numbersBefore(merged.triangles);
     edit.text = [text](const Grid& finished) {
       return text + grouped(finished.nodes.size()) + " nodes, " + elementCount(finished, grouped) + "\n" +
-             boundariesText(finished);
+             riverBoundariesText(finished);
     };
     return edit;
   };
