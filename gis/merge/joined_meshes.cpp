@@ -198,11 +198,13 @@ class MeshJoiner {
     for (TriId t = 0; t < taken.size(); ++t)
       for (const EdgeRef across : whole.triangles[t].adj)
         if (taken[t] != 0 && across != kNone && taken[triOf(across)] != 0) waters.unite(t, triOf(across));
+    std::vector<std::uint8_t> is_left(cover_.size(), 0);  // by triangle of the grid
+    for (TriId i = 0; i < joined_.first_inserted; ++i) is_left[joined_.kept[i]] = taken[i];
     std::vector<std::uint8_t> is_cut(taken.size(), 0), stays(taken.size(), 0);  // by water
     for (TriId i = 0; i < joined_.first_inserted; ++i) {
       for (unsigned k = 0; k < 3; ++k) {
         const EdgeRef e = edgeRef(joined_.kept[i], k), across = joined_.mesh.twin(e);
-        if (across != kNone && cover_[triOf(across)] != Cover::Free) is_cut[waters.find(i)] = 1;
+        if (across != kNone && is_left[triOf(across)] == 0) is_cut[waters.find(i)] = 1;
         if (across == kNone && kinds_.isOpen(joined_.mesh.origin(e), joined_.mesh.target(e))) stays[waters.find(i)] = 1;
       }
     }

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <random>
 
+#include "core/union_find.hpp"
 #include "gis/cut/cut_grid.hpp"
 #include "gis/error.hpp"
 #include "tests/gis/merge/merged.hpp"
@@ -368,6 +369,55 @@ TEST(MergeGrids, WaterThatIsCutOffIsLeftOut) {
   };
   EXPECT_EQ(merged(true).cut_off, 0u);
   EXPECT_GT(merged(false).cut_off, 90u);
+}
+
+// The triangles of each water, by the least of them.
+std::vector<std::uint32_t> watersOf(const Grid& grid) {
+  const TriMesh mesh = linkGrid(grid).mesh;
+  UnionFind sets(mesh.triangles.size());
+  for (TriId t = 0; t < mesh.triangles.size(); ++t)
+    for (const EdgeRef across : mesh.triangles[t].adj)
+      if (across != kNone) sets.unite(t, triOf(across));
+  std::vector<std::uint32_t> water_of;
+  for (TriId t = 0; t < mesh.triangles.size(); ++t) water_of.push_back(sets.find(t));
+  return water_of;
+}
+
+TEST(MergeGrids, WatersThatAreCutOffGo) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  std::size_t cut_off = 0;
+  for (int run = 0; run < 200; ++run) {
+    SCOPED_TRACE(run);
+    std::vector<std::uint8_t> is_water(400);
+    for (std::uint8_t& square : is_water) square = share(random) < 0.75 ? 1 : 0;
+    Grid grid = gridOf({20, 20, 1.0, {}, 0.0, [&](int column, int row) {
+                          return is_water[static_cast<std::size_t>(20 * row + column)] != 0;
+                        }});
+    const Grid before = grid;
+    const double x = 4.0 + 4.0 * share(random), y = 4.0 + 4.0 * share(random), turn = share(random);
+    const Grid fine = gridOf({9, 9, 0.7, {x, y}, turn}, BoundaryRole::Open);
+    MergeReport report;
+    try {
+      report = mergeGrids(grid, Grid(fine));
+    } catch (const InputError&) {
+      continue;  // no water beside it
+    }
+    cut_off += report.cut_off;
+    const std::vector<std::uint32_t> was = watersOf(before), is = watersOf(grid);
+    std::map<std::uint32_t, std::size_t> size_before, size;
+    for (const std::uint32_t water : was) ++size_before[water];
+    for (const std::uint32_t water : is) ++size[water];
+    std::set<std::uint32_t> joined;
+    for (std::size_t t = 0; t < is.size(); ++t)
+      if (report.triangles[t].mesh == 1) joined.insert(is[t]);
+    for (std::size_t t = 0; t < is.size(); ++t) {
+      if (joined.contains(is[t])) continue;
+      ASSERT_EQ(report.triangles[t].mesh, 0u);
+      ASSERT_EQ(size[is[t]], size_before[was[report.triangles[t].number]]);
+    }
+  }
+  EXPECT_GT(cut_off, 0u);
 }
 
 TEST(MergeGrids, LinesAndFeatures) {
