@@ -20,7 +20,7 @@ namespace {
 using testing::TemporaryFolder;
 using Kinds = std::vector<std::optional<BoundaryKind>>;
 
-constexpr BoundaryKind kOpen{BoundaryRole::Open}, kRiver{BoundaryRole::River}, kLand{BoundaryRole::Land};
+const BoundaryKind kOpen{BoundaryRole::Open}, kRiver{BoundaryRole::River}, kLand{BoundaryRole::Land};
 
 RawLayer layerOf(FeatureUse use) {
   RawLayer layer;
