@@ -44,10 +44,11 @@ void requireOnePlane(const std::vector<RiverLine>& lines, const Grid& grid, cons
     constexpr double kLon = 360.0, kLat = 90.0;
     return box.xmin >= -kLon && box.xmax <= kLon && box.ymin >= -kLat && box.ymax <= kLat;
   };
-  if (!grid.crs.isPlane() || isDegrees(boxAround(grid.nodes, inOrder))) return;
+  const Box mesh = boxAround(grid.nodes, inOrder);
+  if (!grid.crs.isPlane() || isDegrees(mesh)) return;
   Box box;
   for (const RiverLine& line : lines) box.add(boxAround(line.points, inOrder));
-  if (isDegrees(box))
+  if (isDegrees(box) && !box.meets(mesh))
     throw InputError("'" + name +
                      "' has no CRS, and the lines seem to be in degrees: name the mesh's with "
                      "--assume-crs");

@@ -74,7 +74,6 @@ Divided SegmentDivider::divide(const Point& a, const Point& b, SegmentId seg, st
   return divided;
 }
 
-// The subsegments of a mesh, by triangle.
 std::vector<Subsegment> subsegmentsOf(const TriMesh& mesh, const Pslg& pslg, const ItemLoop& loop) {
   return joined(overStretches(loop, mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
     std::vector<Subsegment> all;
@@ -92,21 +91,17 @@ std::vector<Subsegment> subsegmentsOf(const TriMesh& mesh, const Pslg& pslg, con
 
 namespace {
 
-// Subsegments from which another thread pays.
-constexpr std::size_t kWorthAStretch = 64;
-
-// Each subsegment's divisions; empty if they are more than `room`, or more than anyone could use.
+// Each subsegment's divisions; empty if they are more than `room`.
 std::vector<Divided> divideAll(const TriMesh& mesh, const std::vector<Subsegment>& all, const SegmentDivider& divider,
                                std::uint64_t room, const ItemLoop& loop) {
-  constexpr std::uint64_t kMany = 250;
   std::vector<Divided> divided(all.size());
   const auto divide = [&](std::size_t i, std::uint64_t most) {
     divided[i] = divider.divide(mesh.point(all[i].a), mesh.point(all[i].b), all[i].seg, most);
   };
   const auto divideFew = [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) divide(i, kMany);
+    for (std::size_t i = first; i < last; ++i) divide(i, kManyDivisions);
   };
-  forStretches(loop, all.size(), divideFew, kWorthAStretch);
+  forStretches(loop, all.size(), divideFew, kSubsegmentsAtOnce);
   std::uint64_t points = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!divided[i].is_whole) divide(i, room - points);
@@ -208,7 +203,7 @@ DividedSegments divideSegments(const TriMesh& mesh, const Pslg& pslg, const Vert
     }
     return std::uint8_t{1};
   };
-  if (!std::ranges::all_of(overStretches(loop, all.size(), add, kWorthAStretch), std::identity())) return {};
+  if (!std::ranges::all_of(overStretches(loop, all.size(), add, kSubsegmentsAtOnce), std::identity())) return {};
   addPieces(pslg, all, starts, number, loop, made);
   return made;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -50,6 +51,11 @@ class SegmentDivider {
   const RefineOptions& options_;
   const ConstantSize longest_;
 };
+
+// Many subsegments are divided at the same time, this many by one thread; those with very many divisions one by one
+// afterwards: otherwise all would be divided when there is no more room.
+inline constexpr std::size_t kSubsegmentsAtOnce = 64;
+inline constexpr std::uint64_t kManyDivisions = 250;
 
 // The divisions that `splitSegments` would make of a mesh of the PSLG without Steiner points, for a triangulation of
 // all vertices at once. Without pieces if more than `room` points are needed, or if rounding could make pieces touch.

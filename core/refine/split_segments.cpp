@@ -67,10 +67,7 @@ std::uint64_t splitSegments(TriMesh& mesh, const Pslg& pslg, VertexNotes& notes,
       from = v;
     }
   };
-  // Divided in batches, the few subsegments with very many divisions one by one: otherwise all would be divided when
-  // there is no more room.
-  constexpr std::size_t kBatch = 4096, kStretch = 64;
-  constexpr std::uint64_t kMany = 250;
+  constexpr std::size_t kBatch = 4096;
   std::vector<Divided> batch(std::min(cuts.size(), kBatch));
   const auto divide = [&](const Subsegment& cut, std::uint64_t at_most) {
     return divider.divide(edit.point(cut.a), edit.point(cut.b), cut.seg, at_most);
@@ -80,9 +77,9 @@ std::uint64_t splitSegments(TriMesh& mesh, const Pslg& pslg, VertexNotes& notes,
     forStretches(
         loop, count,
         [&](std::size_t first, std::size_t last) {
-          for (std::size_t i = first; i < last; ++i) batch[i] = divide(cuts[begin + i], kMany);
+          for (std::size_t i = first; i < last; ++i) batch[i] = divide(cuts[begin + i], kManyDivisions);
         },
-        kStretch);
+        kSubsegmentsAtOnce);
     for (std::size_t i = 0; i < count && edit.vertexCount() < most; ++i) {
       if (!batch[i].is_whole) batch[i] = divide(cuts[begin + i], most - edit.vertexCount());
       apply(cuts[begin + i], batch[i].divisions);

@@ -177,26 +177,18 @@ class GapFiller {
     for (const TriId t : met_) {
       for (unsigned i = 0; i < 3; ++i) {
         const EdgeRef e = edgeRef(t, i), across = mesh_.twin(e);
-        const bool is_line = isLine(e);
-        if (across != kNone && cover_[triOf(across)] != Cover::Free && !is_line) continue;
+        const bool is_shore = across == kNone, is_within = !is_shore && cover_[triOf(across)] != Cover::Free;
+        if (is_within && (e > across || !isLine(e))) continue;
         const std::uint32_t from = numberOf(mesh_.origin(e)), to = numberOf(mesh_.target(e));
         const NodePair key = edgeKey(from, to);
         if (std::ranges::binary_search(outline_keys_, key)) continue;
-        if (across == kNone) {
-          if (!hasPoint(from) || !hasPoint(to) || crossesOutline(from, to)) {
-            if (hasPoint(from)) broken.emplace_back(from, to);
-            if (hasPoint(to)) broken.emplace_back(to, from);
-            continue;
-          }
-          shore.push_back(key);
-        } else if (is_line && cover_[triOf(across)] != Cover::Free) {
-          if (!hasPoint(from) || !hasPoint(to) || crossesOutline(from, to)) {
-            if (e > across) continue;
-            if (hasPoint(from)) broken_lines.emplace_back(from, to);
-            if (hasPoint(to)) broken_lines.emplace_back(to, from);
-            continue;
-          }
+        if ((is_shore || is_within) && (!hasPoint(from) || !hasPoint(to) || crossesOutline(from, to))) {
+          auto& of_kind = is_shore ? broken : broken_lines;
+          if (hasPoint(from)) of_kind.emplace_back(from, to);
+          if (hasPoint(to)) of_kind.emplace_back(to, from);
+          continue;
         }
+        if (is_shore) shore.push_back(key);
         keys.push_back(key);
       }
     }
@@ -222,29 +214,31 @@ class GapFiller {
   std::vector<LineEnd> continued(std::span<const std::pair<std::uint32_t, std::uint32_t>> broken,
                                  std::vector<NodePair>& keys) const {
     std::vector<LineEnd> ends;
-    if (broken.empty()) return ends;
+    for (const auto& [end, gone] : broken)
+      if (const auto node = nodeBeside(end, gone)) ends.push_back({end, gone, *node});
+    const std::size_t before = keys.size();
+    for (const LineEnd& end : ends) keys.push_back(edgeKey(end.from, end.node));
     std::vector<Box> boxes;
     for (const NodePair& key : keys) boxes.push_back(Box::of(place(key[0]), place(key[1])));
     const BoxTree tree(boxes, BoxTree::Order::Hilbert, loop_);
-    std::vector<NodePair> added;
-    for (const auto& [end, gone] : broken) {
-      const auto node = nodeBeside(end, gone);
-      if (!node) continue;
-      const NodePair key = edgeKey(end, *node);
+    const auto cross = [&](const NodePair& key, const NodePair& other) {
+      const bool adjoin =
+          std::ranges::any_of(key, [&](std::uint32_t node) { return node == other[0] || node == other[1]; });
+      return !adjoin && segmentsMeet(place(key[0]), place(key[1]), place(other[0]), place(other[1]));
+    };
+    std::vector<std::uint8_t> stays(keys.size(), 0);  // of two new ones that cross, the first
+    std::fill_n(stays.begin(), before, std::uint8_t{1});
+    for (std::size_t k = before; k < keys.size(); ++k) {
       bool crosses = false;
-      const auto look = [&](const NodePair& other) {
-        const bool adjoins =
-            std::ranges::find(other, end) != other.end() || std::ranges::find(other, *node) != other.end();
-        crosses = crosses || (!adjoins && segmentsMeet(place(end), place(*node), place(other[0]), place(other[1])));
-      };
-      tree.visit(Box::of(place(end), place(*node)), [&](std::uint32_t i) { look(keys[i]); });
-      for (const NodePair& other : added) look(other);
-      if (crosses) continue;
-      added.push_back(key);
-      ends.push_back({end, gone, *node});
+      tree.visit(boxes[k], [&](std::uint32_t i) { crosses = crosses || (stays[i] != 0 && cross(keys[k], keys[i])); });
+      stays[k] = crosses ? 0 : 1;
     }
-    keys.insert(keys.end(), added.begin(), added.end());
-    return ends;
+    std::vector<LineEnd> kept;
+    for (std::size_t k = before; k < stays.size(); ++k)
+      if (stays[k] != 0) kept.push_back(ends[k - before]);
+    keys.resize(before);
+    for (const LineEnd& end : kept) keys.push_back(edgeKey(end.from, end.node));
+    return kept;
   }
 
   TriMesh triangulate() const {

@@ -12,6 +12,7 @@
 #include "gis/error.hpp"
 #include "gis/geometry/ring_area.hpp"
 #include "gis/grid/boundary_kinds.hpp"
+#include "gis/grid/grid_lines.hpp"
 #include "gis/grid/linked_grid.hpp"
 #include "gis/merge/covered_triangles.hpp"
 #include "gis/merge/enclosed_gaps.hpp"
@@ -64,10 +65,8 @@ std::vector<std::vector<VertexId>> openHoles(const TriMesh& mesh, const EdgeKind
 
 std::vector<NodePair> lineEdges(const Grid& grid) {
   std::vector<NodePair> edges;
-  for (const GridLine& line : grid.lines) {
-    for (std::size_t i = 0; i + 1 < line.nodes.size(); ++i) edges.push_back(edgeKey(line.nodes[i], line.nodes[i + 1]));
-    if (line.closed) edges.push_back(edgeKey(line.nodes.back(), line.nodes.front()));
-  }
+  for (const GridLine& line : grid.lines)
+    for (const auto& [a, b] : edgesOf(line)) edges.push_back(edgeKey(a, b));
   std::ranges::sort(edges);
   return edges;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <unordered_map>
 #include <utility>
 
 #include "gis/cut/cut_boundaries.hpp"
@@ -43,23 +42,15 @@ bool dropPartition(Grid& grid) {
   return had_one;
 }
 
-// The grid's triangles without a flag.
+// The grid's triangles without a flag, with the depths of their nodes.
 Grid partWithout(const Grid& grid, const std::vector<std::uint8_t>& keeps) {
   Grid part;
   part.crs = grid.crs;
-  std::unordered_map<std::uint32_t, std::uint32_t> number;
-  for (std::size_t t = 0; t < keeps.size(); ++t) {
-    if (keeps[t] != 0) continue;
-    auto& corners = part.triangles.emplace_back(grid.triangles[t]);
-    for (std::uint32_t& node : corners) {
-      const auto [at, is_new] = number.try_emplace(node, static_cast<std::uint32_t>(part.nodes.size()));
-      if (is_new) {
-        part.nodes.push_back(grid.nodes[node]);
-        if (!grid.z.empty()) part.z.push_back(grid.z[node]);
-      }
-      node = at->second;
-    }
-  }
+  part.nodes = grid.nodes;
+  part.z = grid.z;
+  for (std::size_t t = 0; t < keeps.size(); ++t)
+    if (keeps[t] == 0) part.triangles.push_back(grid.triangles[t]);
+  removeUnusedNodes(part);
   return part;
 }
 

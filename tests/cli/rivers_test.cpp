@@ -243,7 +243,7 @@ TEST_F(Rivers, RefusesAndWritesNothing) {
   refused({lines("empty.csv", {})}, 3, {"empty.csv'", "no feature in it is a line"});
   refused({good, "--depth-column", "dpt"}, 3, {"rivers.csv'", "no attribute 'dpt'"});
   refused({good, "--name-column", "called"}, 3, {"rivers.csv'", "no attribute 'called'"});
-  refused({lines("degrees.csv", {"\"LINESTRING (3.1 51.4, 3.2 51.5)\",200,4,a"})}, 3,
+  refused({lines("degrees.csv", {"\"LINESTRING (-3.1 51.4, -3.2 51.5)\",200,4,a"})}, 3,
           {"sea.nc' has no CRS", "in degrees", "--assume-crs"});
   refused({good, "--elements", "0"}, 2, {"--elements"});
   refused({good, "--extent", "some"}, 2, {"--extent"});
