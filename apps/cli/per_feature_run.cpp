@@ -57,6 +57,8 @@ void requirePossible(const MeshRunUsage& usage) {
   if (framed || (frame.side != DomainSide::Auto && frame.side != DomainSide::Inside))
     throw OptionError(
         "--per-feature meshes the inside of each feature: leave out --domain, --bbox, --clip and --water-at");
+  if (job.input.flood.height_m)
+    throw OptionError("--flood-height meshes land between features: leave it out with --per-feature");
   if (job.input.dissolve) throw OptionError("--per-feature and --dissolve: leave out one of them");
   if (!usage.edits.empty()) throw OptionError("--edits applies to a single mesh: leave it out with --per-feature");
   if (!usage.checkpoint.empty())

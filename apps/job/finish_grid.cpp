@@ -82,8 +82,15 @@ std::string textOf(const RepairLoss& lost, const std::vector<Repair>& repairs) {
 }  // namespace
 
 std::vector<std::string> FinishReport::notes() const {
-  if (dropped.waters == 0 || dropped.share > kMuchWater) return {};
-  return {textOf(dropped)};
+  std::vector<std::string> all;
+  if (dry.edges > 0)
+    all.push_back(std::to_string(dry.edges) +
+                  forCount(dry.edges, " edge of the frame's sides lies on dry land and is",
+                           " edges of the frame's sides lie on dry land and are") +
+                  " no open boundary" + amount(", %.3g km in all", dry.length_m / 1000.0) + ", the first at " +
+                  pointText(dry.place));
+  if (dropped.waters > 0 && dropped.share <= kMuchWater) all.push_back(textOf(dropped));
+  return all;
 }
 
 std::vector<std::string> FinishReport::warnings() const {
@@ -122,6 +129,7 @@ FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunContr
   DepthOptions depth = options.depth;
   depth.keep_known = hasDepths(grid);
   if (!grid.triangles.empty()) report.depth = setDepths(grid, depth, of_depths, loop);
+  if (options.close_dry && !options.depth.files.empty()) report.dry = closeDrySides(grid, options.depth.has_land, loop);
   if (!grid.triangles.empty()) report.boundaries = assignBoundaries(grid, options.boundaries, loop);
   if (options.drop_apart) report.dropped = dropApartWaters(grid, options.grazed, loop);
   // The report is of the water that is left.

@@ -5,6 +5,7 @@
 
 #include "core/item_loop.hpp"
 #include "core/run_control.hpp"
+#include "gis/flood_plain/dry_sides.hpp"
 #include "gis/grid/grid.hpp"
 #include "gis/model/apart_waters.hpp"
 #include "gis/model/assign_boundaries.hpp"
@@ -21,6 +22,8 @@ struct FinishOptions {
   RepairOptions repair{};
   bool drop_apart = false;  // waters without a connection to an open boundary are removed, if there is one
   GrazedWaters grazed = GrazedWaters::Drop;
+  // With depths, parts of open boundaries across dry land become land first; see `closeDrySides`.
+  bool close_dry = false;
 
   bool any() const { return !depth.files.empty() || boundaries.any() || !targets.empty() || repair.time_step_s > 0.0; }
   // True if nodes and triangles may change.
@@ -35,6 +38,7 @@ struct RepairLoss {
 
 struct FinishReport {
   DepthReport depth;
+  DrySides dry;
   BoundaryReport boundaries;
   bool mended = false;  // repairs were requested
   RepairReport repairs;

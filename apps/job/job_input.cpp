@@ -16,11 +16,13 @@
 #include "gis/clean/whole_turns.hpp"
 #include "gis/coast/feature_bounds.hpp"
 #include "gis/coast/feature_names.hpp"
+#include "gis/coast/flood_plains.hpp"
 #include "gis/coast/group_features.hpp"
 #include "gis/coast/guests.hpp"
 #include "gis/crs/geodesy.hpp"
 #include "gis/crs/handedness.hpp"
 #include "gis/error.hpp"
+#include "gis/flood_plain/flood_plain.hpp"
 #include "gis/for_count.hpp"
 #include "gis/format/grid_io.hpp"
 #include "gis/format/poly_io.hpp"
@@ -49,6 +51,9 @@ void requireOneFrame(const InputOptions& options) {
   }
   if (options.frame.box && !options.clip.empty())
     throw OptionError("--bbox and --clip both bound the domain: give one of them");
+  if (options.flood.height_m && (side == DomainSide::Ocean || side == DomainSide::Land || side == DomainSide::Globe))
+    throw OptionError("--flood-height is not for --domain " + nameOfUnframed(side) +
+                      ": it needs a part of the water, such as --domain outside with --bbox");
   if (options.frame.side == DomainSide::Outside && !options.frame.box && options.clip.empty() &&
       !options.frame.water_at)
     throw OptionError(
@@ -245,6 +250,7 @@ JobInput::JobInput(const InputOptions& options, const ItemLoop& loop) : options_
   }
   groups_ = groupFeatures(coastline_, reach(), loop);
   bendEdges();
+  addFloodPlain(loop);
 }
 
 void JobInput::regroup(double shores_move_m, const ItemLoop& loop) {
@@ -282,6 +288,7 @@ void JobInput::requireReadyGraph(const std::string& name) {
   }
   if (options_.crs != "auto" && options_.crs != "plane")
     throw OptionError(name + " has plane coordinates already; leave out --crs, or give --crs plane");
+  if (options_.flood.height_m) throw OptionError(name + " has no land that is known; leave out --flood-height");
   if (options_.edges != EdgeLine::Plane) throw OptionError(name + " has straight edges in a plane; leave out --edges");
   requireSurface();
 }
@@ -464,11 +471,25 @@ std::vector<double> polygonAreas(const JobInput& input, const ItemLoop& loop) {
 }
 
 bool isClipped(const JobInput& input, std::size_t group) {
-  return std::ranges::any_of(input.members(group),
-                             [&](std::size_t member) { return input.coastline().features[member].clipped; });
+  return std::ranges::any_of(input.members(group), [&](std::size_t member) {
+    const Feature& feature = input.coastline().features[member];
+    return feature.clipped || isFloodPlain(feature);
+  });
 }
 
 }  // namespace
+
+// The land is found beside the waters as they are cleaned without it.
+void JobInput::addFloodPlain(const ItemLoop& loop) {
+  if (!options_.flood.height_m) return;
+  std::vector<Domain> waters;
+  for (std::size_t g = 0; g < groups_.size(); ++g)
+    if (std::optional<Domain> domain = domainOf(*this, g, loop)) waters.push_back(std::move(*domain));
+  FloodPlain plain = floodPlainOf(coastline_, waters, options_.flood, loop);
+  std::ranges::move(plain.features, std::back_inserter(coastline_.features));
+  std::ranges::move(plain.notes, std::back_inserter(report_.notes));
+  groups_ = groupFeatures(coastline_, reach(), loop);
+}
 
 std::optional<LargestGroup> largestGroup(const JobInput& input, const ItemLoop& loop) {
   const std::vector<double> areas = polygonAreas(input, loop);

@@ -10,6 +10,7 @@
 #include "gis/coast/coastline.hpp"
 #include "gis/coast/frame.hpp"
 #include "gis/coast/snap_distance.hpp"
+#include "gis/flood_plain/flood_options.hpp"
 #include "gis/model/boundary_rules.hpp"
 #include "gis/projection/projection.hpp"
 #include "gis/read/read_coastline.hpp"
@@ -37,6 +38,7 @@ struct InputOptions {
   std::vector<std::string> constraints{};    // files of lines and points that become edges and vertices
   std::vector<std::string> weirs{};          // files of lines
   std::vector<std::string> regions{};        // files of polygons
+  FloodOptions flood{};                      // the low land that is meshed besides the water
   std::string crs = "auto";                  // the working plane: "auto", "plane" or anything that PROJ knows
   SurfaceChoice surface{};                   // the surface on which lengths and angles are measured
   EdgeLine edges = EdgeLine::Plane;          // what an edge between two points represents
@@ -106,6 +108,7 @@ class JobInput {
   void readPolyFile(const std::string& path);
   void requireSurface();
   void bendEdges();
+  void addFloodPlain(const ItemLoop& loop);
   SnapDistance snapDistance() const;
   SnapDistance reach() const;
   void takePlaneGraph(Pslg pslg, const std::string& source);

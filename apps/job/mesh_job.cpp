@@ -243,6 +243,7 @@ void completeFinish(const MeshJob& job, const MeshJobResult& result, FinishOptio
                    result.asked};
   finish.repair.on_sphere = result.surfaces.contains(SurfaceKind::Sphere);
   finish.drop_apart = dropsWatersApart(job);
+  finish.close_dry = true;
   finish.grazed = job.sizes.keep_water_given ? GrazedWaters::Keep : GrazedWaters::Drop;
 }
 

@@ -64,7 +64,7 @@ void declareFinishOptions(OptionTable& table, FinishOptions& options) {
              "column with the boundary types, also in INPUT if given; default: the first column named type, role, "
              "boundary, ibtype or kind");
   table.number({"--open-deeper", "Open where deeper than"}, boundaries.open_deeper_m, "M", {-kInfinity, kInfinity},
-               "outer boundaries are open where they are deeper than this; sides of a frame are always open");
+               "outer boundaries are open where they are deeper than this; sides of a frame are open across all water");
   table.number({"--min-boundary", "Minimum boundary length"}, boundaries.least_length_m, "M", {0.0, kInfinity},
                "boundaries shorter than this are merged into the longer one beside them");
   declareTargets(table, options.targets, "repair what the model would reject, and report each repair; can be repeated");

@@ -81,10 +81,10 @@ void declareInputOptions(OptionTable& table, InputOptions& options) {
   table.numbers(
       {"--bbox", "Bounding box"}, "W,S,E,N", false,
       [&frame](const std::vector<double>& sides) { return storeBox(sides, frame.box); },
-      "mesh only within this box, in the input's CRS; its sides become open boundaries; in degrees, a box with E less "
-      "than W crosses the antimeridian");
+      "mesh only within this box, in the input's CRS; its sides become open boundaries, except across land; in "
+      "degrees, a box with E less than W crosses the antimeridian");
   table.text({"--clip", "Clip to polygons"}, options.clip, kVectorFile,
-             "mesh only within these polygons, united; their sides become open boundaries");
+             "mesh only within these polygons, united; their sides become open boundaries, except across land");
   table.numbers(
       {"--water-at", "Point in the water"}, "LON,LAT", false,
       [&frame](const std::vector<double>& place) { return storePlace(place, frame.water_at); },

@@ -85,6 +85,13 @@ void declareMeshOptions(OptionTable& table, MeshUsage& usage) {
   declareSurface(table, usage.job.input.surface);
   declarePinches(table, usage.job.input);
   declareFinishOptions(table, usage.job.finish);
+  table.section(Section::Domain);
+  table.number(
+      {"--flood-height", "Height of the flood plain"}, usage.flood_height_m, "M",
+      {0.0, std::numeric_limits<double>::infinity()},
+      "mesh also the land that --bathymetry has lower than this above the still water and that is connected with "
+      "the water through such land",
+      &usage.flood_given);
   table.section(Section::Triangles);
   table.integer(
       {"--max-vertices", "Maximum number of vertices"}, refine.max_vertices, "N", 3,
@@ -112,12 +119,24 @@ void requireGlobe(const InputOptions& input, const SizeOptions& sizes) {
     throw OptionError("--domain globe keeps coasts as they are: leave out --coast follow");
 }
 
+// To be called after sizes are settled.
+void settleFlood(const MeshUsage& usage, MeshJob& job) {
+  if (!usage.flood_given) return;
+  if (job.finish.depth.files.empty())
+    throw OptionError("--flood-height needs the heights of the land: give a raster with --bathymetry");
+  if (!(usage.flood_height_m > 0.0))
+    throw OptionError("--flood-height 0 is not above the still water, whose height --water-level sets");
+  job.input.flood = {usage.flood_height_m, job.finish.depth, std::min(job.sizes.shore_m, job.sizes.size_m)};
+  job.finish.depth.has_land = true;
+}
+
 }  // namespace
 
 void settle(MeshUsage& usage) {
   settleSizing(usage.sizing, usage.job.finish.depth, sizeChoice(usage.job), usage.job.sizes);
   std::ranges::move(notesOnOverriddenSizes(usage.sizing, usage.job.sizes), std::back_inserter(usage.job.notes));
   requireGlobe(usage.job.input, usage.job.sizes);
+  settleFlood(usage, usage.job);
   usage.job.mesh.refine.algorithm = named<Algorithm>(kAlgorithmNames, usage.algorithm);
   usage.job.mesh.refine.goal = named<QualityGoal>(kGoalNames, usage.quality);
   if (usage.job.mesh.refine.goal == QualityGoal::Centred)

@@ -17,6 +17,8 @@ struct MeshUsage {
   std::string quality = "shape";
   bool coarsen_given = false;
   bool max_angle_given = false;
+  double flood_height_m = 0.0;
+  bool flood_given = false;
   bool cut = true;
   std::uint64_t threads = 0;
 };

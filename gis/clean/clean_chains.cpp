@@ -13,6 +13,7 @@
 #include "gis/clean/small_islands.hpp"
 #include "gis/clean/torn_edges.hpp"
 #include "gis/coast/feature_names.hpp"
+#include "gis/coast/flood_plains.hpp"
 #include "gis/coast/input_polygons.hpp"
 #include "gis/error.hpp"
 #include "gis/geometry/box.hpp"
@@ -69,7 +70,7 @@ void keepTouches(std::vector<InputChain>& chains, const Coastline& coastline, do
   const double tolerance = std::max(0.0, snap_m) / metresPerUnit(coastline.crs);
   const double widest = coastline.crs.geographic ? 180 : kNoLimit;
   for (const Touch& touch : insertTouchingPoints(touching, tolerance, widest, loop)) {
-    if (coastline.features[chains[touch.chain].feature].use == FeatureUse::Frame) continue;
+    if (!isReported(coastline.features[chains[touch.chain].feature])) continue;
     report.add(EditKind::OverlappingEdge, touch.place, coastline, chains[touch.chain].feature);
   }
 }
@@ -335,7 +336,7 @@ CleanChains makeChains(const Coastline& coastline, const std::vector<std::size_t
   for (InputChain& chain : input) {
     const Feature& feature = coastline.features[chain.feature];
     const bool closed = chain.role == CleanChain::Role::Outer || chain.role == CleanChain::Role::Hole;
-    const bool reported = feature.use != FeatureUse::Frame;
+    const bool reported = isReported(feature);
     CleanChain made{chain.role, chain.feature, {}};
     made.walk.reserve(chain.points.size());
     bool snapped = false;
@@ -366,7 +367,7 @@ CleanChains makeChains(const Coastline& coastline, const std::vector<std::size_t
     result.chains.push_back(std::move(made));
   }
   dropRepeatedRings(result.chains, [&](const CleanChain& ring) {
-    if (coastline.features[ring.feature].use != FeatureUse::Frame)
+    if (isReported(coastline.features[ring.feature]))
       report.add(EditKind::RepeatedRing, result.vertices.input[ring.walk.front()], coastline, ring.feature);
   });
   result.vertices.is_new.assign(result.vertices.plane.size(), 0);

@@ -10,6 +10,7 @@
 #include "core/union_find.hpp"
 #include "gis/clean/coast_sides.hpp"
 #include "gis/coast/feature_names.hpp"
+#include "gis/coast/flood_plains.hpp"
 #include "gis/coast/segment_tags.hpp"
 #include "gis/geometry/face_locator.hpp"
 #include "gis/geometry/planar_map.hpp"
@@ -46,7 +47,11 @@ class Labeller {
         ends_(listEdges()),
         map_(chains.vertices.plane, ends_, loop) {
     for (const CleanChain& chain : chains.chains) {
-      if (useOf(chain.feature) == FeatureUse::Coast) first_coast_ = std::min(first_coast_, chain.feature);
+      const FeatureUse use = useOf(chain.feature);
+      if (use == FeatureUse::Coast) first_coast_ = std::min(first_coast_, chain.feature);
+      if (use != FeatureUse::Area) continue;
+      std::uint32_t& first = isPlain(chain.feature) ? first_plain_ : first_area_;
+      first = std::min(first, chain.feature);
     }
   }
 
@@ -84,6 +89,7 @@ class Labeller {
   CleanChain::Role roleOf(const EdgeUse& use) const { return chains_.chains[use.chain].role; }
   bool isLine(const EdgeUse& use) const { return roleOf(use) == CleanChain::Role::Line; }
   FeatureUse useOf(std::uint32_t feature) const { return coastline_.features[feature].use; }
+  bool isPlain(std::uint32_t feature) const { return isFloodPlain(coastline_.features[feature]); }
   std::uint32_t featureOf(const EdgeUse& use) const { return chains_.chains[use.chain].feature; }
   const Point& inputOf(VertexId v) const { return chains_.vertices.input[v]; }
 
@@ -128,12 +134,26 @@ class Labeller {
 
   void labelAll() {
     labels_.resize(map_.faceCount());
-    for (std::uint32_t face = 0; face < labels_.size(); ++face) labels_[face] = findLabel(face);
+    plain_.assign(map_.faceCount(), 0);
+    for (std::uint32_t face = 0; face < labels_.size(); ++face) {
+      const RegionId frame = chains_.framed ? holderOf(face, FeatureUse::Frame) : kOutside;
+      labels_[face] = chains_.framed && frame == kOutside ? kOutside : findLabel(face, frame);
+      const bool is_free = labels_[face] == kOutside && (!chains_.framed || frame != kOutside);
+      if (!is_free || !std::ranges::any_of(holders_[face], [this](std::uint32_t f) { return isPlain(f); })) continue;
+      labels_[face] = labelOfPlain(frame);
+      plain_[face] = 1;
+    }
   }
 
-  RegionId findLabel(std::uint32_t face) const {
-    const RegionId frame = chains_.framed ? holderOf(face, FeatureUse::Frame) : kOutside;
-    if (chains_.framed && frame == kOutside) return kOutside;
+  // That of the water around, so that only a line separates them.
+  RegionId labelOfPlain(RegionId frame) const {
+    if (frame != kOutside && (chains_.coast || chains_.land)) return frame;
+    if (chains_.coast) return static_cast<RegionId>(first_coast_);
+    return one_.empty() ? static_cast<RegionId>(first_area_) : one_.at(first_area_);
+  }
+
+  // Without flood plains.
+  RegionId findLabel(std::uint32_t face, RegionId frame) const {
     if (chains_.coast) {
       if (!water_[face]) return kOutside;
       if (chains_.framed) return frame;
@@ -143,6 +163,7 @@ class Labeller {
     if (chains_.land) return holderOf(face, FeatureUse::Land) == kOutside ? frame : kOutside;
     const RegionId area = holderOf(face, FeatureUse::Area);
     if (area == kOutside) return rest_;
+    if (isPlain(static_cast<std::uint32_t>(area))) return kOutside;  // the last of all features
     return one_.empty() ? area : one_.at(static_cast<std::uint32_t>(area));
   }
 
@@ -220,7 +241,10 @@ class Labeller {
     segments.reserve(edges_.size());
     for (std::uint32_t e = 0; e < edges_.size(); ++e) {
       const RegionId left = label(map_.faceOf(2 * e)), right = label(map_.faceOf(2 * e + 1));
-      const std::optional<LineKey> line = left == kOutside || right == kOutside ? std::nullopt : lineAlong(edges_[e]);
+      std::optional<LineKey> line = left == kOutside || right == kOutside ? std::nullopt : lineAlong(edges_[e]);
+      const bool is_coast =
+          left != kOutside && right != kOutside && plain_[map_.faceOf(2 * e)] != plain_[map_.faceOf(2 * e + 1)];
+      if (is_coast && !line) line = LineKey(first_plain_, false);
       if (left == right && !line) continue;
       if (line) on_lines.emplace_back(segments.size(), *line);
       if (line) noteLines(edges_[e]);
@@ -231,6 +255,10 @@ class Labeller {
     for (auto& [key, number] : number_of) {
       number = lines.size();
       const Feature& feature = coastline_.features[key.first];
+      if (isFloodPlain(feature)) {
+        lines.push_back({key.first, FeatureUse::Area, std::string(kFloodedCoast)});
+        continue;
+      }
       const FeatureUse use = rankOf(feature.use) == 1 ? FeatureUse::Constraint : feature.use;
       lines.push_back({key.first, use, std::string(lineNameOf(feature)), key.second});
     }
@@ -306,7 +334,7 @@ class Labeller {
     for (std::uint32_t face = 0; face < holders_.size(); ++face) {
       bool first = true;
       for (const std::uint32_t feature : holders_[face]) {
-        if (useOf(feature) != FeatureUse::Area || std::exchange(first, false)) continue;
+        if (useOf(feature) != FeatureUse::Area || isPlain(feature) || std::exchange(first, false)) continue;
         report_.add(EditKind::FeaturesOverlap, placeIn(face), coastline_, feature);
       }
     }
@@ -325,7 +353,7 @@ class Labeller {
     for (std::uint32_t face = 0; face < holders_.size(); ++face) {
       FeatureSet areas;
       std::ranges::copy_if(holders_[face], std::back_inserter(areas),
-                           [this](std::uint32_t feature) { return useOf(feature) == FeatureUse::Area; });
+                           [this](std::uint32_t f) { return useOf(f) == FeatureUse::Area && !isPlain(f); });
       if (areas.size() == 1) alone.push_back(areas.front());
       for (std::size_t i = 0; i < areas.size() && areas.size() > 1; ++i)
         shared.try_emplace(areas[i], Shared{areas[i == 0 ? 1 : 0], face});
@@ -383,7 +411,7 @@ class Labeller {
   const Projection& projection_;
   bool dissolve_;
   CleanReport& report_;
-  std::uint32_t first_coast_ = kNone;
+  std::uint32_t first_coast_ = kNone, first_area_ = kNone, first_plain_ = kNone;
   std::vector<MapEdge> edges_;
   RegionId rest_;  // label outside all features of a whole globe, else kOutside
   std::vector<std::pair<VertexId, VertexId>> ends_;
@@ -392,6 +420,7 @@ class Labeller {
   std::map<std::uint32_t, RegionId> one_;  // by feature: the first that it is united with; empty unless dissolved
   std::vector<char> water_;                // by face; empty without coasts
   std::vector<RegionId> labels_;           // by face
+  std::vector<char> plain_;                // by face: land of a flood plain
 };
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "core/hilbert.hpp"
 #include "core/predicates.hpp"
 #include "gis/coast/feature_names.hpp"
+#include "gis/coast/flood_plains.hpp"
 #include "gis/error.hpp"
 #include "gis/geometry/crossing.hpp"
 #include "gis/geometry/edge_runs.hpp"
@@ -85,7 +86,7 @@ class Noder {
   int lineUse(const EdgeUse& use) const {
     return isLine(use) ? static_cast<int>(coastline_.features[featureOf(use)].use) : -1;
   }
-  bool ofFrame(const EdgeUse& use) const { return coastline_.features[featureOf(use)].use == FeatureUse::Frame; }
+  bool isSilent(const EdgeUse& use) const { return !isReported(coastline_.features[featureOf(use)]); }
 
   void addUses(std::uint32_t c) {
     const CleanChain& chain = chains_.chains[c];
@@ -124,7 +125,7 @@ class Noder {
           if (featureOf(uses_[i]) != featureOf(use)) report_.took_part.push_back(featureOf(uses_[i]));
         }
         if (isLine(use) || same % 2 == 1) uses_[kept++] = use;
-        if (reported && same > 1 && !onSeam(low, high) && !ofFrame(use)) {
+        if (reported && same > 1 && !onSeam(low, high) && !isSilent(use)) {
           report_.add(EditKind::OverlappingEdge, chains_.vertices.input[low], coastline_, featureOf(use));
         }
       }
@@ -237,7 +238,7 @@ class Noder {
 
   void reportSplits() {
     for (const Split& split : splits_) {
-      if (ofFrame(uses_[edges_[split.edge].first_use])) continue;
+      if (isSilent(uses_[edges_[split.edge].first_use])) continue;
       report_.add(EditKind::OverlappingEdge, chains_.vertices.input[split.vertex], coastline_,
                   featureOf(uses_[edges_[split.edge].first_use]));
     }
@@ -270,7 +271,7 @@ class Noder {
     for (const Edge& edge : {e, f}) {
       for (std::size_t u = edge.first_use; u < edge.last_use; ++u) crossed_[uses_[u].chain] = 1;
     }
-    if (!reported || ofFrame(uses_[e.first_use]) || ofFrame(uses_[f.first_use])) return;
+    if (!reported || isSilent(uses_[e.first_use]) || isSilent(uses_[f.first_use])) return;
     const std::uint32_t first = featureOf(uses_[e.first_use]), second = featureOf(uses_[f.first_use]);
     report_.add(first == second ? EditKind::SelfCrossing : EditKind::FeaturesCross, place, coastline_,
                 std::max(first, second));

@@ -127,7 +127,7 @@ void noteLostLines(const LostLines& lost, const Domain& domain, CleanReport& rep
     std::string name = "a line in the water";
     if (isLineTag(tag)) {
       const DomainLine& line = domain.lines[lineOfTag(tag)];
-      if (line.use == FeatureUse::Region) continue;
+      if (line.use == FeatureUse::Region || line.use == FeatureUse::Area) continue;
       name = std::string(line.use == FeatureUse::Weir ? "weir" : "constraint") +
              (line.name.empty() ? "" : " '" + line.name + "'");
     }

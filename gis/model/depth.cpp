@@ -252,9 +252,10 @@ DepthReport setDepths(Grid& grid, const DepthOptions& options, const RunControl&
     if (!apart.empty()) report.warnings.push_back(apartWarning(apart, grid));
   }
   const auto dry = static_cast<std::size_t>(std::ranges::count_if(grid.z, [](double z) { return z > 0.0; }));
-  if (2 * dry > grid.nodes.size() && known > 0) report.warnings.push_back(dryWarning(grid.z, dry, options));
+  if (2 * dry > grid.nodes.size() && known > 0 && !options.has_land)
+    report.warnings.push_back(dryWarning(grid.z, dry, options));
   for (double& z : grid.z) {
-    if (!(z > 0.0 - options.min_depth_m)) continue;
+    if (!(z > 0.0 - options.min_depth_m) || (options.has_land && z >= 0.0)) continue;
     z = 0.0 - options.min_depth_m;
     ++report.lowered;
   }

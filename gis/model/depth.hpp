@@ -34,6 +34,8 @@ struct DepthOptions {
   bool positive_down = false;  // the rasters hold depths; otherwise elevations, positive up
   double water_level_m = 0.0;  // metres: height of the still water above the rasters' zero
   double min_depth_m = -std::numeric_limits<double>::infinity();  // metres: shallower nodes are lowered to this
+  // Nodes above the water are land on purpose: `min_depth_m` does not lower them, and many are no mistake.
+  bool has_land = false;
   DepthFill fill = DepthFill::Neighbours;
   bool keep_known = false;  // nodes for which no raster has a value keep the z that they have, instead of being filled
   const PixelReaders* readers = nullptr;  // readers of the rasters for bilinear depths; null: the caller

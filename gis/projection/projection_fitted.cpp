@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "gis/coast/feature_names.hpp"
+#include "gis/coast/flood_plains.hpp"
 #include "gis/coast/turned_rings.hpp"
 #include "gis/crs/geodesy.hpp"
 #include "gis/crs/geographic_map.hpp"
@@ -101,7 +102,7 @@ void forEachChain(const Coastline& coastline, const std::vector<std::size_t>& me
     const bool guest = feature.use == FeatureUse::Constraint || feature.use == FeatureUse::Weir ||
                        feature.use == FeatureUse::Region || feature.use == FeatureUse::Open ||
                        (feature.use == FeatureUse::Frame && !with_frame);
-    if (guest && !globe) continue;
+    if ((guest && !globe) || (with_frame && isFloodPlain(feature))) continue;
     for (const Polygon& polygon : feature.polygons) {
       act(feature, polygon.outer, true);
       for (const Ring& hole : polygon.holes) act(feature, hole, true);

@@ -10,6 +10,7 @@
 
 #include "core/metric.hpp"
 #include "core/size/on_surface.hpp"
+#include "gis/coast/segment_tags.hpp"
 #include "gis/crs/ground_balls.hpp"
 #include "gis/error.hpp"
 #include "gis/long_wave.hpp"
@@ -225,6 +226,16 @@ VertexDemand demandOf(const ComposedSizes& source, const SizeDemand& demand, con
           std::min(std::ranges::min(sizes), demand.size) / projection.measureAt(place), source.optionAt(place)};
 }
 
+// The shore as in `shoreLines`, and the coast between the domain's water and a flood plain.
+std::vector<SizedLine> shoreAndCoast(const Pslg& shore, const Domain& domain, double size_m, double rate) {
+  std::vector<SizedLine> lines = shoreLines(shore, size_m, rate);
+  if (domain.lines.empty()) return lines;
+  for (const Segment& s : shore.segments)
+    if (isLineTag(s.tag) && domain.lines[lineOfTag(s.tag)].use == FeatureUse::Area)
+      lines.push_back({shore.points[s.a], shore.points[s.b], size_m, rate});
+  return lines;
+}
+
 bool isByShoreAlone(const SizeOptions& options, const SizeInputs& inputs) {
   return options.shore_m < kInfinity && options.channel_elements == 0.0 && inputs.layers->features.empty() &&
          inputs.rasters.empty() && !options.depth.any() && !(options.time_step_s > 0.0);
@@ -232,11 +243,11 @@ bool isByShoreAlone(const SizeOptions& options, const SizeInputs& inputs) {
 
 // Returns no function if there is no shore, if it alone may require more vertices than there is room for, or if changes
 // of the scale matter beside the gradation: these cases need a map.
-DomainSizes sizesByShore(const SizeOptions& options, const Pslg& shore, const std::shared_ptr<const ScaleTable>& scales,
-                         const SizeBox& square, double most_vertices) {
+DomainSizes sizesByShore(const SizeOptions& options, const Pslg& shore, const Domain& domain,
+                         const std::shared_ptr<const ScaleTable>& scales, const SizeBox& square, double most_vertices) {
   constexpr double kHardly = 0.05, kJustBelow = 0.99;
   const double rate = std::min(options.shore_rate, kJustBelow * options.gradation);
-  std::vector<SizedLine> lines = shoreLines(shore, options.shore_m, rate);
+  std::vector<SizedLine> lines = shoreAndCoast(shore, domain, options.shore_m, rate);
   double length_m = 0.0;
   for (const SizedLine& line : lines) length_m += distance(line.a, line.b) / scales->at(midpoint(line.a, line.b));
   const double reach_m = 2.0 * square.half / scales->at(square.centre);
@@ -351,9 +362,10 @@ void addFloor(ComposedSizes& source, std::unique_ptr<SizeField> step, const Size
   auto floor = std::make_unique<SizeFloor>(std::move(step), options.gradation, source.leastWanted() / kShoreFloor,
                                            plane.scale, plane.root, mask, loop, surface);
   if (options.coast == CoastDetail::Follow)
-    floor->raiseNear(std::make_unique<DistanceField>(shoreLines(plane.domain.pslg, 0.0, options.gradation), plane.scale,
-                                                     kInfinity, surface),
-                     kShoreFloor);
+    floor->raiseNear(
+        std::make_unique<DistanceField>(shoreAndCoast(plane.domain.pslg, plane.domain, 0.0, options.gradation),
+                                        plane.scale, kInfinity, surface),
+        kShoreFloor);
   sizes.raised = raisedShore(sized_shore, *floor, options.least_m, plane.scale);
   sizes.floor_m = largestOf(*floor, mask, plane.root);
   source.setFloor(std::move(floor));
@@ -501,7 +513,7 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
     opened = inputs.shoreOf(domain, options, loop);
   const Pslg& shore = opened ? *opened : domain.pslg;
   if (accuracy == SizeAccuracy::Rough && isByShoreAlone(options, inputs) && !surface.isCurved()) {
-    DomainSizes sizes = sizesByShore(options, shore, plane.table, plane.root, most_vertices);
+    DomainSizes sizes = sizesByShore(options, shore, domain, plane.table, plane.root, most_vertices);
     if (sizes.function) return sizes;
   }
 
@@ -510,7 +522,7 @@ DomainSizes makeSizeFunction(const SizeOptions& options, const SizeInputs& input
   ComposedSizes source({options.size_m, options.least_m, options.most_m}, plane.measure, mask, loop);
   std::vector<SizedLine> sized_shore;  // that the time step may raise
   if (options.shore_m < kInfinity) {
-    std::vector<SizedLine> lines = shoreLines(shore, options.shore_m, options.shore_rate);
+    std::vector<SizedLine> lines = shoreAndCoast(shore, domain, options.shore_m, options.shore_rate);
     sizes.has_shore = !lines.empty();
     if (options.time_step_s > 0.0) sized_shore = lines;
     source.add("--size-shore",

@@ -164,6 +164,7 @@ def cases():
     }
     mesh = {
         **common, **region, **finish,
+        "--flood-height": Case("5", extra=depths),
         "--output": Case("more.2dm"),
         "--format": Case("2dm"),
         "--min-angle": Case("15"),

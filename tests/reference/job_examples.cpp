@@ -19,6 +19,8 @@
 #include "apps/job/mesh_job_options.hpp"
 #include "apps/job/mesh_job_result.hpp"
 #include "apps/job/step_outcome.hpp"
+#include "gis/flood_plain/dry_sides.hpp"
+#include "gis/flood_plain/flood_options.hpp"
 #include "gis/format/grid_io.hpp"
 #include "gis/size/size_depth.hpp"
 #include "gis/size/size_distance.hpp"
@@ -50,6 +52,34 @@ class JobExamples : public ::testing::Test {
 
   reference::WorkFolder folder_;
 };
+
+// gis/flood_plain/dry_sides.hpp: Open boundaries across dry land.
+TEST_F(JobExamples, DrySides) {
+  //! [gis/flood_plain/dry_sides.hpp]
+  Grid grid;
+  grid.nodes = {{0, 0}, {2, 0}, {1, 2}};
+  grid.triangles = {{0, 1, 2}};
+  grid.z = {1.0, 2.0, -3.0};  // two nodes are above the water
+  grid.boundaries = {{BoundaryRole::Open, false, {0, 1, 2}}, {BoundaryRole::Land, false, {2, 0}}};
+  const DrySides dry = closeDrySides(grid, /*to_the_coast=*/false);
+  //! [gis/flood_plain/dry_sides.hpp]
+  EXPECT_EQ(dry.edges, 2u);
+  ASSERT_EQ(grid.boundaries.size(), 1u);
+  EXPECT_EQ(grid.boundaries.front().role, BoundaryRole::Land);
+}
+
+// gis/flood_plain/flood_options.hpp: Land that is meshed besides the water.
+TEST_F(JobExamples, FloodOptions) {
+  //! [gis/flood_plain/flood_options.hpp]
+  MeshJob job;
+  job.input.flood.height_m = 10.0;
+  job.input.flood.heights.files = {"dem.tif"};
+  job.input.flood.size_m = 200.0;
+  job.finish.depth = job.input.flood.heights;
+  job.finish.depth.has_land = true;
+  //! [gis/flood_plain/flood_options.hpp]
+  EXPECT_TRUE(job.finish.any());
+}
 
 // gis/size/size_depth.hpp: Sizes that follow from depths.
 TEST_F(JobExamples, SizeDepth) {

@@ -1,0 +1,152 @@
+// Meshes of the sea with the low land beside it, and frames whose sides cross land.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/cli/program.hpp"
+
+namespace coastmesh::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+// Land from longitude 0.1 on, in a frame from (0, 50) to (0.2, 50.1), with heights in pixels of 0.002 degrees.
+class FloodPlainRun : public ProgramTest {
+ protected:
+  FloodPlainRun() { write("land.geojson", geoJsonPolygons({{{{0.1, 49.5}, {0.9, 49.5}, {0.9, 50.5}, {0.1, 50.5}}}})); }
+
+  using Height = std::function<double(double lon, double lat)>;
+  std::string dem(const Height& height) const {
+    std::ostringstream raster;
+    raster << "ncols 110\nnrows 60\nxllcorner -0.01\nyllcorner 49.99\ncellsize 0.002\nNODATA_value -9999\n";
+    for (int row = 0; row < 60; ++row)
+      for (int column = 0; column < 110; ++column)
+        raster << height(-0.01 + 0.002 * (column + 0.5), 50.11 - 0.002 * (row + 0.5)) << (column < 109 ? ' ' : '\n');
+    write("dem.asc", raster.str());
+    return file("dem.asc");
+  }
+  ProgramRun mesh(const std::vector<std::string>& more) const {
+    std::vector<std::string> arguments{"mesh", file("land.geojson"), "--domain",   "outside", "--bbox", "0,50,0.2,50.1",
+                                       "-o",   file("fort.14"),      "--overwrite"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return runProgram(arguments);
+  }
+
+  struct Node {
+    double lon = 0.0, lat = 0.0, depth = 0.0;
+    bool open = false;
+  };
+  std::vector<Node> nodes() const {
+    std::istringstream text(readText(file("fort.14")));
+    std::string title, rest;
+    std::getline(text, title);
+    std::size_t elements = 0, count = 0, number = 0, segments = 0, open = 0;
+    text >> elements >> count;
+    std::vector<Node> all(count);
+    for (Node& node : all) text >> number >> node.lon >> node.lat >> node.depth;
+    std::getline(text, rest);
+    for (std::size_t i = 0; i < elements; ++i) std::getline(text, rest);
+    text >> segments;
+    std::getline(text, rest);
+    text >> open;
+    std::getline(text, rest);
+    for (std::size_t s = 0; s < segments; ++s) {
+      std::size_t length = 0;
+      text >> length;
+      std::getline(text, rest);
+      for (std::size_t i = 0; i < length; ++i) {
+        text >> number;
+        all.at(number - 1).open = true;
+      }
+    }
+    EXPECT_TRUE(text.good());
+    return all;
+  }
+};
+
+// Water 20 m deep in the west; land that rises from the coast at 0.1 to 10 m at 0.15, and on.
+double slope(double lon, double) { return lon < 0.1 ? -20.0 : 200.0 * (lon - 0.1); }
+
+TEST_F(FloodPlainRun, TheMeshReachesTheContour) {
+  const ProgramRun run = mesh({"--bathymetry", dem(slope), "--flood-height", "10", "--size-shore", "400", "--size-max",
+                               "1500", "--coast", "follow", "--target", "adcirc"});
+  ASSERT_EQ(run.code, 0) << run.errors;
+  EXPECT_THAT(run.output + run.errors, HasSubstr("of the land is meshed besides the water"));
+  double east = 0.0;
+  std::size_t on_coast = 0, dry = 0, open = 0;
+  for (const Node& node : nodes()) {
+    east = std::max(east, node.lon);
+    on_coast += std::abs(node.lon - 0.1) < 1e-4;
+    open += node.open;
+    if (node.open) {
+      EXPECT_GT(node.depth, 0.0) << node.lon << " " << node.lat;
+    }
+    if (node.lon < 0.102) continue;
+    ++dry;
+    EXPECT_NEAR(node.depth, -slope(node.lon, node.lat), 0.3);
+  }
+  EXPECT_NEAR(east, 0.15, 0.001);
+  EXPECT_GE(on_coast, 15u);  // 11 km with edges of 400 m: the coast is a line of the mesh
+  EXPECT_GT(dry, 100u);
+  EXPECT_GT(open, 10u);
+}
+
+TEST_F(FloodPlainRun, AMinimumDepthIsForTheWater) {
+  const std::string heights = dem([](double lon, double) { return lon < 0.1 ? -1.0 : 4.0; });
+  ASSERT_EQ(mesh({"--bathymetry", heights, "--flood-height", "10", "--min-depth", "3", "--size", "1000"}).code, 0);
+  for (const Node& node : nodes()) {
+    if (node.lon < 0.097) {
+      EXPECT_DOUBLE_EQ(node.depth, 3.0);
+    }
+    if (node.lon > 0.103) {
+      EXPECT_DOUBLE_EQ(node.depth, -4.0);
+    }
+  }
+}
+
+TEST_F(FloodPlainRun, SidesOfAFrameAcrossLandAreLand) {
+  // The polygon is land and water.
+  write("land.geojson", geoJsonPolygons({{{{-1, 49}, {1, 49}, {1, 51}, {-1, 51}}}}));
+  const std::string heights = dem(slope);
+  const ProgramRun run =
+      runProgram({"mesh", file("land.geojson"), "--domain", "inside", "--bbox", "0,50,0.2,50.1", "--bathymetry",
+                  heights, "--size", "800", "--target", "adcirc", "-o", file("fort.14")});
+  ASSERT_EQ(run.code, 0) << run.errors;
+  EXPECT_THAT(run.output + run.errors, HasSubstr("lie on dry land and are no open boundary"));
+  std::size_t open = 0;
+  for (const Node& node : nodes()) {
+    open += node.open;
+    if (node.lon > 0.102) {
+      EXPECT_FALSE(node.open) << node.lon << " " << node.lat;
+      EXPECT_NEAR(node.depth, -slope(node.lon, node.lat), 0.1);
+    } else if (node.lon < 0.097 && (node.lon == 0.0 || node.lat == 50.0 || node.lat == 50.1)) {
+      EXPECT_TRUE(node.open) << node.lon << " " << node.lat;
+    }
+  }
+  EXPECT_GT(open, 20u);
+}
+
+TEST_F(FloodPlainRun, WhatCannotBeMeant) {
+  const std::string heights = dem(slope);
+  const auto errorOf = [&](const std::vector<std::string>& more) {
+    const ProgramRun run = mesh(more);
+    EXPECT_NE(run.code, 0);
+    EXPECT_TRUE(isOneErrorLine(run.errors)) << run.errors;
+    return run.errors;
+  };
+  EXPECT_THAT(errorOf({"--flood-height", "10"}), HasSubstr("give a raster with --bathymetry"));
+  EXPECT_THAT(errorOf({"--flood-height", "0", "--bathymetry", heights}), HasSubstr("not above the still water"));
+  const ProgramRun globe = runProgram({"mesh", file("land.geojson"), "--domain", "globe", "--size", "500000",
+                                       "--bathymetry", heights, "--flood-height", "10", "-o", file("globe.nc")});
+  EXPECT_EQ(globe.code, 2);
+  EXPECT_THAT(globe.errors, HasSubstr("--flood-height is not for --domain globe"));
+}
+
+}  // namespace
+}  // namespace coastmesh::test
