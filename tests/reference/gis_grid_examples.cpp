@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "gis/check/check_target.hpp"
 #include "gis/error.hpp"
 #include "gis/format/grid_format.hpp"
 #include "gis/format/grid_io.hpp"
@@ -22,7 +23,6 @@
 #include "gis/model/assign_boundaries.hpp"
 #include "gis/model/boundary_edges.hpp"
 #include "gis/model/boundary_rules.hpp"
-#include "gis/model/check_target.hpp"
 #include "gis/model/depth.hpp"
 #include "gis/model/target.hpp"
 #include "gis/model/time_step.hpp"
@@ -228,14 +228,14 @@ TEST_F(GisGridExamples, BoundaryRules) {
   EXPECT_EQ(kindOfText("tidal", "column type").role, BoundaryRole::Open);
 }
 
-// gis/model/check_target.hpp: Everything that makes a model refuse a grid.
+// gis/check/check_target.hpp: Everything that makes a model refuse a grid.
 TEST_F(GisGridExamples, CheckTarget) {
-  //! [gis/model/check_target.hpp]
+  //! [gis/check/check_target.hpp]
   Grid grid = squares();
   std::swap(grid.triangles[3][0], grid.triangles[3][1]);  // now clockwise
   std::vector<std::string_view> found;
   for (const TargetDefect& defect : checkTarget(grid, Target::Adcirc)) found.push_back(toString(defect.kind));
-  //! [gis/model/check_target.hpp]
+  //! [gis/check/check_target.hpp]
   EXPECT_NE(std::ranges::find(found, toString(TargetDefectKind::Clockwise)), found.end());
   EXPECT_TRUE(checkTarget(squares(), Target::Adcirc).empty());
 }

@@ -6,9 +6,9 @@
 #include <set>
 #include <vector>
 
+#include "gis/check/check_target.hpp"
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/grid/boundary_kinds.hpp"
-#include "gis/model/check_target.hpp"
 #include "gis/repair/repair_target.hpp"
 #include "tests/gis/grid_samples.hpp"
 

@@ -1,4 +1,4 @@
-#include "gis/model/node_meets.hpp"
+#include "gis/check/node_meets.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "gis/model/flow_links.hpp"
+#include "gis/check/flow_links.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "gis/model/triangle_overlaps.hpp"
+#include "gis/check/triangle_overlaps.hpp"
 
 #include <algorithm>
 #include <array>

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <set>
 
+#include "gis/check/check_target.hpp"
+#include "gis/check/flow_links.hpp"
 #include "gis/grid/grid_edit.hpp"
-#include "gis/model/check_target.hpp"
-#include "gis/model/flow_links.hpp"
 #include "gis/repair/repair_target.hpp"
 #include "tests/gis/quad_samples.hpp"
 

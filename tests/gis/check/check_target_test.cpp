@@ -1,5 +1,5 @@
 // Defects that models refuse, each planted in a mesh that they accept, and their repair.
-#include "gis/model/check_target.hpp"
+#include "gis/check/check_target.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,16 +12,16 @@
 #include <set>
 
 #include "core/quality.hpp"
+#include "gis/check/flow_links.hpp"
 #include "gis/crs/crs.hpp"
 #include "gis/error.hpp"
 #include "gis/format/grid_io.hpp"
 #include "gis/grid/geographic_nodes.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/model/assign_boundaries.hpp"
-#include "gis/model/flow_links.hpp"
 #include "gis/repair/repair_target.hpp"
+#include "tests/gis/check/target_samples.hpp"
 #include "tests/gis/grid_samples.hpp"
-#include "tests/gis/model/target_samples.hpp"
 
 namespace coastmesh {
 namespace {

@@ -1,4 +1,4 @@
-#include "gis/model/check_target.hpp"
+#include "gis/check/check_target.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +12,11 @@
 #include "core/predicates.hpp"
 #include "core/quality.hpp"
 #include "core/tri_mesh.hpp"
+#include "gis/check/check_segments.hpp"
+#include "gis/check/flow_links.hpp"
+#include "gis/check/node_meets.hpp"
+#include "gis/check/target_limits.hpp"
+#include "gis/check/triangle_overlaps.hpp"
 #include "gis/elements/quads.hpp"
 #include "gis/geometry/box.hpp"
 #include "gis/grid/boundary_kinds.hpp"
@@ -19,14 +24,9 @@
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/ground_orientation.hpp"
 #include "gis/grid/local_plane.hpp"
-#include "gis/grid/loop_role.hpp"
 #include "gis/grid/on_sphere.hpp"
 #include "gis/grid/one_turn.hpp"
-#include "gis/model/flow_links.hpp"
-#include "gis/model/node_meets.hpp"
-#include "gis/model/target_limits.hpp"
 #include "gis/model/time_step.hpp"
-#include "gis/model/triangle_overlaps.hpp"
 
 namespace coastmesh {
 
@@ -35,14 +35,6 @@ bool isOfLongWaves(Target target) {
 }
 
 namespace {
-
-constexpr std::array<std::string_view, kTargetDefectKinds> kKindNames{
-    "wrong count",     "broken edge",     "clockwise",      "overlapping triangles", "unused node",
-    "repeated node",   "hanging node",    "pinched node",   "orphan cell",           "unknown depth",
-    "dry opening",     "no boundary",     "stray boundary", "boundary twice",        "boundary turned",
-    "looped boundary", "wrong shore",     "two open edges", "open and solid edge",   "one neighbour",
-    "lone wall",       "valence",         "large angle",    "not orthogonal",        "small flow link",
-    "courant",         "round the globe", "quadrilateral"};
 
 // The other models have no open boundaries, or accept dry nodes there.
 bool mindsDryOpenings(Target target) {
@@ -53,8 +45,6 @@ bool mindsDryOpenings(Target target) {
 bool mindsJumps(Target target) {
   return target == Target::Adcirc || target == Target::Telemac || target == Target::Swan;
 }
-
-bool isOpening(BoundaryRole role) { return role == BoundaryRole::Open || role == BoundaryRole::River; }
 
 // Triangles with Courant numbers above the limit of explicit schemes, or below that of SCHISM; the worst first.
 std::vector<TargetDefect> courantsBeyond(const Grid& grid, double time_step_s, bool from_below, const ItemLoop& loop) {
@@ -87,7 +77,7 @@ class TargetCheck {
     for (const std::string& note : grid_.notes)
       defects_.push_back(
           {TargetDefectKind::WrongCount, grid_.nodes.empty() ? Point{} : grid_.nodes.front(), -1, -1, 0.0, note});
-    findBoundaryEdges();
+    boundary_edges_ = boundaryEdges(mesh_, loop_);
     for (const EdgeConflict& conflict : conflicts_) add(TargetDefectKind::BrokenEdge, middle(conflict.a, conflict.b));
     if (mindsJumps(target_) && grid_.crs.geographic) checkJumps();
     if (target_ == Target::Mpas && isProjectedForMpas(grid_.crs)) on_earth_ = geographicNodes(grid_);
@@ -96,7 +86,8 @@ class TargetCheck {
     for (const std::uint32_t node : hangingNodes(grid_, mesh_, loop_))
       add(TargetDefectKind::HangingNode, grid_.nodes[node], -1, node);
     if (options_.overlaps) checkOverlaps();
-    if (target_ == Target::Adcirc || target_ == Target::Schism) checkSegments();
+    if (target_ == Target::Adcirc || target_ == Target::Schism)
+      std::ranges::move(checkSegments(grid_, mesh_, boundary_edges_, target_, loop_), std::back_inserter(defects_));
     if (mindsDryOpenings(target_)) checkOpenings();
     if (target_ == Target::Fvcom) checkOpenCells();
     if (target_ == Target::Fvcom || target_ == Target::Telemac) checkLoneWalls();
@@ -240,105 +231,7 @@ class TargetCheck {
     }
   }
 
-  void findBoundaryEdges() {
-    boundary_edges_ = joined(overStretches(loop_, mesh_.triangles.size(), [&](std::size_t first, std::size_t last) {
-      std::vector<EdgeRef> found;
-      for (std::size_t t = first; t < last; ++t)
-        for (unsigned i = 0; i < 3; ++i)
-          if (mesh_.triangles[t].adj[i] == kNone) found.push_back(edgeRef(static_cast<TriId>(t), i));
-      return found;
-    }));
-  }
   NodePair nodesOf(EdgeRef e) const { return {mesh_.origin(e), mesh_.target(e)}; }
-
-  // ADCIRC and SCHISM read segments of nodes.
-  void checkSegments() {
-    std::vector<NodePair> of_mesh(boundary_edges_.size());
-    forEachByStretches(loop_, of_mesh.size(), [&](std::size_t e) { of_mesh[e] = nodesOf(boundary_edges_[e]); });
-    sortOn(loop_, of_mesh);
-    std::vector<int> uses(of_mesh.size(), 0);
-    const std::vector<SegmentSearch> searches = searchSegments(of_mesh);
-    for (std::size_t b = 0; b < grid_.boundaries.size(); ++b) {
-      const Boundary& boundary = grid_.boundaries[b];
-      std::size_t turned = 0;
-      for (const SegmentEdge& edge : searches[b].edges) {
-        const auto [from, to] = edge.nodes;
-        if (edge.place == kNone) {
-          add(TargetDefectKind::StrayBoundary, middle(from, to), -1, from);
-          continue;
-        }
-        if (edge.is_against) ++turned;
-        if (++uses[edge.place] == 2) add(TargetDefectKind::BoundaryTwice, middle(from, to), -1, from);
-      }
-      for (const SegmentEdge& edge : searches[b].back)
-        if (edge.place != kNone) ++uses[edge.place];
-      if (boundary.nodes.empty()) continue;
-      const std::uint32_t first = boundary.nodes.front();
-      if (turned > 0) add(TargetDefectKind::BoundaryTurned, grid_.nodes[first], -1, first, static_cast<double>(turned));
-      if (boundary.nodes.size() == 1) add(TargetDefectKind::StrayBoundary, grid_.nodes[first], -1, first);
-      checkLoop(boundary, searches[b].by_shape, turned > 0);
-    }
-    for (std::size_t i = 0; i < uses.size(); ++i)
-      if (uses[i] == 0) add(TargetDefectKind::NoBoundary, middle(of_mesh[i][0], of_mesh[i][1]), -1, of_mesh[i][0]);
-  }
-
-  // An edge of a segment, and its place among the mesh's boundary edges, kNone if it is none of them.
-  struct SegmentEdge {
-    NodePair nodes;
-    std::uint32_t place = kNone;
-    bool is_against = false;
-  };
-  // What takes long to find out about a segment.
-  struct SegmentSearch {
-    std::vector<SegmentEdge> edges, back;  // along its nodes; those across, and from these to those at a weir's ends
-    BoundaryRole by_shape = BoundaryRole::Land;
-  };
-
-  static bool isLoop(const Boundary& boundary) { return boundary.closed && boundary.nodes.size() >= 3; }
-
-  std::vector<SegmentSearch> searchSegments(std::span<const NodePair> of_mesh) const {
-    const auto placeOf = [&](const NodePair& edge) {
-      const auto place = std::ranges::lower_bound(of_mesh, edge);
-      return place != of_mesh.end() && *place == edge ? static_cast<std::uint32_t>(place - of_mesh.begin()) : kNone;
-    };
-    const auto placesOf = [&](const std::vector<NodePair>& edges) {
-      std::vector<SegmentEdge> found;
-      found.reserve(edges.size());
-      for (const NodePair& edge : edges) {
-        const std::uint32_t along = placeOf(edge);
-        const std::uint32_t place = along != kNone ? along : placeOf({edge[1], edge[0]});
-        found.push_back({edge, place, along == kNone && place != kNone});
-      }
-      return found;
-    };
-    constexpr std::size_t kWorthAStretch = 16;
-    std::vector<SegmentSearch> searches(grid_.boundaries.size());
-    const auto search = [&](std::size_t first, std::size_t last) {
-      for (std::size_t b = first; b < last; ++b) {
-        const Boundary& boundary = grid_.boundaries[b];
-        searches[b].edges = placesOf(edgesOf(boundary));
-        std::vector<NodePair> back = edgesOf(Boundary{boundary.role, boundary.closed, boundary.back_nodes});
-        if (!boundary.back_nodes.empty() && !boundary.closed) {
-          back.push_back({boundary.nodes.front(), boundary.back_nodes.front()});
-          back.push_back({boundary.nodes.back(), boundary.back_nodes.back()});
-        }
-        searches[b].back = placesOf(back);
-        if (isLoop(boundary)) searches[b].by_shape = roleOfLoop(grid_.nodes, boundary.nodes, grid_.crs);
-      }
-    };
-    forStretches(loop_, searches.size(), search, kWorthAStretch);
-    return searches;
-  }
-
-  void checkLoop(const Boundary& boundary, BoundaryRole by_shape, bool turned) {
-    if (!isLoop(boundary)) return;
-    const std::uint32_t first = boundary.nodes.front();
-    const bool shore = !isOpening(boundary.role);
-    if (shore && !turned && boundary.role != by_shape) add(TargetDefectKind::WrongShore, grid_.nodes[first], -1, first);
-    // The models close islands themselves; SCHISM needs other loops as two linked segments.
-    if (boundary.repeats_first && (target_ == Target::Schism || boundary.role == BoundaryRole::Island))
-      add(TargetDefectKind::LoopedBoundary, grid_.nodes[first], -1, first);
-  }
 
   void checkOpenings() {
     if (grid_.z.empty()) return;
@@ -479,8 +372,6 @@ class TargetCheck {
 };
 
 }  // namespace
-
-std::string_view toString(TargetDefectKind kind) { return kKindNames[static_cast<std::size_t>(kind)]; }
 
 double largestSphereAngle(const Point& a, const Point& b, const Point& c) {
   return std::ranges::max(flatAnglesDeg(onSphere(asLonLat(a)), onSphere(asLonLat(b)), onSphere(asLonLat(c))));

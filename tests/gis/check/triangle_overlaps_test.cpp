@@ -1,5 +1,5 @@
 // Overlapping sheets, planted in meshes without overlaps.
-#include "gis/model/triangle_overlaps.hpp"
+#include "gis/check/triangle_overlaps.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "gis/check/node_meets.hpp"
 #include "gis/grid/grid_edit.hpp"
-#include "gis/model/node_meets.hpp"
 #include "tests/gis/grid_samples.hpp"
 
 namespace coastmesh {

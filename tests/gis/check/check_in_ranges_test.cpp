@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "gis/model/apart_waters.hpp"
-#include "tests/gis/model/target_samples.hpp"
+#include "tests/gis/check/target_samples.hpp"
 #include "tests/support/item_loops.hpp"
 
 namespace coastmesh {
