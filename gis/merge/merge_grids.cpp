@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include "gis/cut/cut_boundaries.hpp"
@@ -10,6 +11,7 @@
 #include "gis/grid/linked_grid.hpp"
 #include "gis/merge/joined_meshes.hpp"
 #include "gis/merge/nearby_shore.hpp"
+#include "gis/merge/nest_plane.hpp"
 #include "gis/merge/seam_boundaries.hpp"
 
 namespace coastmesh {
@@ -182,7 +184,10 @@ void setSources(Grid& grid, const JoinedMeshes& joined, std::size_t inserted_tri
 }  // namespace
 
 MergeReport mergeGrids(Grid& grid, Grid&& inserted, const ItemLoop& loop) {
-  const JoinedMeshes joined = joinMeshes(grid, inserted, loop);
+  const std::optional<NestPlane> found = NestPlane::around(grid, inserted, loop);
+  const NestPlane* const plane = found ? &*found : nullptr;
+  if (plane != nullptr) matchTurn(inserted, grid);
+  const JoinedMeshes joined = joinMeshes(grid, inserted, plane, loop);
   MergeReport report;
   report.covered = joined.covered;
   report.cut_off = joined.cut_off;
@@ -193,7 +198,7 @@ MergeReport mergeGrids(Grid& grid, Grid&& inserted, const ItemLoop& loop) {
     report.partition_dropped = dropPartition(*part) || report.partition_dropped;
 
   const EdgeKinds kinds_before(grid);
-  const NearbyShore shore_before(grid, loop);
+  const NearbyShore shore_before(grid, plane, loop);
   const std::vector<std::uint32_t> instead = becomes(joined.same, inserted.nodes.size());
   const std::size_t inserted_triangles = inserted.triangles.size();
   SeamOrigin origin;
@@ -224,7 +229,7 @@ MergeReport mergeGrids(Grid& grid, Grid&& inserted, const ItemLoop& loop) {
   std::vector<std::uint32_t> others;
   for (std::uint32_t t = 0; t < grid.triangles.size(); ++t)
     if (report.triangles[t].mesh != 0) others.push_back(t);
-  report.lost = lostWater(report.gone, grid, others, loop);
+  report.lost = lostWater(report.gone, grid, others, plane, loop);
   return report;
 }
 
