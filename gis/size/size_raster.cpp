@@ -166,7 +166,7 @@ double RasterField::mostKnownIn(const SizeTile& tile, std::uint32_t node, int x,
   return most;
 }
 
-// The pixels that meet a box, in columns beyond the first or last one if it lies across the seam of a raster that wraps;
+// The pixels that meet a box, in columns beyond the first or last one across the seam of a raster that wraps;
 // nullopt for a box around a pole, over half of such a raster, or beyond the reach of the projection, which may contain
 // any.
 std::optional<Box> RasterField::pixelsIn(const SizeBox& box) const {
