@@ -20,6 +20,7 @@
 #include "cluster/serve.hpp"
 #include "gis/error.hpp"
 #include "gis/format/grid_io.hpp"
+#include "gis/secrets.hpp"
 
 namespace coastmesh {
 
@@ -69,8 +70,8 @@ std::string mistakeOf(const CLI::ParseError& error) {
 }  // namespace
 
 void Run::warn(const std::string& text) {
-  std::fprintf(stderr, "coastmesh: warning: %s\n", text.c_str());
-  warnings.push_back(text);
+  warnings.push_back(withoutSecrets(text));
+  std::fprintf(stderr, "coastmesh: warning: %s\n", warnings.back().c_str());
 }
 
 int runProgram(int argc, char** argv, Interrupt& interrupt, Cluster* cluster) {

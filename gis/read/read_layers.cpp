@@ -22,6 +22,7 @@
 #include "gis/read/ogr_geometry.hpp"
 #include "gis/read/open_source.hpp"
 #include "gis/read/osm_ways.hpp"
+#include "gis/secrets.hpp"
 
 namespace coastmesh {
 
@@ -288,9 +289,9 @@ std::vector<RawLayer> readLayers(const Source& given, const ReadFilter& filter, 
   std::vector<LayerReader> readers;
   if (std::optional<GeometryParts> bare = filtered ? std::nullopt : readBareGeojson(given.path)) {
     Feature feature;
-    feature.source = given.path;
+    feature.source = withoutSecrets(given.path);
     feature.use = given.use;
-    readers.emplace_back(wgs84(), given.path, given.use);
+    readers.emplace_back(wgs84(), feature.source, given.use);
     readers.front().add(std::move(*bare), std::move(feature), report);
     return finishAll(readers, false, given.path, report.skipped_points - points_before);
   }

@@ -379,6 +379,24 @@ TEST_F(ReadCoastline, RefusesInOneSentenceAndKeepsGdalQuiet) {
   expectRefused({}, {"no input"});
 }
 
+TEST_F(ReadCoastline, SaysWhyAConnectionFailsAndKeepsItsPassword) {
+  if (GDALGetDriverByName("PostgreSQL") == nullptr) GTEST_SKIP() << "GDAL has no driver for PostgreSQL";
+  for (const std::string source :
+       {"PG:host=127.0.0.1 port=1 dbname=x user=u password=top-secret", "postgresql://u:top-secret@127.0.0.1:1/x"}) {
+    expectRefused({source}, {"***", "cannot be opened", "127.0.0.1", "refused"});
+    try {
+      read(source);
+    } catch (const InputError& error) {
+      EXPECT_EQ(std::string(error.what()).find("top-secret"), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST_F(ReadCoastline, NamesOfSourcesHaveNoPasswords) {
+  const Coastline coastline = read(geojson("password=top", {kSquare}));
+  EXPECT_TRUE(coastline.features[0].source.ends_with("password=***")) << coastline.features[0].source;
+}
+
 TEST_F(ReadCoastline, LargeObjectsAreReadWhateverTheirSize) {
   // Beyond the size at which GDAL refuses a GeoJSON object by default, reduced here by GDAL's own option.
   CPLSetThreadLocalConfigOption("OGR_GEOJSON_MAX_OBJ_SIZE", "0.001");
