@@ -18,6 +18,7 @@
 #include "gis/mesh_layers.hpp"
 #include "gis/read/bare_geojson.hpp"
 #include "gis/read/cleaned_file.hpp"
+#include "gis/read/geojson_crs.hpp"
 #include "gis/read/near_box.hpp"
 #include "gis/read/ogr_geometry.hpp"
 #include "gis/read/open_source.hpp"
@@ -301,6 +302,7 @@ std::vector<RawLayer> readLayers(const Source& given, const ReadFilter& filter, 
   const OgrOption what_is_left_out("CPL_DEBUG", "GeoJSON");
   const OpenSource source = openSource(given.path, filter.layers, errors);
   refuseOddGeojson(source, errors);
+  if (!filter.unsaid_in_plane) requireKnownCrs(source);
   if (given.use == FeatureUse::Area) refuseMesh(source);
   if (!filtered) {
     if (std::optional<std::vector<RawLayer>> cleaned = readCleaned(source, given.use, errors, report))
