@@ -309,7 +309,7 @@ std::vector<RawLayer> readLayers(const Source& given, const ReadFilter& filter, 
   refuseOddGeojson(source, errors);
   if (!filter.unsaid_in_plane) requireKnownCrs(source);
   if (given.use == FeatureUse::Area) refuseMesh(source);
-  if (!filtered) {
+  if (filter.where.empty()) {
     if (std::optional<std::vector<RawLayer>> cleaned = readCleaned(source, given.use, errors, report))
       return std::move(*cleaned);
   }
