@@ -170,8 +170,8 @@ TEST_F(BoundaryTypes, NamesOfFeaturesAreThoseOfBoundaries) {
   const std::string types =
       put("types.geojson", {line(5, 5.05, "west"), line(5.05, 5.08, "east"), line(5.08, 5.1, "east"),
                             westOf(5, {{"type", "land"}, {"name", "x"}})});
-  done({"mesh", lake, "-o", file("a.nc"), "-o", file("a.14"), "--boundaries", types, "--size", "500", "--quiet"});
-  for (const std::string mesh : {"a.nc", "a.14"}) EXPECT_EQ(namesIn(mesh), "east open, land, west open") << mesh;
+  done({"mesh", lake, "-o", file("a.nc"), "-o", file("a.vtu"), "--boundaries", types, "--size", "500", "--quiet"});
+  for (const std::string mesh : {"a.nc", "a.vtu"}) EXPECT_EQ(namesIn(mesh), "east open, land, west open") << mesh;
 }
 
 // In one step, and with a cleaned file between, of which a GIS names the layer.
