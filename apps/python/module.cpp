@@ -151,11 +151,11 @@ PYBIND11_MODULE(_coastmesh, m) {
     try {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const OptionError& error) {
-      PyErr_SetObject(usage_error, textOf(error.what()).ptr());
+      PyErr_SetObject(usage_error, textOf(oneLine(error.what())).ptr());
     } catch (const InputError& error) {
-      PyErr_SetObject(input_error, textOf(error.what()).ptr());
+      PyErr_SetObject(input_error, textOf(oneLine(error.what())).ptr());
     } catch (const OutputError& error) {
-      PyErr_SetObject(output_error, textOf(error.what()).ptr());
+      PyErr_SetObject(output_error, textOf(oneLine(error.what())).ptr());
     }
   });
 
