@@ -111,8 +111,8 @@ void closeBanks(Grid& grid, const std::vector<MergeSource>& nodes) {
       boundary.role = BoundaryRole::Land;
 }
 
-// Between a river and what is left of the mesh, new nodes have the values that the mesh had there; depths unless rasters
-// give them.
+// Between a river and what is left of the mesh, new nodes have the values that the mesh had there; depths only unless
+// rasters give them.
 void keepValues(Grid& grid, const MergedMesh& merged, bool keeps_depths) {
   const Grid& gone = merged.merged.gone;
   if ((grid.z.empty() && grid.node_fields.empty()) || gone.triangles.empty()) return;

@@ -16,7 +16,8 @@
 namespace coastmesh {
 namespace {
 
-// The file of a nodal attribute: manning.gr3 beside hgrid.gr3, as SCHISM looks for it, lake_manning.gr3 beside lake.gr3.
+// The file of a nodal attribute: manning.gr3 beside hgrid.gr3, as SCHISM looks for it; lake_manning.gr3 beside a
+// lake.gr3.
 std::string pathOfField(const std::string& path, const std::string& word) {
   const std::filesystem::path beside(path);
   const std::string stem = beside.stem().string();
@@ -72,8 +73,8 @@ void writeSchism(const Grid& grid, const std::string& path, const ItemLoop& loop
   writePrjBeside(path, grid.crs);
 }
 
-// Reads either file, and those of friction beside it. A .ll is in WGS 84, unless `unsaid` has other longitudes: the .prj is that of the .gr3. Throws
-// InputError.
+// Reads either file, and those of friction beside it. A .ll is in WGS 84, unless `unsaid` has other longitudes: the
+// .prj is that of the .gr3. Throws InputError.
 Grid readSchism(const std::string& path, const Crs& unsaid) {
   const bool degrees = lowerCase(std::filesystem::path(path).extension().string()) == ".ll";
   Grid grid = readFort14(path, degrees ? (unsaid.geographic ? unsaid : wgs84()) : readPrjBeside(path, unsaid));

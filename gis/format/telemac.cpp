@@ -243,9 +243,10 @@ void writeConditions(const BoundaryNodes& boundary, const std::string& path) {
 }
 
 // Writes TELEMAC's SELAFIN geometry in double precision (SERAFIND) with the variable BOTTOM, elevation in metres, one
-// for each nodal attribute, such as BOTTOM FRICTION, and beside it the boundary conditions, `lake.slf` with `lake.cli`, and the CRS in a .prj. Shores are walls (2 2 2), open
-// boundaries levels (5 4 4), rivers discharges (4 5 5). The file has codes for nodes only: a shore of a single edge
-// between two openings becomes open. Throws OutputError, also if a z is unknown or the mesh touches itself in a node.
+// for each nodal attribute, such as BOTTOM FRICTION, and beside it the boundary conditions, `lake.slf` with `lake.cli`,
+// and the CRS in a .prj. Shores are walls (2 2 2), open boundaries levels (5 4 4), rivers discharges (4 5 5). The file
+// has codes for nodes only: a shore of a single edge between two openings becomes open. Throws OutputError, also if a z
+// is unknown or the mesh touches itself in a node.
 void writeTelemac(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   requireZ(grid, path);
   requireFields(grid, path);

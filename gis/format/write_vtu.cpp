@@ -228,9 +228,9 @@ void writeFile(const Grid& grid, const VtuPlaces& places, const std::string& pat
   file.close();
 }
 
-// Writes VTK's unstructured grid, appended raw, for ParaView: nodes at the coordinates of the CRS, z and attributes as node data,
-// smallest angle, area, source fid and region as cell data, boundaries, lines and names as field data. VTK cannot hold
-// a CRS: it is written to a .prj. Throws OutputError.
+// Writes VTK's unstructured grid, appended raw, for ParaView: nodes at the coordinates of the CRS, z and attributes as
+// node data, smallest angle, area, source fid and region as cell data, boundaries, lines and names as field data. VTK
+// cannot hold a CRS: it is written to a .prj. Throws OutputError.
 void writeVtu(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   const auto place = [&grid](std::size_t i) { return std::array<double, 3>{grid.nodes[i].x, grid.nodes[i].y, 0.0}; };
   writeFile(grid, {place, nullptr}, path, loop);

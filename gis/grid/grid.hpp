@@ -89,7 +89,7 @@ struct Grid {
 };
 
 // The arrays with one entry for each node, and for each triangle: edits of a grid use these. Each names every member of
-// Grid, so that a new member does not compile until it is added where it belongs. Values of `node_fields` come on top of
+// Grid, so that a new member does not compile until it is added where it belongs. Those of `node_fields` come on top of
 // the former: `forEachNodeArray` visits all.
 template <typename AnyGrid>
 auto nodeArrays(AnyGrid& grid) {

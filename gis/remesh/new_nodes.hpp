@@ -26,8 +26,8 @@ struct NewNodes {
   std::vector<DividedEdge> divided;
 };
 
-// Depths and fields are linear over the triangles that are replaced, and along divided edges; unknown (NaN) where a corner's is.
-// Longitudes are in the range of the grid's. `mesh` is of the patch's graph.
+// Depths and fields are linear over the triangles that are replaced, and along divided edges; unknown (NaN) where a
+// corner's is. Longitudes are in the range of the grid's. `mesh` is of the patch's graph.
 NewNodes newNodesOf(const Grid& grid, const RemeshPatch& patch, const TriMesh& mesh, const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

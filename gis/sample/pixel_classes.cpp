@@ -38,7 +38,8 @@ PixelClasses::PixelClasses(const std::string& path) : path_(path) {
   TextReader file(path, '#', " \t\r,;\"");
   for (bool is_first = true; file.nextLine(); is_first = false) {
     if (!file.hasWord()) continue;
-    const std::string_view word = is_first ? withoutMark(file.word()) : file.word();
+    std::string_view word = is_first ? withoutMark(file.word()) : file.word();
+    if (word.empty()) word = file.word();  // the mark was before a quote
     if (is_first && isTitle(word)) continue;
     const double pixel_class = file.numberIn(word);
     if (!file.hasWord()) file.fail("class " + numberText(pixel_class) + " has no value: a line is a class and a value");
