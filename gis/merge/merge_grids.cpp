@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "gis/cut/cut_boundaries.hpp"
+#include "gis/fields/node_fields.hpp"
 #include "gis/grid/boundary_kinds.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/linked_grid.hpp"
@@ -18,7 +19,8 @@ namespace coastmesh {
 
 namespace {
 
-// Both have features and the same kinds of values, or neither.
+// Both have features and the same kinds of values, or neither. Where only one has an attribute, the other gets its
+// default.
 void matchValues(Grid& grid, Grid& inserted) {
   if (grid.feature_of.empty() != inserted.feature_of.empty()) {
     Grid& silent = grid.feature_of.empty() ? grid : inserted;
@@ -30,6 +32,8 @@ void matchValues(Grid& grid, Grid& inserted) {
     a.clear();
     b.clear();
   };
+  addMissingFields(grid, inserted);
+  addMissingFields(inserted, grid);
   clearUnlessBoth(grid.size_m, inserted.size_m);
   clearUnlessBoth(grid.min_angle_deg, inserted.min_angle_deg);
   clearUnlessBoth(grid.area_m2, inserted.area_m2);
@@ -44,12 +48,13 @@ bool dropPartition(Grid& grid) {
   return had_one;
 }
 
-// The grid's triangles without a flag, with the depths of their nodes.
+// The grid's triangles without a flag, with the depths and fields of their nodes.
 Grid partWithout(const Grid& grid, const std::vector<std::uint8_t>& keeps) {
   Grid part;
   part.crs = grid.crs;
   part.nodes = grid.nodes;
   part.z = grid.z;
+  part.node_fields = grid.node_fields;
   for (std::size_t t = 0; t < keeps.size(); ++t)
     if (keeps[t] == 0) part.triangles.push_back(grid.triangles[t]);
   removeUnusedNodes(part);

@@ -156,6 +156,7 @@ def cases():
         "--water-level": Case("2", extra=depths),
         "--min-depth": Case("30", extra=depths),
         "--depth-fill": Case("none", extra=["--bathymetry", "part.asc"]),
+        "--attribute": Case("manning=0.02"),
         "--boundaries": Case("open.geojson"),
         "--boundary-column": Case("other", extra=["--boundaries", "open.geojson"]),
         "--open-deeper": Case("20", extra=depths),

@@ -1,4 +1,4 @@
-#include "gis/model/sample_average.hpp"
+#include "gis/sample/sample_average.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,9 +6,10 @@
 #include <limits>
 #include <optional>
 #include <tuple>
+#include <utility>
 
-#include "gis/model/stored_tiles.hpp"
 #include "gis/raster/raster_turn.hpp"
+#include "gis/sample/stored_tiles.hpp"
 
 namespace coastmesh {
 namespace {
@@ -69,6 +70,8 @@ struct Overlap {
   std::int64_t shift = 0;  // columns to be added to the triangle's
   double sum = 0.0;        // over its pixels in the tile that have a value
   double values = 0.0;     // their number
+  // The first of its pixels whose class has no value.
+  std::optional<std::pair<std::int64_t, std::int64_t>> lacking{};
 
   auto operator<=>(const Overlap& other) const {
     return std::tie(tile, triangle, shift) <=> std::tie(other.tile, other.triangle, other.shift);
@@ -77,10 +80,12 @@ struct Overlap {
 
 class AverageSampler {
  public:
-  AverageSampler(const RasterBand& raster, const Grid& grid, std::span<const Point> pixels, const ItemLoop& loop)
+  AverageSampler(const RasterBand& raster, const Grid& grid, std::span<const Point> pixels, const PixelClasses* classes,
+                 const ItemLoop& loop)
       : raster_(raster),
         grid_(grid),
         pixels_(pixels),
+        classes_(classes),
         loop_(loop),
         turn_(columnsOfTurn(raster.geometry(), grid.crs)),
         sums_(grid.triangles.size()) {}
@@ -94,6 +99,7 @@ class AverageSampler {
                 [&](const RasterBand& raster, std::size_t first, std::size_t last) { addTile(raster, first, last); });
     // Added one after another, for the same sums with any number of threads.
     for (const Overlap& overlap : overlaps_) {
+      if (overlap.lacking) classes_->failAt(raster_, overlap.lacking->first, overlap.lacking->second);
       sums_[overlap.triangle].sum += overlap.sum;
       sums_[overlap.triangle].values += overlap.values;
     }
@@ -189,8 +195,14 @@ class AverageSampler {
       forEachRow(corners, box.top, box.bottom, [&](std::int64_t from, std::int64_t to, std::int64_t row) {
         const std::int64_t line = (row - window.row) * window.columns - window.column;
         for (std::int64_t c = std::max(from, whole.left); c < std::min(to, whole.right); ++c) {
-          const double value = values[static_cast<std::size_t>(line + c)];
+          double value = values[static_cast<std::size_t>(line + c)];
           if (std::isnan(value)) continue;
+          if (classes_ != nullptr) {
+            const std::optional<double> meant = classes_->valueOf(value);
+            if (!meant && !overlap.lacking) overlap.lacking = {c, row};
+            if (!meant) continue;
+            value = *meant;
+          }
           overlap.sum += value;
           overlap.values += 1.0;
         }
@@ -201,6 +213,7 @@ class AverageSampler {
   const RasterBand& raster_;
   const Grid& grid_;
   std::span<const Point> pixels_;
+  const PixelClasses* classes_;
   const ItemLoop& loop_;
   double turn_;            // see `columnsOfTurn`; 0: none
   std::vector<Sum> sums_;  // of each triangle
@@ -211,10 +224,10 @@ class AverageSampler {
 
 std::vector<RasterSample> sampleAverage(const RasterBand& raster, const Grid& grid, std::span<const Point> pixels,
                                         std::span<const std::uint32_t> which, double least_pixels, const ItemLoop& loop,
-                                        const RunControl& control) {
+                                        const RunControl& control, const PixelClasses* classes) {
   std::vector<bool> wanted(grid.nodes.size(), false);
   for (const std::uint32_t node : which) wanted[node] = true;
-  AverageSampler sampler(raster, grid, pixels, loop);
+  AverageSampler sampler(raster, grid, pixels, classes, loop);
   sampler.run(wanted, least_pixels, control);
   std::vector<AverageSampler::Sum> at_node(grid.nodes.size());
   for (std::size_t t = 0; t < grid.triangles.size(); ++t) {

@@ -1,4 +1,4 @@
-#include "gis/model/stored_tiles.hpp"
+#include "gis/sample/stored_tiles.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -30,7 +30,7 @@ void forEachTile(const RasterBand& raster, const std::vector<std::size_t>& ends,
     if (beginOf(tile) - beginOf(shares.back()) >= length) shares.push_back(tile);
   loop(shares.size(), [&](std::size_t s) {
     std::optional<RasterBand> own;
-    if (shares.size() > 1) own.emplace(raster.path());
+    if (shares.size() > 1) own.emplace(raster.reopened());
     const std::size_t end = s + 1 < shares.size() ? shares[s + 1] : ends.size();
     for (std::size_t tile = shares[s]; tile < end; ++tile) {
       if (control.cancelled && control.cancelled()) throw Cancelled();

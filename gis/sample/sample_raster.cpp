@@ -1,4 +1,4 @@
-#include "gis/model/sample_raster.hpp"
+#include "gis/sample/sample_raster.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,8 +8,8 @@
 
 #include "gis/crs/crs_map.hpp"
 #include "gis/crs/ogr_support.hpp"
-#include "gis/model/stored_tiles.hpp"
 #include "gis/raster/raster_turn.hpp"
+#include "gis/sample/stored_tiles.hpp"
 
 namespace coastmesh {
 namespace {
