@@ -1,5 +1,7 @@
 #include "gis/error.hpp"
 
+#include "gis/secrets.hpp"
+
 namespace coastmesh {
 
 std::string oneLine(std::string_view text, std::size_t longest) {
@@ -15,6 +17,7 @@ std::string oneLine(std::string_view text, std::size_t longest) {
     blank = false;
     line += c;
   }
+  line = withoutSecrets(line);
   if (line.size() <= longest) return line;
   std::size_t end = line.rfind(' ', longest);
   if (end == std::string::npos || end == 0) {

@@ -8,8 +8,8 @@
 
 namespace coastmesh {
 
-// `text` as one line: runs of white space and control characters become one blank. Text of more than `longest` bytes is
-// cut after a word, with "…".
+// `text` as one line for people: runs of white space and control characters become one blank, and there are no secrets
+// in it (gis/secrets.hpp). Text of more than `longest` bytes is cut after a word, with "…".
 std::string oneLine(std::string_view text, std::size_t longest = std::numeric_limits<std::size_t>::max());
 
 // Options request something impossible, for any input (exit code 2).

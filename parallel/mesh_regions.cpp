@@ -17,6 +17,7 @@
 #include "core/refine/vertex_notes.hpp"
 #include "core/run_control.hpp"
 #include "core/size/plane_sizes.hpp"
+#include "core/sphere/far_side.hpp"
 #include "core/triangulate/delaunay.hpp"
 #include "core/triangulate/label_regions.hpp"
 #include "parallel/byte_hash.hpp"
@@ -144,6 +145,17 @@ struct Seeds {
   bool are_segments_split = false;
 };
 
+// Triangulates again, with further vertices that are not the input's.
+void triangulateAgain(MeshedRegion& region, const Pslg& pslg, std::span<const Point> further, Seeds& seeds,
+                      const RefineOptions& options, const ItemLoop& loop) {
+  Pslg all = pslg;
+  all.points.insert(all.points.end(), further.begin(), further.end());
+  seeds.notes = noteInput(region.mesh, boundOf(options), loop);
+  region.mesh = constrainedDelaunay(all, options.surface, loop);
+  region.mesh.input_vertices = static_cast<VertexId>(pslg.points.size());
+  noteFurther(region.mesh, seeds.notes, {}, loop);
+}
+
 // For a mesh to be closed: inserts its initial vertices.
 Seeds seedInRing(MeshedRegion& region, const Pslg& pslg, const MeshOptions& options, const RunControl& control) {
   Recorder recorder;
@@ -190,6 +202,9 @@ Seeds seed(MeshedRegion& region, const Pslg& pslg, const MeshOptions& all_option
     seeds.core_vertices = seeded.coreVertices();
     seeds.cores = std::move(seeded.cores);
     region.mesh = std::move(seeded.mesh);
+  } else if (options.surface.isCurved()) {
+    const std::vector<Point> far = farSideVertices(region.mesh, options.surface);
+    if (!far.empty()) triangulateAgain(region, pslg, far, seeds, options, loop);
   }
   region.log.append(recorder.finish("triangulate"));
   return seeds;

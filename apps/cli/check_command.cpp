@@ -14,6 +14,10 @@
 #include "apps/report/vector_output.hpp"
 #include "apps/usage/input_usage.hpp"
 #include "apps/usage/target_usage.hpp"
+#include "gis/check/check_segments.hpp"
+#include "gis/check/check_target.hpp"
+#include "gis/check/node_meets.hpp"
+#include "gis/check/triangle_overlaps.hpp"
 #include "gis/elements/elements.hpp"
 #include "gis/elements/quads.hpp"
 #include "gis/error.hpp"
@@ -23,10 +27,7 @@
 #include "gis/grid/linked_grid.hpp"
 #include "gis/grid/one_turn.hpp"
 #include "gis/model/apart_waters.hpp"
-#include "gis/model/check_target.hpp"
 #include "gis/model/impossible_depths.hpp"
-#include "gis/model/node_meets.hpp"
-#include "gis/model/triangle_overlaps.hpp"
 #include "parallel/recorder.hpp"
 #include "parallel/workers.hpp"
 
@@ -143,6 +144,28 @@ std::vector<DefectRow> meetingRows(const Grid& grid, bool with_nodes, const Item
   return rows;
 }
 
+// What any reader of the file may stumble over: boundaries that are not those of the mesh, and nodes without triangles.
+// Only models' formats with segments of nodes list all of the boundary.
+std::vector<DefectRow> fileRows(const Grid& grid, const std::string& path, const ItemLoop& loop) {
+  std::vector<DefectRow> rows;
+  const GridFormat* const format = gridFormatOf(path);
+  const bool lists_all = format != nullptr && (format->name == "adcirc" || format->name == "schism");
+  if (!grid.boundaries.empty()) {
+    const TriMesh mesh = linkGrid(grid, loop).mesh;
+    for (const TargetDefect& defect : checkSegments(grid, mesh, boundaryEdges(mesh, loop), std::nullopt, loop))
+      if (lists_all || defect.kind != TargetDefectKind::NoBoundary) rows.push_back(rowOf(defect, {}));
+  }
+  std::vector<bool> is_used(grid.nodes.size(), false);
+  for (const auto& triangle : grid.triangles)
+    for (const std::uint32_t node : triangle) is_used[node] = true;
+  for (std::uint32_t node = 0; node < is_used.size(); ++node)
+    if (!is_used[node])
+      rows.push_back(
+          {std::string(toString(TargetDefectKind::UnusedNode)), {}, grid.nodes[node], -1, node, 0.0, {}, true});
+  std::ranges::stable_sort(rows, {}, &DefectRow::kind);
+  return rows;
+}
+
 bool isDefect(const DefectRow& row) { return !row.advice; }
 
 void printDefects(const CheckUsage& usage, const Grid& grid, const BoundCounts& bounds,
@@ -239,6 +262,8 @@ int runCheck(const CheckUsage& usage, Run& run) {
     for (DefectRow& row : bentRows(grid)) rows.push_back(std::move(row));
     for (DefectRow& row : meetingRows(grid, targets.empty(), loop)) rows.push_back(std::move(row));
     for (DefectRow& row : targetRows(grid, targets, usage, loop)) rows.push_back(std::move(row));
+    if (targets.empty())
+      for (DefectRow& row : fileRows(grid, usage.mesh.path, loop)) rows.push_back(std::move(row));
     if (!targets.empty())
       for (const ApartWater& water : apartWaters(grid, loop)) rows.push_back(rowOf(water, grid));
     if (targets.empty() && usage.target_check.time_step_s > 0.0)

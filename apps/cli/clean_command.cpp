@@ -114,21 +114,21 @@ BoundaryTypes boundaryTypes(const CleanUsage& usage, const JobInput& input, cons
   if (usage.input.boundary_column.empty() && input.boundaries().empty()) return types;
   std::vector<Point> places;
   std::vector<NodePair> edges;
-  std::vector<std::string*> texts;  // of each edge
+  std::vector<BoundaryType*> types_of_edges;
   for (const Domain& domain : cleaned.domains) {
     const auto first = static_cast<std::uint32_t>(places.size());
     places.insert(places.end(), domain.input_points.begin(), domain.input_points.end());
-    std::vector<std::string>& of_domain = types.emplace_back(domain.pslg.segments.size());
+    std::vector<BoundaryType>& of_domain = types.emplace_back(domain.pslg.segments.size());
     for (std::size_t s = 0; s < domain.pslg.segments.size(); ++s) {
       const Segment& segment = domain.pslg.segments[s];
       if ((segment.left < 0) == (segment.right < 0)) continue;
       edges.push_back({first + segment.a, first + segment.b});
-      texts.push_back(&of_domain[s]);
+      types_of_edges.push_back(&of_domain[s]);
     }
   }
   const auto kinds = input.boundaries().kindsOf(input.coastline().crs, places, edges, std::vector(edges.size(), true));
   for (std::size_t e = 0; e < edges.size(); ++e)
-    if (kinds[e]) *texts[e] = textOfKind(*kinds[e]);
+    if (kinds[e]) *types_of_edges[e] = {textOfKind(*kinds[e]), kinds[e]->name};
   return types;
 }
 

@@ -50,7 +50,7 @@ struct PslgEdge {
   std::size_t domain;
   RegionId left, right;
   std::size_t line;  // feature, or kNoFeature
-  std::string boundary{};
+  BoundaryType boundary{};
 };
 
 std::vector<PslgEdge> sortedEdges(const std::vector<Domain>& domains, const BoundaryTypes& types) {
@@ -118,14 +118,17 @@ VectorLayer pslgLayer(const std::vector<PslgEdge>& edges, const Numbers& numbers
   VectorLayer layer{kPslgLayer, VectorLayer::Kind::Lines, {{"kind", std::string()}}, {}};
   for (const char* name : {"region", "left_fid", "right_fid", "left_id", "right_id", "line_id", "first", "last"})
     layer.fields.emplace_back(name, std::int64_t{});
+  const bool with_names = std::ranges::any_of(edges, [](const PslgEdge& edge) { return !edge.boundary.name.empty(); });
   if (with_types) layer.fields.emplace_back(kBoundaryField, std::string());
+  if (with_names) layer.fields.emplace_back(kBoundaryNameField, std::string());
   for (const PslgEdge& edge : edges) {
     layer.shapes.push_back(
         {{edge.a, edge.b},
          {std::string(edge.kind), static_cast<std::int64_t>(edge.domain), fidOf(edge.left, coastline),
           fidOf(edge.right, coastline), numbers.area(edge.domain, edge.left), numbers.area(edge.domain, edge.right),
           numbers.line(edge.line), std::int64_t{edge.first}, std::int64_t{edge.last}}});
-    if (with_types) layer.shapes.back().values.emplace_back(edge.boundary);
+    if (with_types) layer.shapes.back().values.emplace_back(edge.boundary.text);
+    if (with_names) layer.shapes.back().values.emplace_back(edge.boundary.name);
   }
   return layer;
 }

@@ -12,8 +12,13 @@
 
 namespace coastmesh {
 
-// Boundary type of each segment, by domain, as `kindOfText` takes it. Empty, or empty texts, if unknown.
-using BoundaryTypes = std::vector<std::vector<std::string>>;
+// A type as `kindOfText` takes it, empty if unknown, and the name of an opening, empty if it has none.
+struct BoundaryType {
+  std::string text, name;
+};
+
+// Of each segment, by domain; empty if none is known.
+using BoundaryTypes = std::vector<std::vector<BoundaryType>>;
 
 // The edits, of this cleaning and of an earlier one of the file, as points; an edit that is found again counts once.
 // `source_of` returns the source of a feature of the coastline.

@@ -185,7 +185,8 @@ class Shares {
 
 // True if the jobs read files: then they cannot run at the same time.
 bool readsFiles(const MeshJob& job) {
-  return !job.finish.depth.files.empty() || !job.sizes.rasters.empty() || !job.sizes.bathymetry.empty();
+  return !job.finish.depth.files.empty() || !job.finish.fields.empty() || !job.sizes.rasters.empty() ||
+         !job.sizes.bathymetry.empty();
 }
 
 // Texts that some features have, each with the number of these.

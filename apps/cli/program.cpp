@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -19,7 +20,9 @@
 #include "apps/usage/usage_pages.hpp"
 #include "cluster/serve.hpp"
 #include "gis/error.hpp"
+#include "gis/file/leftovers.hpp"
 #include "gis/format/grid_io.hpp"
+#include "gis/secrets.hpp"
 
 namespace coastmesh {
 
@@ -66,11 +69,19 @@ std::string mistakeOf(const CLI::ParseError& error) {
   return counts == std::string::npos ? text : text.substr(0, counts) + " is given more than once";
 }
 
+// Removes what killed runs left in the folders of the outputs.
+void removeLeftoversBeside(const std::vector<OptionTable::NamedOutput>& outputs) {
+  std::set<std::string> folders;
+  for (const OptionTable::NamedOutput& output : outputs)
+    folders.insert(std::filesystem::path(output.path).parent_path().string());
+  for (const std::string& folder : folders) removeLeftovers(folder);
+}
+
 }  // namespace
 
 void Run::warn(const std::string& text) {
-  std::fprintf(stderr, "coastmesh: warning: %s\n", text.c_str());
-  warnings.push_back(text);
+  warnings.push_back(withoutSecrets(text));
+  std::fprintf(stderr, "coastmesh: warning: %s\n", warnings.back().c_str());
 }
 
 int runProgram(int argc, char** argv, Interrupt& interrupt, Cluster* cluster) {
@@ -127,6 +138,7 @@ int runProgram(int argc, char** argv, Interrupt& interrupt, Cluster* cluster) {
     if (!command.line.chosen()) continue;
     command.line.complete(names, former_names);
     requireOutputsApart(command.line.options());
+    removeLeftoversBeside(command.line.options().outputs());
     Run run{interrupt, cluster, {}, {}, command.line.options()};
     for (const auto& [option, path] : command.line.options().inputs()) run.inputs.push_back(path);
     for (const std::string& sentence : former_names) run.warn(sentence);

@@ -5,11 +5,13 @@
 #include <iterator>
 #include <utility>
 
+#include "apps/job/places.hpp"
 #include "apps/report/remesh_texts.hpp"
 #include "apps/report/report_sections.hpp"
 #include "core/run_control.hpp"
 #include "gis/elements/elements.hpp"
 #include "gis/error.hpp"
+#include "gis/fields/node_fields.hpp"
 #include "gis/for_count.hpp"
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/merge/match_crs.hpp"
@@ -33,12 +35,28 @@ std::string depthWarning(const Grid& grid, const Grid& inserted, const std::stri
                             : "only '" + name + "' has depths: unknown for all other nodes";
 }
 
+// Which nodal attributes only one of the meshes has.
+std::vector<std::string> fieldWarnings(const Grid& grid, const std::string& name, const Grid& inserted,
+                                       const std::string& inserted_name) {
+  std::vector<std::string> all;
+  const auto add = [&](const Grid& with, const Grid& without, const std::string& of) {
+    for (const NodeField& field : with.node_fields)
+      if (findField(without, field.name, field.component) == nullptr)
+        all.push_back("'" + of + "' has no " + titleOf(field) + ": its nodes get the default, " +
+                      amount("%.6g", defaultOf(field)));
+  };
+  add(grid, inserted, inserted_name);
+  add(inserted, grid, name);
+  return all;
+}
+
 InsertedMesh putIn(Grid& grid, const std::string& name, const MeshToInsert& mesh, const MergeOptions& options,
                    const Warn& warn, const RunControl& control, const ItemLoop& loop) {
   Grid inserted = mesh.read();
   findMissingBoundaries(inserted);
   matchCrs(inserted, grid, mesh.name);
   if (const std::string warning = depthWarning(grid, inserted, mesh.name); !warning.empty()) warn(warning);
+  for (const std::string& warning : fieldWarnings(grid, name, inserted, mesh.name)) warn(warning);
   InsertedMesh done{mesh.name, elementCount(inserted, grouped), elementNumbers(inserted), {}};
   try {
     done.result = mergeMesh(grid, std::move(inserted), options, control, loop);

@@ -12,6 +12,7 @@
 #include "apps/report/rivers_texts.hpp"
 #include "gis/elements/elements.hpp"
 #include "gis/error.hpp"
+#include "gis/fields/node_fields.hpp"
 #include "gis/for_count.hpp"
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/model/fill_depths.hpp"
@@ -88,6 +89,20 @@ std::string setRiverDepths(LaidRivers& laid, const Grid& mesh, const DepthOption
   return grouped(unknown) + forCount(unknown, " node of rivers has", " nodes of rivers have") + " no depth";
 }
 
+// The mesh's attributes where rivers lie in it; further on along rivers those of their neighbours, or the default.
+void setRiverFields(Grid& rivers, const Grid& mesh, const ItemLoop& loop) {
+  if (mesh.node_fields.empty()) return;
+  const MeshTriangles triangles(mesh, boxAround(rivers.nodes, loop), loop);
+  for (const NodeField& field : mesh.node_fields) {
+    NodeField& made =
+        rivers.node_fields.emplace_back(NodeField{field.name, field.unit, field.component, field.usual, {}});
+    for (const Point& place : rivers.nodes) made.values.push_back(triangles.valueAt(field.values, place));
+    fillFromNeighbours(rivers, made.values, roundedValue, loop);
+    for (double& value : made.values)
+      if (std::isnan(value)) value = defaultOf(field);
+  }
+}
+
 // What could have joined the mesh, but has no water of it beside it, is land.
 void closeBanks(Grid& grid, const std::vector<MergeSource>& nodes) {
   for (Boundary& boundary : grid.boundaries)
@@ -96,14 +111,22 @@ void closeBanks(Grid& grid, const std::vector<MergeSource>& nodes) {
       boundary.role = BoundaryRole::Land;
 }
 
-// Between a river and what is left of the mesh, new nodes have the depths that the mesh had there.
-void keepDepths(Grid& grid, const MergedMesh& merged) {
-  if (grid.z.empty() || merged.merged.gone.triangles.empty()) return;
-  const MeshTriangles before(merged.merged.gone, boxAround(merged.merged.gone.nodes, inOrder));
+// Between a river and what is left of the mesh, new nodes have the values that the mesh had there; depths only unless
+// rasters give them.
+void keepValues(Grid& grid, const MergedMesh& merged, bool keeps_depths) {
+  const Grid& gone = merged.merged.gone;
+  if ((grid.z.empty() && grid.node_fields.empty()) || gone.triangles.empty()) return;
+  const MeshTriangles before(gone, boxAround(gone.nodes, inOrder));
+  const auto keep = [&](const std::vector<double>& known, std::size_t node, std::vector<double>& values) {
+    const double value = before.valueAt(known, grid.nodes[node]);
+    if (!std::isnan(value)) values[node] = value;
+  };
   for (std::size_t i = 0; i < grid.nodes.size(); ++i) {
     if (merged.nodes[i].mesh != kNone) continue;
-    const double z = before.zAt(grid.nodes[i]);
-    if (!std::isnan(z)) grid.z[i] = z;
+    if (keeps_depths && !grid.z.empty()) keep(gone.z, i, grid.z);
+    for (NodeField& field : grid.node_fields)
+      if (const NodeField* const known = findField(gone, field.name, field.component))
+        keep(known->values, i, field.values);
   }
 }
 
@@ -129,7 +152,7 @@ MergedMesh putIn(Grid& grid, const std::string& name, Grid&& rivers, const Merge
   try {
     MergedMesh merged = mergeMesh(grid, std::move(rivers), options, control, loop);
     closeBanks(grid, merged.nodes);
-    if (options.depth.files.empty()) keepDepths(grid, merged);
+    keepValues(grid, merged, options.depth.files.empty());
     return merged;
   } catch (const InputError& error) {
     throw InputError("the rivers cannot be added to '" + name + "': " + error.what());
@@ -154,6 +177,7 @@ EditedMesh runRiversJob(Grid& grid, const std::string& name, const std::vector<s
     MeshEdit edit;
     edit.warnings = {narrowedRiversText(laid.report), junctionTrianglesText(laid.report),
                      setRiverDepths(laid, grid, job.merge.depth, of_edit, loop)};
+    setRiverFields(laid.grid, grid, loop);
     const MergedMesh merged = putIn(grid, name, std::move(laid.grid), job.merge, of_edit, loop);
     std::ranges::move(mergeWarnings(merged, job.merge.depth), std::back_inserter(edit.warnings));
     edit.warnings.push_back(unconnectedRiversText(grid, merged.triangles));

@@ -25,15 +25,19 @@ auto partsOf(auto& line) requires std::is_same_v<std::remove_cvref_t<decltype(li
   auto& [kind, name, closed, nodes] = line;
   return std::tie(kind, name, closed, nodes);
 }
+auto partsOf(auto& field) requires std::is_same_v<std::remove_cvref_t<decltype(field)>, NodeField> {
+  auto& [name, unit, component, usual, values] = field;
+  return std::tie(name, unit, component, usual, values);
+}
 auto partsOf(auto& feature) requires std::is_same_v<std::remove_cvref_t<decltype(feature)>, GridFeature> {
   auto& [fid, source, attributes, region] = feature;
   return std::tie(fid, source, attributes, region);
 }
 auto partsOf(auto& grid) requires std::is_same_v<std::remove_cvref_t<decltype(grid)>, Grid> {
-  auto& [title, crs, nodes, z, size_m, triangles, quad_of, feature_of, piece_of, part_of, node_part_of, min_angle_deg,
-         area_m2, features, boundaries, lines, notes] = grid;
-  return std::tie(title, crs, nodes, z, size_m, triangles, quad_of, feature_of, piece_of, part_of, node_part_of,
-                  min_angle_deg, area_m2, features, boundaries, lines, notes);
+  auto& [title, crs, nodes, z, size_m, node_fields, triangles, quad_of, feature_of, piece_of, part_of, node_part_of,
+         min_angle_deg, area_m2, features, boundaries, lines, notes] = grid;
+  return std::tie(title, crs, nodes, z, size_m, node_fields, triangles, quad_of, feature_of, piece_of, part_of,
+                  node_part_of, min_angle_deg, area_m2, features, boundaries, lines, notes);
 }
 auto partsOf(auto& refusal) requires std::is_same_v<std::remove_cvref_t<decltype(refusal)>, Refusal> {
   auto& [source, fids, reason, place, over_budget, lacks_memory] = refusal;

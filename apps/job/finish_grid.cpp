@@ -79,6 +79,14 @@ std::string textOf(const RepairLoss& lost, const std::vector<Repair>& repairs) {
          ": much of the water is too narrow for its elements; smaller sizes keep more of it";
 }
 
+std::string summaryOf(const FieldReport& field) {
+  std::string text;
+  for (const std::string& note : field.notes) text += note + "\n";
+  return text + field.name + amount(" from %.6g", field.least) + amount(" to %.6g", field.greatest) + "; " +
+         std::to_string(field.filled) + forCount(field.filled, " node", " nodes") + " filled, " +
+         std::to_string(field.unknown) + " unknown\n";
+}
+
 }  // namespace
 
 std::vector<std::string> FinishReport::notes() const {
@@ -95,6 +103,7 @@ std::vector<std::string> FinishReport::notes() const {
 
 std::vector<std::string> FinishReport::warnings() const {
   std::vector<std::string> all = depth.warnings;
+  for (const FieldReport& field : fields) std::ranges::copy(field.warnings, std::back_inserter(all));
   all.insert(all.end(), boundaries.warnings.begin(), boundaries.warnings.end());
   for (const MissedOfFile& file : boundaries.missed) std::ranges::move(missedWarnings(file), std::back_inserter(all));
   std::map<std::pair<Target, TargetDefectKind>, std::pair<std::size_t, Point>> left;
@@ -156,6 +165,9 @@ FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunContr
     std::ranges::move(again.repairs, std::back_inserter(report.repairs.repairs));
     report.repairs.left = std::move(again.left);
   }
+  // Of the nodes that there are in the end.
+  if (!grid.triangles.empty())
+    report.fields = setFields(grid, options.fields, options.depth.method, options.depth.fill, control, loop);
   if (report.mended) report.lost = lossOf(before_m2, grid, loop);
   std::ranges::set_difference(asked, nodesAmong(grid, asked), std::back_inserter(report.lost_asked), lexLess);
   if (!targets.empty() && !isOneWater(grid, loop)) report.apart = apartWaters(grid, loop).size();
@@ -176,6 +188,7 @@ std::string finishSummary(const FinishOptions& options, const FinishReport& repo
                   forCount(report.depth.filled, "node", "nodes"), report.depth.unknown, report.depth.above_water);
     text += line;
   }
+  for (const FieldReport& field : report.fields) text += summaryOf(field);
   constexpr std::size_t kRepairsShown = 20;
   const std::vector<Repair>& repairs = report.repairs.repairs;
   for (std::size_t i = 0; i < std::min(kRepairsShown, repairs.size()); ++i)
@@ -218,6 +231,28 @@ std::string boundarySection(const FinishOptions& options, const FinishReport& re
     section["merged"] = report.boundaries.merged;
   }
   return section.dump();
+}
+
+std::string fieldSection(const FinishReport& report) {
+  Json section = Json::array();
+  for (const FieldReport& field : report.fields) {
+    Json files = Json::array();
+    for (std::size_t i = 0; i < field.rasters.size(); ++i)
+      files.push_back({{"file", field.rasters[i].file},
+                       {"table", field.rasters[i].table.empty() ? Json(nullptr) : Json(field.rasters[i].table)},
+                       {"nodes", field.nodes_of_file[i]}});
+    section.push_back({{"name", field.name},
+                       {"files", std::move(files)},
+                       {"notes", field.notes},
+                       {"averaged", field.averaged},
+                       {"of_number", field.of_number},
+                       {"kept", field.kept},
+                       {"filled", field.filled},
+                       {"unknown", field.unknown},
+                       {"least", field.least},
+                       {"greatest", field.greatest}});
+  }
+  return section.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string depthSection(const FinishOptions& options, const FinishReport& report) {

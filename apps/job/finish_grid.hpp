@@ -10,6 +10,7 @@
 #include "gis/model/apart_waters.hpp"
 #include "gis/model/assign_boundaries.hpp"
 #include "gis/model/depth.hpp"
+#include "gis/model/set_fields.hpp"
 #include "gis/repair/repair_target.hpp"
 
 namespace coastmesh {
@@ -17,6 +18,7 @@ namespace coastmesh {
 // What is done to a mesh before it is written: depths, boundaries, repairs for models.
 struct FinishOptions {
   DepthOptions depth{};
+  std::vector<FieldSource> fields{};  // nodal attributes; interpolated and filled as depths are
   BoundaryOptions boundaries{};
   std::vector<std::string> targets{};  // names of models that the grid is repaired for
   RepairOptions repair{};
@@ -25,7 +27,9 @@ struct FinishOptions {
   // With depths, parts of open boundaries across dry land become land first; see `closeDrySides`.
   bool close_dry = false;
 
-  bool any() const { return !depth.files.empty() || boundaries.any() || !targets.empty() || repair.time_step_s > 0.0; }
+  bool any() const {
+    return !depth.files.empty() || !fields.empty() || boundaries.any() || !targets.empty() || repair.time_step_s > 0.0;
+  }
   // True if nodes and triangles may change.
   bool mayEdit() const { return !targets.empty() || repair.time_step_s > 0.0 || drop_apart; }
 };
@@ -39,6 +43,7 @@ struct RepairLoss {
 struct FinishReport {
   DepthReport depth;
   DrySides dry;
+  std::vector<FieldReport> fields;
   BoundaryReport boundaries;
   bool mended = false;  // repairs were requested
   RepairReport repairs;
@@ -59,6 +64,7 @@ FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunContr
 std::string finishSummary(const FinishOptions& options, const FinishReport& report);
 
 // Sections of the report as JSON text; "depth" and "repairs" are null if they were not requested.
+std::string fieldSection(const FinishReport& report);
 std::string depthSection(const FinishOptions& options, const FinishReport& report);
 std::string repairSection(const FinishReport& report);
 std::string boundarySection(const FinishOptions& options, const FinishReport& report, const Grid& grid);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <utility>
 
 #include "core/bulk_list.hpp"
@@ -14,6 +15,8 @@
 #include "gis/elements/quads.hpp"
 #include "gis/error.hpp"
 #include "gis/grid/grid_lines.hpp"
+#include "gis/grid/loop_role.hpp"
+#include "gis/projection/area_outline.hpp"
 
 namespace coastmesh {
 
@@ -101,6 +104,23 @@ void markLines(const LineEdges& lines, GridPiece& piece) {
   }
 }
 
+// The projection of a mesh without an outer shore, which is around its islands: these alone may lie within a small cap.
+Projection fitAroundIslands(const Grid& part, const std::vector<std::vector<VertexId>>& loops, SurfaceKind kind) {
+  constexpr std::size_t kMostWithin = 4096;
+  std::vector<Ring> rings;
+  for (const std::vector<VertexId>& loop : loops) {
+    Ring& ring = rings.emplace_back();
+    for (const VertexId v : loop) ring.push_back(part.nodes[v]);
+  }
+  std::vector<Point> within;
+  for (std::size_t v = 0; v < part.nodes.size(); v += 1 + part.nodes.size() / kMostWithin)
+    within.push_back(part.nodes[v]);
+  const Coastline outline = areaWithin(part.crs, std::move(rings), std::move(within), "the mesh");
+  std::vector<std::size_t> all(outline.features.size());
+  std::iota(all.begin(), all.end(), 0);
+  return Projection::fitted(outline, all, kind);
+}
+
 }  // namespace
 
 LineEdges::LineEdges(const Grid& grid) {
@@ -151,7 +171,13 @@ Projection fitProjection(const Grid& grid, const std::vector<std::uint32_t>& tri
   Coastline outline;
   outline.crs = grid.crs;
   outline.features.emplace_back().source = "the mesh";
-  for (const auto& of_boundary : boundaryLoops(linked, loop)) {
+  const std::vector<std::vector<VertexId>> loops = boundaryLoops(linked, loop);
+  const auto isOuter = [&](const std::vector<VertexId>& each) {
+    return roleOfLoop(part.nodes, each, grid.crs) == BoundaryRole::Land;
+  };
+  if (conflicts.empty() && grid.crs.geographic && !loops.empty() && std::ranges::none_of(loops, isOuter))
+    return fitAroundIslands(part, loops, kind);
+  for (const auto& of_boundary : loops) {
     Polygon& polygon = outline.features[0].polygons.emplace_back();
     for (VertexId v : of_boundary) polygon.outer.push_back(part.nodes[v]);
   }

@@ -26,9 +26,9 @@ auto partsOf(auto& items) requires std::is_same_v<std::remove_cvref_t<decltype(i
   return std::tie(count, longest);
 }
 auto partsOf(auto& waters) requires std::is_same_v<std::remove_cvref_t<decltype(waters)>, FollowedWaters> {
-  auto& [area_m2, cut_off, apart, joined, too_small, straits, spits, met, with_apart, closed_m2, cut_off_by_way,
-         none_kept_open, in_plane] = waters;
-  return std::tie(area_m2, cut_off, apart, joined, too_small, straits, spits, met, with_apart, closed_m2,
+  auto& [area_m2, cut_off, apart, joined, too_small, islands, straits, spits, met, with_apart, closed_m2,
+         cut_off_by_way, none_kept_open, in_plane] = waters;
+  return std::tie(area_m2, cut_off, apart, joined, too_small, islands, straits, spits, met, with_apart, closed_m2,
                   cut_off_by_way, none_kept_open, in_plane);
 }
 auto partsOf(auto& raised) requires std::is_same_v<std::remove_cvref_t<decltype(raised)>, RaisedShore> {

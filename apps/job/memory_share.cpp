@@ -14,10 +14,11 @@ double memoryShare(double whole, std::size_t points, const Together& together) {
 }
 
 double bytesHeldBy(const Grid& grid) {
-  const auto sum = [](const auto&... arrays) {
-    return (0.0 + ... + static_cast<double>(arrays.size() * sizeof(arrays[0])));
-  };
-  return std::apply(sum, nodeArrays(grid)) + std::apply(sum, triangleArrays(grid));
+  double bytes = 0.0;
+  const auto add = [&bytes](const auto& array) { bytes += static_cast<double>(array.size() * sizeof(array[0])); };
+  forEachNodeArray(grid, add);
+  std::apply([&add](const auto&... arrays) { (add(arrays), ...); }, triangleArrays(grid));
+  return bytes;
 }
 
 }  // namespace coastmesh

@@ -16,6 +16,7 @@
 #include "core/refine/check.hpp"
 #include "core/run_control.hpp"
 #include "core/size/estimate_vertices.hpp"
+#include "core/size/narrow_strips.hpp"
 #include "core/sphere/close_sphere.hpp"
 #include "core/triangulate/delaunay.hpp"
 #include "core/triangulate/label_regions.hpp"
@@ -25,6 +26,7 @@
 #include "gis/crs/geodesy.hpp"
 #include "gis/error.hpp"
 #include "gis/follow/coast_follow.hpp"
+#include "gis/follow/follow_notes.hpp"
 #include "gis/follow/least_edges.hpp"
 #include "gis/follow/water_notes.hpp"
 #include "gis/format/poly_io.hpp"
@@ -379,6 +381,8 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
                             job.mesh.refine.max_angle_deg <= kNotObtuseDeg};
     const ShoreGuides guides{projected(sizes.layers->passages, domain.projection),
                              projected(sizes.layers->barriers, domain.projection)};
+    constexpr double kNotedIsland = 2.0;  // elements
+    const std::vector<IslandRing> islands = follow.of_land ? std::vector<IslandRing>() : islandRings(domain.pslg);
     CleanReport coarser, followed;
     FollowStart start;
     if (const double least = leastWanted(wanted, sizes); least > 0.0)
@@ -393,6 +397,9 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
     std::ranges::move(coarser.warnings, std::back_inserter(result.warnings));
     result.idle = std::move(coarser.idle);
     result.waters = std::move(coarser.waters);
+    labelSegments(domain.pslg);
+    const ScaleTable scales(domain.projection, boxAround(domain.pslg.points, loop));
+    noteIslands(lostIslands(islands, domain.pslg, *sized.function, scales, kNotedIsland, loop), domain, result.waters);
     result.waters.area_m2 = area_m2;
     for (std::size_t kind = 0; kind < kEditKinds; ++kind) result.edits[kind] += coarser.counts[kind];
     if (job.keep_edits) std::ranges::move(coarser.edits, std::back_inserter(result.edit_places));
@@ -408,6 +415,39 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
   result.size_s = sizing.seconds();
   result.log.append(recorder.finish());
   return std::move(sized.function);
+}
+
+std::string stripsText(const GroupTask& task, const Domain& domain, const NarrowStrips& strips) {
+  const double scale = domain.projection.scaleAt(strips.place);
+  const auto inWords = [&](double length) {
+    const double metres = length / scale;
+    if (domain.projection.isIdentity()) return roundAmount(metres, 2);
+    return metres < 1000.0 ? roundAmount(metres, 2) + " m" : roundAmount(metres / 1000.0, 2) + " km";
+  };
+  const Feature* feature = &task.firstFeature();
+  if (const Coastline& coastline = task.input.coastline(); !task.input.isPoly() && strips.region >= 0)
+    if (const Feature& of_region = coastline.features[static_cast<std::size_t>(strips.region)];
+        of_region.use == FeatureUse::Area)  // not a frame
+      feature = &of_region;
+  return featureInWords(*feature) + ": bounds on angles take about " + roundAmount(strips.vertices, 1) +
+         " vertices between shores, or lines, that almost coincide: along about " + inWords(strips.length) +
+         " in all, most of them near " + pointText(domain.projection.inverse(strips.place)) + ", where these are " +
+         inWords(strips.width) + " apart; a larger --snap joins them, --simplify and --coast follow leave them out";
+}
+
+// Slivers make many more vertices than anybody wants there: named if they are most of the mesh, or use up the budget.
+// Few meshes have so many vertices that it is worth looking.
+void warnOfStrips(const GroupTask& task, const Domain& domain, std::size_t vertices, GroupResult& result) {
+  constexpr double kWorthTelling = 1e5;  // vertices
+  constexpr double kUsual = 4.0;         // for one of the input
+  constexpr double kClearly = 2.0;
+  const bool cut_short = result.refine.budget_reached;
+  const double made = static_cast<double>(vertices), given = static_cast<double>(domain.pslg.points.size());
+  const double worth =
+      std::max({kWorthTelling, kClearly * result.estimated_vertices, cut_short ? 0.0 : made / kClearly});
+  if (domain.closed() || (made < std::max(worth, kUsual * given) && !cut_short)) return;
+  const NarrowStrips strips = narrowStrips(constrainedDelaunay(domain.pslg), worth);
+  if (strips.vertices > 0.0) result.warnings.push_back(stripsText(task, domain, strips));
 }
 
 MeshedRegion meshStage(const GroupTask& task, const Domain& domain, MeshOptions&& options, GroupResult& result) {
@@ -508,6 +548,7 @@ void fillGroup(const GroupTask& task, GroupResult& result) {
   const RefineOptions asked = options.refine;
   task.control.checkpoint(kMeshing.from);
   MeshedRegion region = meshStage(task, domain, std::move(options), result);
+  warnOfStrips(task, domain, region.mesh.points.size(), result);
   // Away from the shore, a scale may be smaller than anywhere on it. Of a globe, the plane has no bounded part.
   if (!domain.closed()) addScales(region.mesh.points, domain.projection, result);
   LoopsAfterMeshing loops(region, task.control);

@@ -23,10 +23,10 @@ concept IsA = std::is_same_v<std::remove_cvref_t<T>, Of>;
 
 auto partsOf(IsA<DepthBand> auto& band) { return std::tie(band.from_m, band.to_m, band.size_m); }
 auto partsOf(IsA<DepthRules> auto& rules) {
-  auto& [positive_down, water_level_m, least_depth_m, period_s, wave_elements, slope_elements, slope_filter_m, bands] =
-      rules;
-  return std::tie(positive_down, water_level_m, least_depth_m, period_s, wave_elements, slope_elements, slope_filter_m,
-                  bands);
+  auto& [positive_down, water_level_m, least_depth_m, period_s, wave_elements, crossing_s, slope_elements,
+         slope_filter_m, bands] = rules;
+  return std::tie(positive_down, water_level_m, least_depth_m, period_s, wave_elements, crossing_s, slope_elements,
+                  slope_filter_m, bands);
 }
 auto partsOf(IsA<SizeRule> auto& rule) {
   auto& [kind, depths, time_step_s, courant] = rule;

@@ -16,6 +16,7 @@
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/grid_lines.hpp"
+#include "gis/grid/ground_orientation.hpp"
 
 namespace coastmesh {
 
@@ -106,6 +107,16 @@ std::string missedText(const StepOutcome& outcome, const SizeOptions& sizes) {
   });
   return ", " + std::to_string(missed) + " of them shorter than " + amount("%g", StepOutcome::kShareOfLeast) +
          " times it (exit code 1)";
+}
+
+std::string courantText(const StepOutcome& outcome, const Grid& grid, const SizeOptions& sizes) {
+  const std::vector<LongStep>& found = outcome.above_step;
+  return "--courant-min " + amount("%g", sizes.least_courant) + " with --time-step " + amount("%g", sizes.time_step_s) +
+         " is not reached in " + std::to_string(found.size()) +
+         forCount(found.size(), " triangle, at ", " triangles, the worst at ") +
+         pointText(middleOf(grid, found.front().triangle)) +
+         amount(" with a Courant number of %.3g", sizes.time_step_s / found.front().step_s) + ": a longer time step" +
+         (sizes.least_m > 0.0 ? " or a smaller --size-min" : "") + " helps";
 }
 
 std::vector<std::string> warningsOf(const StepOutcome& outcome, const SizeOptions& sizes, QualityGoal goal,
@@ -300,6 +311,9 @@ StepOutcome measureOutcome(const Grid& grid, const SizeOptions& sizes, const Ite
                          outcome.below_least.front().length_m < StepOutcome::kShareOfLeast * sizes.least_m;
   outcome.warnings =
       warningsOf(outcome, sizes, goal, small_waters, ofRepairsText(grid, outcome.below_least, sizes.least_m, repairs));
+  if (sizes.depth.crossing_s > 0.0)
+    outcome.above_step = stepsAbove(grid, sizes.time_step_s, sizes.least_courant, sizes.depth.least_depth_m, loop);
+  if (!outcome.above_step.empty()) outcome.warnings.push_back(courantText(outcome, grid, sizes));
   if (std::string warning = borderWarning(grid, outcome.step, sizes); !warning.empty())
     outcome.warnings.push_back(std::move(warning));
   if (std::string warning = lineWarning(grid, sizes, loop); !warning.empty())

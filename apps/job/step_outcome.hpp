@@ -12,7 +12,7 @@
 
 namespace coastmesh {
 
-// A finished grid's time step, and whether --time-step and --size-min are met in it.
+// A finished grid's time step, and whether --time-step, --courant-min and --size-min are met in it.
 struct StepOutcome {
   // Edges are mostly between 0.7 and 1.4 times the size, so that --size-min is undercut only by shorter ones; those
   // shorter than `kShareOfLeast` of it miss it.
@@ -20,12 +20,13 @@ struct StepOutcome {
 
   StepReport step;
   std::vector<ShortStep> below_step;   // triangles that miss --time-step, the worst first
+  std::vector<LongStep> above_step;    // those that miss --courant-min, the worst first
   std::vector<ShortEdge> below_least;  // edges that undercut --size-min, the shortest first
   bool least_missed = false;           // one of them is far too short, and not because --coast keep preserves the data
 
   std::vector<std::string> notes, warnings;
 
-  bool held() const { return below_step.empty() && !least_missed; }
+  bool held() const { return below_step.empty() && above_step.empty() && !least_missed; }
 };
 
 // `goal` is that of the optimiser, which may have needed short edges. `small_waters` were left as in the input, as no

@@ -22,6 +22,17 @@ constexpr std::size_t kLinesPerStroke = 400;
 
 constexpr double kPixelsInVector = 2.0;  // per unit of the drawing, in an image within a vector drawing
 
+void setFont(cairo_t* context, double height) {
+  cairo_select_font_face(context, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(context, height);
+}
+
+double advanceOf(cairo_t* context, const std::string& text) {
+  cairo_text_extents_t extents;
+  cairo_text_extents(context, text.c_str(), &extents);
+  return extents.x_advance;
+}
+
 }  // namespace
 
 Color mix(const Color& a, const Color& b, double share_of_b) {
@@ -29,10 +40,23 @@ Color mix(const Color& a, const Color& b, double share_of_b) {
   return {a.red + (b.red - a.red) * s, a.green + (b.green - a.green) * s, a.blue + (b.blue - a.blue) * s};
 }
 
+double textWidth(const std::string& text, double height) {
+  const std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> surface(
+      cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1), cairo_surface_destroy);
+  const std::unique_ptr<cairo_t, void (*)(cairo_t*)> context(cairo_create(surface.get()), cairo_destroy);
+  setFont(context.get(), height);
+  return advanceOf(context.get(), text);
+}
+
+double PlotCanvas::widthOf(const Point& low, const Point& high, double size_px) {
+  const double across = high.x - low.x;
+  return std::max(1.0, std::round(across * size_px / std::max(across, high.y - low.y)));
+}
+
 PlotCanvas::PlotCanvas(const std::string& path, const Point& low, const Point& high, double size_px, double strip_px)
     : path_(path), vector_(std::filesystem::path(path).extension() == ".svg"), low_(low), high_(high) {
   scale_ = size_px / std::max(high.x - low.x, high.y - low.y);
-  width_ = std::max(1.0, std::round((high.x - low.x) * scale_));
+  width_ = widthOf(low, high, size_px);
   map_height_ = std::max(1.0, std::round((high.y - low.y) * scale_));
   const double height = map_height_ + strip_px;
   surface_.reset(
@@ -199,18 +223,14 @@ void PlotCanvas::strokeLines(const std::vector<std::array<Point, 2>>& lines, dou
 void PlotCanvas::text(const Point& baseline, const std::string& text, double height, const Color& color) {
   cairo_t* context = context_.get();
   setColor(color);
-  cairo_select_font_face(context, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_set_font_size(context, height);
+  setFont(context, height);
   cairo_move_to(context, baseline.x, baseline.y);
   cairo_show_text(context, text.c_str());
 }
 
 void PlotCanvas::textEndingAt(const Point& baseline, const std::string& content, double height, const Color& color) {
-  cairo_text_extents_t extents;
-  cairo_select_font_face(context_.get(), "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_set_font_size(context_.get(), height);
-  cairo_text_extents(context_.get(), content.c_str(), &extents);
-  text({baseline.x - extents.x_advance, baseline.y}, content, height, color);
+  setFont(context_.get(), height);
+  text({baseline.x - advanceOf(context_.get(), content), baseline.y}, content, height, color);
 }
 
 void PlotCanvas::clipToMap() {

@@ -19,9 +19,15 @@ struct Color {
 
 Color mix(const Color& a, const Color& b, double share_of_b);
 
+// The width in pixels that `PlotCanvas::text` takes.
+double textWidth(const std::string& text, double height);
+
 // A window of the plane drawn into a picture: coordinates are pixels, y down, unless named `plane`.
 class PlotCanvas {
  public:
+  // The width of a picture whose window fills `size_px` on its longer side.
+  static double widthOf(const Point& low, const Point& high, double size_px);
+
   // The window fills `size_px` on its longer side, with `strip_px` below it. Throws OutputError.
   PlotCanvas(const std::string& path, const Point& low, const Point& high, double size_px, double strip_px);
 

@@ -13,6 +13,7 @@
 #include "apps/plot/globe_chart.hpp"
 #include "apps/plot/mesh_shape.hpp"
 #include "apps/plot/plot_canvas.hpp"
+#include "apps/plot/plot_legend.hpp"
 #include "apps/plot/plot_lines.hpp"
 #include "apps/plot/plot_style.hpp"
 #include "core/metric.hpp"
@@ -34,20 +35,27 @@ namespace {
 constexpr double kRoom = 1.04;          // half the picture's side over the globe's radius
 constexpr double kStep = 0.035;         // of the radius: longer edges are drawn as several lines
 constexpr double kGraticuleDeg = 15.0;  // between meridians and parallels
+constexpr double kCaptionLeft = 12.0;
 constexpr double kGraticulePx = 0.5, kOutlinePx = 1.4;
 const Color kGraticule = mix(kLand, kShore, 0.22);
 
-// The values that triangles' colours show, as shares of a ramp, and labels of its ends.
+// The values that triangles' colours show, as shares of a ramp.
 struct Shares {
   std::vector<double> of;  // per triangle; NaN: unknown
-  Color (*ramp)(double) = rampColor;
-  std::string low, high;
+  LegendRamp ramp{rampColor, {}, {}};
 };
 
 std::string formatted(const char* format, double value) {
   char text[60];
   std::snprintf(text, sizeof text, format, value);
   return text;
+}
+
+// Dots are not drawn on the globe.
+PlotLegend legendOf(const GlobeChart& chart, const std::vector<PlotLines>& lines, const PlotOptions& options) {
+  const Point corner = kRoom * chart.half();
+  const double width = PlotCanvas::widthOf(-1.0 * corner, corner, static_cast<double>(options.size_px));
+  return {width, kCaptionLeft + textWidth(chart.caption(), kTextPx), legendItems(lines, false), hasRamp(options.color)};
 }
 
 class GlobePlot {
@@ -58,7 +66,10 @@ class GlobePlot {
         options_(options),
         places_(places),
         chart_(chart),
-        canvas_(path, (-kRoom) * chart.half(), kRoom * chart.half(), static_cast<double>(options.size_px), kStripPx),
+        lines_(colouredLines(grid)),
+        legend_(legendOf(chart, lines_, options)),
+        canvas_(path, (-kRoom) * chart.half(), kRoom * chart.half(), static_cast<double>(options.size_px),
+                legend_.height()),
         quads_(quadAnglesOf(grid)) {
     for (const SphereVector& place : places) seen_.push_back(chart.see(place));
     mesh_ = linkGrid(grid).mesh;
@@ -66,7 +77,7 @@ class GlobePlot {
 
   void draw() {
     findColors();
-    canvas_.fillRectangle({0.0, 0.0}, canvas_.width(), canvas_.mapHeight() + kStripPx, kPaper);
+    canvas_.fillRectangle({0.0, 0.0}, canvas_.width(), canvas_.mapHeight() + legend_.height(), kPaper);
     std::vector<Point> outline = chart_.outline();
     for (Point& p : outline) p = canvas_.toPixel(p);
     canvas_.fillLoops({outline}, kLand);
@@ -128,12 +139,12 @@ class GlobePlot {
     const std::size_t count = grid_.triangles.size();
     switch (options_.color) {
       case PlotColor::Angle:
-        shares_.low = "0\u00b0";
-        shares_.high = "60\u00b0 smallest angle";
+        shares_.ramp.low = "0\u00b0";
+        shares_.ramp.high = "60\u00b0 smallest angle";
         return takeShares([this](TriId t) { return smallestAngle(t); }, 0.0, 60.0);
       case PlotColor::Quality:
-        shares_.low = formatted("%g", kLeastQuality);
-        shares_.high = "1 quality";
+        shares_.ramp.low = formatted("%g", kLeastQuality);
+        shares_.ramp.high = "1 quality";
         return takeShares(
             [this](TriId t) {
               if (quads_.has(t)) return quads_.quality(t);
@@ -142,13 +153,11 @@ class GlobePlot {
             },
             kLeastQuality, 1.0);
       case PlotColor::Size: {
-        // The edge of an equilateral triangle of that area, in kilometres.
-        const auto edge = [this](TriId t) {
-          return std::log(std::sqrt(2.309 * areaOf(t)) * grid_.crs.semi_major_m / 1000.0);
-        };
+        // The edge of an equilateral triangle of that area, in metres.
+        const auto edge = [this](TriId t) { return std::log(std::sqrt(2.309 * areaOf(t)) * grid_.crs.semi_major_m); };
         const auto [low, high] = rangeOf(edge, count, "the mesh has no triangle with an area");
-        shares_.low = formatted("%.3g km", std::exp(low));
-        shares_.high = formatted("%.3g km edge", std::exp(high));
+        shares_.ramp.low = roundedLengthText(std::exp(low), false);
+        shares_.ramp.high = roundedLengthText(std::exp(high), false) + " edge";
         return takeShares(edge, low, high);
       }
       case PlotColor::Depth: {
@@ -159,9 +168,9 @@ class GlobePlot {
           return sum / 3.0;
         };
         const auto [low, high] = rangeOf(height, count, "the mesh has no depth to colour it by");
-        shares_.ramp = depthColor;
-        shares_.low = formatted("%.4g m", low);
-        shares_.high = formatted("%.4g m up", high);
+        shares_.ramp.color_at = depthColor;
+        shares_.ramp.low = formatted("%.4g m", low);
+        shares_.ramp.high = formatted("%.4g m up", high);
         return takeShares(height, low, high);
       }
       case PlotColor::TimeStep: {
@@ -169,8 +178,8 @@ class GlobePlot {
         const auto step = [&steps](TriId t) { return std::log(steps[t]); };
         const auto [low, high] =
             rangeOf(step, steps.size(), "the mesh has no depth below water, so no time step to colour it by");
-        shares_.low = formatted("%.3g s", std::exp(low));
-        shares_.high = formatted("%.3g s by CFL", std::exp(high));
+        shares_.ramp.low = formatted("%.3g s", std::exp(low));
+        shares_.ramp.high = formatted("%.3g s by CFL", std::exp(high));
         return takeShares(step, low, high);
       }
       case PlotColor::Region:
@@ -185,7 +194,7 @@ class GlobePlot {
 
   Color colorOf(TriId t) const {
     if (smallestAngle(t) < options_.min_angle_deg - kAngleSlackDeg) return kBad;
-    if (!shares_.of.empty()) return std::isfinite(shares_.of[t]) ? shares_.ramp(shares_.of[t]) : kUnknown;
+    if (!shares_.of.empty()) return std::isfinite(shares_.of[t]) ? shares_.ramp.color_at(shares_.of[t]) : kUnknown;
     const std::uint32_t feature = grid_.feature_of.empty() ? 0 : grid_.feature_of[t];
     if (options_.color == PlotColor::Feature) return featureColor(feature);
     if (options_.color == PlotColor::Piece) return featureColor(grid_.piece_of[t]);
@@ -297,7 +306,7 @@ class GlobePlot {
       if (line.kind == LineKind::RegionBorder)
         for (const auto& [a, b] : edgesOf(line)) addEdge(a, b, borders);
     canvas_.strokeLines(borders, kShorePx, kShore);
-    for (const PlotLines& kind : colouredLines(grid_)) {
+    for (const PlotLines& kind : lines_) {
       if (kind.kind == PlotLineKind::Island) continue;  // on the globe they are shores
       Lines lines;
       for (const auto& [a, b] : kind.edges) addEdge(a, b, lines);
@@ -306,14 +315,17 @@ class GlobePlot {
   }
 
   void drawLegend() {
-    canvas_.text({12.0, canvas_.mapHeight() + 24.0}, chart_.caption(), 13.0, kInk);
-    if (!shares_.of.empty()) drawRamp(canvas_, shares_.ramp, shares_.low, shares_.high);
+    canvas_.text({kCaptionLeft, canvas_.mapHeight() + 24.0}, chart_.caption(), kTextPx, kInk);
+    legend_.drawItems(canvas_);
+    if (!shares_.of.empty()) legend_.drawRamp(canvas_, shares_.ramp);
   }
 
   const Grid& grid_;
   const PlotOptions& options_;
   const std::vector<SphereVector>& places_;  // per node
   const GlobeChart& chart_;
+  const std::vector<PlotLines> lines_;
+  const PlotLegend legend_;
   PlotCanvas canvas_;
   std::vector<SphereVector> seen_;  // per node
   TriMesh mesh_;

@@ -1,6 +1,7 @@
 #include "apps/plot/plot_mesh.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -14,6 +15,7 @@
 #include "apps/plot/mesh_shape.hpp"
 #include "apps/plot/plot_box.hpp"
 #include "apps/plot/plot_canvas.hpp"
+#include "apps/plot/plot_legend.hpp"
 #include "apps/plot/plot_lines.hpp"
 #include "apps/plot/plot_style.hpp"
 #include "core/quality.hpp"
@@ -27,10 +29,7 @@ namespace coastmesh {
 
 namespace {
 
-// Dots on nodes by their number of neighbours: five, seven, others.
-constexpr Color kFive{0.05, 0.60, 0.20};
-constexpr Color kSeven{0.93, 0.45, 0.05};
-constexpr Color kOtherDegree{0.55, 0.05, 0.55};
+// Dots on nodes.
 constexpr double kWidestDotPx = 3.5, kDotShare = 0.18;  // a dot's radius, over the length of the edges
 constexpr double kLeastDotPx = 0.8;
 
@@ -86,17 +85,14 @@ bool isTooLargeForAPlane(const GridPiece& piece) {
   return greatest > kMostScales * least;
 }
 
-// "12.5 km" of a length in metres; bare numbers in a plane without a place on Earth.
-std::string lengthText(double length, bool plane) {
-  char text[40];
-  if (plane) {
-    std::snprintf(text, sizeof text, "%g", length);
-  } else if (length >= 1000.0) {
-    std::snprintf(text, sizeof text, "%g km", length / 1000.0);
-  } else {
-    std::snprintf(text, sizeof text, "%g m", length);
-  }
-  return text;
+constexpr double kBarLeft = 12.0;  // of the scale bar
+constexpr double kBarShare = 0.2;  // of the map's width, at most
+constexpr double kBarText = 60.0;
+
+PlotLegend legendOf(const Window& window, const std::vector<PlotLines>& lines, const PlotOptions& options) {
+  const double width = PlotCanvas::widthOf(window.low, window.high, static_cast<double>(options.size_px));
+  return {width, kBarLeft + std::max(kBarShare * width, kBarText), legendItems(lines, options.degrees),
+          hasRamp(options.color)};
 }
 
 class MeshPlot {
@@ -107,8 +103,9 @@ class MeshPlot {
         piece_(piece),
         mesh_(piece.mesh),
         options_(options),
-        canvas_(path, window.low, window.high, static_cast<double>(options.size_px), kStripPx),
         lines_(colouredLines(grid)),
+        legend_(legendOf(window, lines_, options)),
+        canvas_(path, window.low, window.high, static_cast<double>(options.size_px), legend_.height()),
         diagonals_(diagonalsOf(grid)),
         quads_(quadAnglesOf(grid)) {
     pixels_.reserve(mesh_.points.size());
@@ -117,7 +114,7 @@ class MeshPlot {
   }
 
   void draw() {
-    canvas_.fillRectangle({0.0, 0.0}, canvas_.width(), canvas_.mapHeight() + kStripPx, kPaper);
+    canvas_.fillRectangle({0.0, 0.0}, canvas_.width(), canvas_.mapHeight() + legend_.height(), kPaper);
     canvas_.fillRectangle({0.0, 0.0}, canvas_.width(), canvas_.mapHeight(), kLand);
     canvas_.clipToMap();
     drawWater();
@@ -132,7 +129,8 @@ class MeshPlot {
     markBad();
     canvas_.unclip();
     drawScaleBar();
-    drawLegend();
+    legend_.drawItems(canvas_);
+    if (hasRamp(options_.color)) legend_.drawRamp(canvas_, ramp());
     canvas_.finish();
   }
 
@@ -307,8 +305,6 @@ class MeshPlot {
     }
   }
 
-  static Color degreeColor(std::uint32_t degree) { return degree == 5 ? kFive : degree == 7 ? kSeven : kOtherDegree; }
-
   void drawDegrees() {
     const std::vector<std::uint32_t> degrees = degreesInside(mesh_);
     std::vector<double> longest(degrees.size(), 0.0);
@@ -375,102 +371,50 @@ class MeshPlot {
   void drawScaleBar() {
     const double units_per_metre = piece_.projection.scaleAt(centre_);
     const double pixels_per_metre = canvas_.pixelsPerUnit() * units_per_metre;
-    const double wanted = 0.2 * canvas_.width() / pixels_per_metre;
+    const double wanted = kBarShare * canvas_.width() / pixels_per_metre;
     const double power = std::pow(10.0, std::floor(std::log10(wanted)));
     double length = power;
     for (double digit : {2.0, 5.0}) {
       if (digit * power <= wanted) length = digit * power;
     }
     const double y = canvas_.mapHeight() + 20.0;
-    const double end = 12.0 + length * pixels_per_metre;
-    canvas_.strokeLine({12.0, y}, {end, y}, 1.5, kInk);
-    canvas_.strokeLine({12.0, y - 4.0}, {12.0, y + 4.0}, 1.5, kInk);
+    const double end = kBarLeft + length * pixels_per_metre;
+    canvas_.strokeLine({kBarLeft, y}, {end, y}, 1.5, kInk);
+    canvas_.strokeLine({kBarLeft, y - 4.0}, {kBarLeft, y + 4.0}, 1.5, kInk);
     canvas_.strokeLine({end, y - 4.0}, {end, y + 4.0}, 1.5, kInk);
-    canvas_.text({12.0, y + 18.0}, lengthText(length, grid_.crs.isPlane()), 13.0, kInk);
+    canvas_.text({kBarLeft, y + 18.0}, lengthText(length, grid_.crs.isPlane()), kTextPx, kInk);
   }
 
-  // Land is listed, beside islands, only if there is an open boundary.
-  void drawLineLegend() {
-    std::vector<std::pair<std::string, Color>> entries;
-    for (const PlotLines& kind : lines_) {
-      if (kind.kind == PlotLineKind::Island) continue;
-      entries.emplace_back(kind.name, kind.color);
-      if (kind.kind == PlotLineKind::Open) entries.insert(entries.end(), {{"island", kIsland}, {"land", kShore}});
-    }
-    constexpr double kEntryPx = 75.0, kRowPx = 16.0;
-    const double left = 0.32 * canvas_.width(), right = canvas_.width() - (showsRamp() ? kRampPx : 0.0);
-    double x = left, y = canvas_.mapHeight() + 20.0;
-    bool may_wrap = !options_.degrees;  // the legend of degrees takes the second row
-    for (const auto& [name, color] : entries) {
-      if (x > left && x + kEntryPx > right) {
-        if (!std::exchange(may_wrap, false)) break;  // no room for it
-        x = left;
-        y += kRowPx;
+  LegendRamp ramp() const {
+    const auto formatted = [](const char* format, double value) {
+      char text[40];
+      std::snprintf(text, sizeof text, format, value);
+      return std::string(text);
+    };
+    switch (options_.color) {
+      case PlotColor::Quality:
+        return {rampColor, formatted("%g", kLeastQuality), "1 quality"};
+      case PlotColor::Size: {
+        const auto sideOf = [this](double log_area) {
+          return roundedLengthText(std::sqrt(std::exp(log_area) * 2.309), grid_.crs.isPlane());
+        };
+        return {rampColor, sideOf(least_log_area_), sideOf(most_log_area_) + " edge"};
       }
-      canvas_.strokeLine({x, y}, {x + 18.0, y}, kRolePx, color);
-      canvas_.text({x + 22.0, y + 4.0}, name, 13.0, kInk);
-      x += kEntryPx;
+      case PlotColor::Depth:
+        return {depthColor, formatted("%.4g m", lowest_z_), formatted("%.4g m up", highest_z_)};
+      case PlotColor::TimeStep:
+        return {rampColor, formatted("%.3g s", least_step_s_), formatted("%.3g s by CFL", most_step_s_)};
+      default:
+        return {rampColor, "0\u00b0", "60\u00b0 smallest angle"};
     }
-  }
-
-  bool showsRamp() const {
-    constexpr std::array kWithScale{PlotColor::Angle, PlotColor::Size, PlotColor::Depth, PlotColor::TimeStep,
-                                    PlotColor::Quality};
-    return std::ranges::count(kWithScale, options_.color) > 0;
-  }
-
-  void drawDegreeLegend() {
-    double x = 0.32 * canvas_.width();
-    const double y = canvas_.mapHeight() + 36.0;
-    for (const auto& [name, degree] : {std::pair{"5", 5u}, std::pair{"7", 7u}, std::pair{"other neighbours", 8u}}) {
-      canvas_.fillCircle({x + 9.0, y - 4.0}, kWidestDotPx, degreeColor(degree));
-      canvas_.text({x + 22.0, y}, name, 13.0, kInk);
-      x += 75.0;
-    }
-  }
-
-  void drawLegend() {
-    drawLineLegend();
-    if (options_.degrees) drawDegreeLegend();
-    if (!showsRamp()) return;
-    std::string low = "0\u00b0";
-    std::string high = "60\u00b0 smallest angle";
-    if (options_.color == PlotColor::Quality) {
-      char text[40];
-      std::snprintf(text, sizeof text, "%g", kLeastQuality);
-      low = text;
-      high = "1 quality";
-    }
-    if (options_.color == PlotColor::Size) {
-      const auto sideOf = [](double log_area) { return std::sqrt(std::exp(log_area) * 2.309); };
-      const auto rounded = [](double value) {
-        const double power = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
-        return std::round(value / power) * power;
-      };
-      low = lengthText(rounded(sideOf(least_log_area_)), grid_.crs.isPlane());
-      high = lengthText(rounded(sideOf(most_log_area_)), grid_.crs.isPlane()) + " edge";
-    }
-    if (options_.color == PlotColor::Depth) {
-      char text[40];
-      std::snprintf(text, sizeof text, "%.4g m", lowest_z_);
-      low = text;
-      std::snprintf(text, sizeof text, "%.4g m up", highest_z_);
-      high = text;
-    }
-    if (options_.color == PlotColor::TimeStep) {
-      char text[40];
-      std::snprintf(text, sizeof text, "%.3g s", least_step_s_);
-      low = text;
-      std::snprintf(text, sizeof text, "%.3g s by CFL", most_step_s_);
-      high = text;
-    }
-    drawRamp(canvas_, options_.color == PlotColor::Depth ? depthColor : rampColor, low, high);
   }
 
   const Grid& grid_;
   const GridPiece& piece_;
   const TriMesh& mesh_;
   const PlotOptions& options_;
+  const std::vector<PlotLines> lines_;
+  const PlotLegend legend_;
   PlotCanvas canvas_;
   std::vector<Point> pixels_;              // per point of the mesh
   std::vector<std::vector<Point>> loops_;  // the boundary
@@ -484,7 +428,6 @@ class MeshPlot {
   double least_step_s_ = 0.0;  // of the triangles shown
   double most_step_s_ = 0.0;
   std::vector<std::uint32_t> parts_;  // per triangle, if parts are shown
-  std::vector<PlotLines> lines_;
   const std::vector<std::uint8_t> diagonals_;
   const QuadAngles quads_;
 };
@@ -501,6 +444,12 @@ PlotColor plotColorNamed(const std::string& name) {
   const auto at = std::ranges::find(plotColorNames(), name);
   if (at == plotColorNames().end()) throw OptionError("there is no colouring '" + name + "'");
   return static_cast<PlotColor>(at - plotColorNames().begin());
+}
+
+bool hasRamp(PlotColor color) {
+  constexpr std::array kWithScale{PlotColor::Angle, PlotColor::Size, PlotColor::Depth, PlotColor::TimeStep,
+                                  PlotColor::Quality};
+  return std::ranges::count(kWithScale, color) > 0;
 }
 
 void requireColors(const Grid& grid, const PlotOptions& options) {

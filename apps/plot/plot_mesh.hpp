@@ -18,6 +18,9 @@ enum class PlotColor { None, Angle, Feature, Region, Size, Depth, Piece, TimeSte
 const std::vector<std::string>& plotColorNames();
 PlotColor plotColorNamed(const std::string& name);
 
+// True if the colours are those of a scale.
+bool hasRamp(PlotColor color);
+
 struct PlotOptions {
   static constexpr std::uint64_t kLeastSize = 16, kMostSize = 20000;
 

@@ -15,6 +15,10 @@ Color between(const std::array<Color, 4>& stops, double share) {
   return mix(stops[stop], stops[stop + 1], at - static_cast<double>(stop));
 }
 
+constexpr Color kFive{0.05, 0.60, 0.20};
+constexpr Color kSeven{0.93, 0.45, 0.05};
+constexpr Color kOtherDegree{0.55, 0.05, 0.55};
+
 }  // namespace
 
 Color rampColor(double share) {
@@ -31,15 +35,6 @@ Color featureColor(std::size_t feature) {
   return {channel(0.0), channel(1.0 / 3.0), channel(2.0 / 3.0)};
 }
 
-void drawRamp(PlotCanvas& canvas, Color (*color_at)(double), const std::string& low, const std::string& high) {
-  constexpr int kSteps = 60;
-  constexpr double kStep = (kRampPx - 12.0) / kSteps;
-  const double left = canvas.width() - kRampPx, top = canvas.mapHeight() + 12.0;
-  if (left < canvas.width() / 2) return;  // no room beside the other entries
-  for (int i = 0; i < kSteps; ++i)
-    canvas.fillRectangle({left + i * kStep, top}, kStep + 0.5, 10.0, color_at((i + 0.5) / kSteps));
-  canvas.text({left, top + 26.0}, low, 13.0, kInk);
-  canvas.textEndingAt({left + kSteps * kStep, top + 26.0}, high, 13.0, kInk);
-}
+Color degreeColor(std::uint32_t degree) { return degree == 5 ? kFive : degree == 7 ? kSeven : kOtherDegree; }
 
 }  // namespace coastmesh

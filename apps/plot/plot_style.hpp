@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
+#include <cstdint>
 
 #include "apps/plot/plot_canvas.hpp"
 
@@ -24,8 +24,9 @@ inline constexpr Color kWeir{0.75, 0.27, 0.08};
 inline constexpr Color kLine{0.43, 0.20, 0.59};
 inline constexpr Color kUnknown{0.80, 0.80, 0.80};
 
-inline constexpr double kStripPx = 44.0;     // below the map: scale bar and legend
-inline constexpr double kRampPx = 192.0;     // of a scale of colours, to the right edge
+inline constexpr double kStripPx = 44.0;  // below the map: scale bar and legend, at least
+inline constexpr double kRampPx = 180.0;  // of a scale of colours, at most
+inline constexpr double kTextPx = 13.0;
 inline constexpr double kRolePx = 2.2;       // of open boundaries, rivers and weirs
 inline constexpr double kEdgeShare = 0.075;  // an edge's width over its length, up to the widest
 inline constexpr double kWidestEdgePx = 0.8;
@@ -43,9 +44,7 @@ Color rampColor(double share);
 Color depthColor(double share);
 // Colours that differ much between consecutive numbers: hues turned by the golden section.
 Color featureColor(std::size_t feature);
-
-// Draws a scale of colours with labels at its ends, on the right of the strip below the map; nothing if there is no
-// room.
-void drawRamp(PlotCanvas& canvas, Color (*color_at)(double), const std::string& low, const std::string& high);
+// Of nodes with a number of neighbours other than six.
+Color degreeColor(std::uint32_t degree);
 
 }  // namespace coastmesh

@@ -51,6 +51,8 @@ std::optional<std::vector<double>> numbersOf(const py::object& value) {
   return numbers;
 }
 
+bool isCrs(const OptionTable::Entry& entry) { return entry.kind == OptionKind::Text && entry.shown_unit == "CRS"; }
+
 // The value as one of the option's kind; nullopt if it is of another kind.
 std::optional<OptionValue> valueFor(const OptionTable::Entry& entry, const py::object& value) {
   if (entry.kind == OptionKind::Flag) {
@@ -58,6 +60,9 @@ std::optional<OptionValue> valueFor(const OptionTable::Entry& entry, const py::o
     return std::nullopt;
   }
   if (isText(value)) return valueOf(encoded(value), entry.kind);
+  // Integers are EPSG's codes, as for pyproj and geopandas.
+  if (isCrs(entry) && py::isinstance<py::int_>(value) && !py::isinstance<py::bool_>(value))
+    return OptionValue("EPSG:" + shown(value));
   if (entry.kind == OptionKind::Numbers) return numbersOf(value);
   const std::optional<double> number = numberOf(value);
   if (!number) return std::nullopt;
@@ -70,8 +75,9 @@ std::optional<OptionValue> valueFor(const OptionTable::Entry& entry, const py::o
   return OptionValue(shown(value));
 }
 
-const char* wantedOf(OptionKind kind) {
-  switch (kind) {
+const char* wantedOf(const OptionTable::Entry& entry) {
+  if (isCrs(entry)) return "is neither a text nor a code of EPSG";
+  switch (entry.kind) {
     case OptionKind::Flag:
       return "is neither True nor False";
     case OptionKind::Number:
@@ -93,7 +99,7 @@ void setOne(OptionTable& table, const OptionTable::Entry& entry, const std::stri
   const py::object value = plain(given);
   try {
     const std::optional<OptionValue> typed = valueFor(entry, value);
-    if (!typed) throw OptionError(shown(given) + " " + wantedOf(entry.kind));
+    if (!typed) throw OptionError(shown(given) + " " + wantedOf(entry));
     table.set(entry.name, *typed, shown(value));
   } catch (const OptionError& error) {
     throw OptionError(keyword + ": " + error.what());

@@ -16,6 +16,7 @@
 #include "core/bulk_list.hpp"
 #include "gis/elements/quads.hpp"
 #include "gis/error.hpp"
+#include "gis/fields/node_fields.hpp"
 #include "gis/file/staged_files.hpp"
 #include "gis/format/grid_io.hpp"
 #include "gis/format/grid_losses.hpp"
@@ -151,11 +152,11 @@ PYBIND11_MODULE(_coastmesh, m) {
     try {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const OptionError& error) {
-      PyErr_SetObject(usage_error, textOf(error.what()).ptr());
+      PyErr_SetObject(usage_error, textOf(oneLine(error.what())).ptr());
     } catch (const InputError& error) {
-      PyErr_SetObject(input_error, textOf(error.what()).ptr());
+      PyErr_SetObject(input_error, textOf(oneLine(error.what())).ptr());
     } catch (const OutputError& error) {
-      PyErr_SetObject(output_error, textOf(error.what()).ptr());
+      PyErr_SetObject(output_error, textOf(oneLine(error.what())).ptr());
     }
   });
 
@@ -165,6 +166,13 @@ PYBIND11_MODULE(_coastmesh, m) {
                              [](const py::object& o) { return rowsOf<std::uint32_t>(gridOf(o).triangles, 3, o); })
       .def_property_readonly("quadrilaterals", [](const py::object& o) { return quadsAsArray(gridOf(o)); })
       .def_property_readonly("z", [](const py::object& o) { return columnOf(gridOf(o).z, o); })
+      .def_property_readonly("attributes",
+                             [](const py::object& o) {
+                               py::dict attributes;
+                               for (const NodeField& field : gridOf(o).node_fields)
+                                 attributes[py::str(titleOf(field))] = columnOf(field.values, o);
+                               return attributes;
+                             })
       .def_property_readonly("min_angle", [](const py::object& o) { return columnOf(gridOf(o).min_angle_deg, o); })
       .def_property_readonly("area", [](const py::object& o) { return columnOf(gridOf(o).area_m2, o); })
       .def_property_readonly("feature", [](const py::object& o) { return columnOf(gridOf(o).feature_of, o); })

@@ -10,6 +10,7 @@
 #include "core/sphere/close_sphere.hpp"
 #include "gis/crs/geodesy.hpp"
 #include "gis/elements/quads.hpp"
+#include "gis/fields/node_fields.hpp"
 
 namespace coastmesh {
 
@@ -113,6 +114,10 @@ MeshInfo describeMesh(const Grid& grid, SurfaceKind surface) {
     info.lowest_z = info.has_z ? std::min(info.lowest_z, z) : z;
     info.highest_z = info.has_z ? std::max(info.highest_z, z) : z;
     info.has_z = true;
+  }
+  for (const NodeField& field : grid.node_fields) {
+    const FieldRange range = rangeOf(field);
+    info.fields.push_back({titleOf(field), range.least, range.greatest, range.unknown});
   }
   for (const GridPiece& piece : splitGrid(grid, surface)) {
     ++info.pieces;

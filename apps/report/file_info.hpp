@@ -26,6 +26,14 @@ struct QuadFigures {
   std::uint64_t reflex = 0;  // with an angle of 180 degrees or more
 };
 
+// Of a nodal attribute.
+struct FieldInfo {
+  std::string name;
+  double least = 0.0;
+  double greatest = 0.0;
+  std::uint64_t unknown = 0;  // nodes without a value
+};
+
 struct MeshInfo {
   std::string crs;
   std::uint64_t nodes = 0;
@@ -39,6 +47,7 @@ struct MeshInfo {
   double lowest_z = 0.0;  // metres
   double highest_z = 0.0;
   std::uint64_t nodes_without_z = 0;  // NaN, if the file has z
+  std::vector<FieldInfo> fields;
   double area_m2 = 0.0;
   MeshQuality quality;     // of triangles: lengths and areas on the surface
   std::string surface;     // on which angles are measured; "mixed" if pieces differ

@@ -81,6 +81,9 @@ std::string toJson(const MeshInfo& info) {
     json["z"] = {info.lowest_z, info.highest_z};
     json["nodes_without_z"] = info.nodes_without_z;
   }
+  for (const FieldInfo& field : info.fields)
+    json["attributes"].push_back(
+        {{"name", field.name}, {"least", field.least}, {"greatest", field.greatest}, {"unknown", field.unknown}});
   return dump(json);
 }
 
@@ -130,6 +133,11 @@ std::string toText(const MeshInfo& info) {
             big(info.nodes_without_z), forCount(info.nodes_without_z, "node", "nodes"));
   } else if (info.has_z) {
     addLine(text, "z               %.10g to %.10g m", info.lowest_z, info.highest_z);
+  }
+  for (const FieldInfo& field : info.fields) {
+    text += "attribute       " + field.name;
+    addLine(text, " %.6g to %.6g%s", field.least, field.greatest,
+            field.unknown > 0 ? (", unknown at " + std::to_string(field.unknown)).c_str() : "");
   }
   addLine(text, "area            %.10g m2", info.area_m2);
   addLine(text, "edges           %.6g to %.6g m", info.step.shortest_edge_m, info.longest_edge_m);

@@ -234,6 +234,7 @@ std::string meshReport(const MeshJob& job, const MeshJobResult& result, int thre
                     {"refine", refineSection(job, result)},
                     {"mesh", meshSection(result)},
                     {"depth", Json::parse(depthSection(job.finish, result.finish))},
+                    {"attributes", Json::parse(fieldSection(result.finish))},
                     {"boundaries", Json::parse(boundarySection(job.finish, result.finish, result.grid))},
                     {"step", outcomeSection(result.step, result.sizes)},
                     {"lines", lineSection(result.grid)},

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "gis/for_count.hpp"
+#include "gis/secrets.hpp"
 
 namespace coastmesh {
 
@@ -20,6 +21,15 @@ std::string keyOf(std::string_view words) {
     if (c == ' ' || c == '-') c = '_';
   }
   return key;
+}
+
+// In names of sources, whatever section they are in.
+void hideSecrets(Json& json) {
+  if (json.is_string()) {
+    json = withoutSecrets(json.get_ref<const std::string&>());
+  } else if (json.is_structured()) {
+    for (Json& member : json) hideSecrets(member);
+  }
 }
 
 }  // namespace
@@ -61,7 +71,11 @@ std::string boundText(const BoundCounts& bounds) {
          grouped(bounds.near) + " near to such an angle, " + grouped(bounds.unresolved()) + " unresolved";
 }
 
-std::string textOf(const Json& report) { return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+std::string textOf(const Json& report) {
+  Json shown = report;
+  hideSecrets(shown);
+  return shown.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
 
 double peakMemoryMib() {
   // VmHWM is this program's own; the value of getrusage starts with that of the process that started it.

@@ -26,7 +26,7 @@ std::string grouped(std::uint64_t number);
 // For users: how many triangles break the bounds, by what excuses them.
 std::string boundText(const BoundCounts& bounds);
 
-// Indented. Bytes that are not UTF-8, which names in the input may have, are replaced.
+// Indented, without secrets. Bytes that are not UTF-8, which names in the input may have, are replaced.
 std::string textOf(const Json& report);
 
 // Peak memory of the process, MiB.

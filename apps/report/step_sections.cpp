@@ -41,7 +41,9 @@ Json outcomeSection(const StepOutcome& outcome, const SizeOptions& sizes) {
   if (sizes.time_step_s > 0.0)
     section["asked"] = {{"time_step_s", sizes.time_step_s},
                         {"courant", sizes.courant},
+                        {"courant_min", sizes.least_courant},
                         {"missed", outcome.below_step.size()},
+                        {"missed_min", outcome.above_step.size()},
                         {"places", placesJson(outcome.below_step, "time_step_s", &ShortStep::step_s)}};
   if (sizes.least_m > 0.0 && sizes.any())
     section["size_min"] = {{"size_min_m", sizes.least_m},

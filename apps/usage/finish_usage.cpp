@@ -27,13 +27,16 @@ void declareEnum(OptionTable& table, const OptionNames& names, Enum& value, cons
 
 }  // namespace
 
-void declareDepths(OptionTable& table, DepthOptions& depth, const std::string& help) {
+void declareDepths(OptionTable& table, DepthOptions& depth, const std::string& help,
+                   const std::vector<std::string>& interpolated) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   table.section(Section::Depths);
   table.texts({"--bathymetry", "Depth rasters"}, depth.files, kRasterFile, false, help);
-  table.needing({"--bathymetry"}, [&] {
+  table.needing(interpolated, [&] {
     declareEnum(table, {"--depth-method", "Interpolation of depths"}, depth.method, kDepthMethodNames,
                 "between the four pixels around a node, or the average over the pixels in its triangles");
+  });
+  table.needing({"--bathymetry"}, [&] {
     table.choice(
         {"--depth-sign", "Sign of depths"}, "up", {"up", "down"},
         [&depth](const std::string& chosen) { depth.positive_down = chosen == "down"; },
@@ -45,16 +48,30 @@ void declareDepths(OptionTable& table, DepthOptions& depth, const std::string& h
   });
 }
 
+void declareFields(OptionTable& table, std::vector<FieldSource>& fields) {
+  table.section(Section::Depths);
+  table.textsWithFiles(
+      {"--attribute", "Nodal attributes"}, "NAME=SOURCE",
+      [&fields](const std::string& text) { return addFieldSource(text, fields); }, filesOfFieldSource,
+      "value of a model at nodes, such as manning: NAME=FILE, a raster, interpolated as depths are; "
+      "NAME=FILE,TABLE.csv, "
+      "a raster of classes and a table of class and value, averaged over the pixels in a node's triangles; "
+      "NAME=NUMBER, all nodes, or those for which no raster has a value; can be repeated, the first with a value at a "
+      "node is used");
+}
+
 void declareFinishOptions(OptionTable& table, FinishOptions& options) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   DepthOptions& depth = options.depth;
   declareDepths(table, depth,
-                "raster with the depths of the nodes; can be repeated, the first with a value at a node is used");
-  table.needing({"--bathymetry"}, [&] {
+                "raster with the depths of the nodes; can be repeated, the first with a value at a node is used",
+                {"--bathymetry", "--attribute"});
+  table.needing({"--bathymetry", "--attribute"}, [&] {
     declareEnum(table, {"--depth-fill", "Nodes without a depth"}, depth.fill, kDepthFillNames,
                 "value of nodes for which no raster has one: the mean of their neighbours, the value of the nearest "
                 "node, or none");
   });
+  declareFields(table, options.fields);
   BoundaryOptions& boundaries = options.boundaries;
   table.section(Section::Boundaries);
   table.texts({"--boundaries", "Boundary types"}, boundaries.files, kVectorFile, false,

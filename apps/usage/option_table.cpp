@@ -103,6 +103,7 @@ struct OptionTable::Impl {
     std::vector<OptionValue> given;
     std::function<bool()> spared;      // true if it need not be given although it is required; may be empty
     bool reads = false;                // names files to read
+    FilesIn files_in;                  // if it does so within a text; may be empty
     std::optional<OutputKind> writes;  // names files to write
   };
 
@@ -390,6 +391,19 @@ OptionTable::Option OptionTable::texts(const OptionNames& names, std::vector<std
   return {*this, added.entry.name};
 }
 
+OptionTable::Option OptionTable::textsWithFiles(const OptionNames& names, const std::string& unit,
+                                                const StoreText& store, const FilesIn& files, const std::string& help) {
+  Impl::Declared& added = impl_->add(names, OptionKind::Text, unit, help);
+  added.initial = std::string{};
+  added.store = [store](const OptionValue& given) { return store(std::get<std::string>(given)); };
+  added.reads = true;
+  added.files_in = files;
+  added.entry.multiple = true;
+  added.json["multiple"] = true;
+  added.json["required"] = false;
+  return {*this, added.entry.name};
+}
+
 OptionTable::Option OptionTable::choice(const OptionNames& names, std::string& value,
                                         const std::vector<std::string>& choices, const std::string& help) {
   return choice(
@@ -511,8 +525,9 @@ std::vector<OptionTable::NamedFile> OptionTable::inputs() const {
   for (const auto& option : impl_->all) {
     if (!option->reads) continue;
     for (const OptionValue& value : option->given) {
-      const std::string& path = std::get<std::string>(value);
-      if (!path.empty() && path != "-") named.push_back({option->entry.name, path});
+      const std::string& text = std::get<std::string>(value);
+      for (const std::string& path : option->files_in ? option->files_in(text) : std::vector{text})
+        if (!path.empty() && path != "-") named.push_back({option->entry.name, path});
     }
   }
   return named;

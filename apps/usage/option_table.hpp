@@ -103,6 +103,12 @@ class OptionTable {
   // `values` is empty when declared.
   Option texts(const OptionNames& names, std::vector<std::string>& values, const std::string& unit, bool required,
                const std::string& help);
+  // Texts that name files to read among other things: `files` returns these. `store` returns what is wrong with a text
+  // as the end of a sentence about it ("is not ..."), empty if nothing.
+  using StoreText = std::function<std::string(const std::string&)>;
+  using FilesIn = std::function<std::vector<std::string>(const std::string&)>;
+  Option textsWithFiles(const OptionNames& names, const std::string& unit, const StoreText& store, const FilesIn& files,
+                        const std::string& help);
   Option requiredText(const OptionNames& names, std::string& value, const std::string& unit, const std::string& help);
   Option choice(const OptionNames& names, std::string& value, const std::vector<std::string>& choices,
                 const std::string& help);

@@ -24,10 +24,16 @@ std::string storeBand(const std::vector<double>& numbers, std::vector<DepthBand>
   return {};
 }
 
+std::string textOf(double number) {
+  std::ostringstream out;
+  out << std::setprecision(10) << number;
+  return out.str();
+}
+
 // Options that request sizes.
 const std::vector<std::string> kSizes = {"--size",           "--size-shore",       "--size-features",
                                          "--size-raster",    "--channel-elements", "--wave-elements",
-                                         "--slope-elements", "--depth-band"};
+                                         "--slope-elements", "--depth-band",       "--courant-min"};
 
 }  // namespace
 
@@ -81,6 +87,13 @@ void declareSizes(OptionTable& table, SizeOptions& sizes, SizingUsage& usage, co
               "sqrt(9.81 depth) times the time step over the shortest edge of a triangle, with the depth of its "
               "deepest corner")
       .needs({"--time-step"}, [&usage, choosesByDepth] { return !usage.time_step_given && choosesByDepth(); });
+  table
+      .number(
+          {"--courant-min", "Minimum Courant number"}, sizes.least_courant, "C", {0.0, 1e3},
+          "elements are so small that this Courant number is reached with the time step, where --size-min allows "
+          "that; SCHISM wants 0.4. At most a third of --courant; triangles that miss it are reported, with exit code "
+          "1; 0: not used")
+      .needs({"--time-step"});
 }
 
 void declareSizing(OptionTable& table, SizeOptions& sizes, SizingUsage& usage,
@@ -165,6 +178,15 @@ void settleSizing(const SizingUsage& usage, const DepthOptions& depths, SizeChoi
     if (!usage.coast_given) sizes.coast = CoastDetail::Follow;
     sizes.given = {usage.shore_rate_given, usage.grade_given, usage.time_step_given, usage.coast_given};
   }
+  if (sizes.least_courant > 0.0 && sizes.time_step_s > 0.0) {
+    // Few triangles have a shortest edge that is longer than the size by more than this leaves.
+    constexpr double kLongestOfSize = 1.15, kMost = 1.0 / 3.0;
+    if (sizes.least_courant > kMost * sizes.courant)
+      throw OptionError("--courant-min " + textOf(sizes.least_courant) + " needs a --courant of at least " +
+                        textOf(sizes.least_courant / kMost) +
+                        ", or no sizes are between them; implicit models such as SCHISM take 20");
+    sizes.depth.crossing_s = sizes.time_step_s / (kLongestOfSize * sizes.least_courant);
+  }
   if (!usage.filter_given) sizes.depth.slope_filter_m = sizes.least_m;
   if (sizes.least_m > sizes.most_m) throw OptionError("--size-min is more than --size-max");
   if ((sizes.depth.any() || sizes.time_step_s > 0.0) && sizes.bathymetry.empty()) {
@@ -182,13 +204,8 @@ void settleSizing(const SizingUsage& usage, const DepthOptions& depths, SizeChoi
 
 std::vector<std::string> notesOnOverriddenSizes(const SizingUsage& usage, const SizeOptions& sizes) {
   std::vector<std::string> notes;
-  const auto text = [](double number) {
-    std::ostringstream out;
-    out << std::setprecision(10) << number;
-    return out.str();
-  };
   const auto note = [&](const std::string& asked, bool is_more, const char* bound, double limit) {
-    notes.push_back(asked + " is " + (is_more ? "more" : "less") + " than " + bound + " " + text(limit) +
+    notes.push_back(asked + " is " + (is_more ? "more" : "less") + " than " + bound + " " + textOf(limit) +
                     ", which overrides it");
   };
   const auto compare = [&](const std::string& asked, double size_m) {
@@ -197,12 +214,12 @@ std::vector<std::string> notesOnOverriddenSizes(const SizingUsage& usage, const 
     if (size_m < sizes.least_m) note(asked, false, "--size-min", sizes.least_m);
     if (size_m > sizes.size_m) note(asked, true, "--size", sizes.size_m);
   };
-  compare("--size " + text(sizes.size_m), sizes.size_m);
-  compare("--size-shore " + text(sizes.shore_m), sizes.shore_m);
+  compare("--size " + textOf(sizes.size_m), sizes.size_m);
+  compare("--size-shore " + textOf(sizes.shore_m), sizes.shore_m);
   for (const DepthBand& band : sizes.depth.bands)
-    compare("--depth-band " + text(band.from_m) + "," + text(band.to_m) + "," + text(band.size_m), band.size_m);
+    compare("--depth-band " + textOf(band.from_m) + "," + textOf(band.to_m) + "," + textOf(band.size_m), band.size_m);
   if (usage.shore_rate_given && (sizes.choose || std::isfinite(sizes.shore_m)) && sizes.shore_rate > sizes.gradation)
-    note("--shore-rate " + text(sizes.shore_rate), true, "--grade", sizes.gradation);
+    note("--shore-rate " + textOf(sizes.shore_rate), true, "--grade", sizes.gradation);
   return notes;
 }
 

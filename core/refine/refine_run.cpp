@@ -147,9 +147,11 @@ bool removeFreeVertex(RefineRun& run, VertexId v) {
 
 void stripFreeVertices(RefineRun& run) {
   EditMesh& mesh = run.mesh;
-  for (VertexId v = mesh.inputVertices(); v < mesh.vertexSlots(); ++v)
-    if (mesh.isLiveVertex(v) && mesh.kind(v) == VertexKind::Free) removeFreeVertex(run, v);
-  run.touched.clear();
+  for (VertexId v = mesh.inputVertices(); v < mesh.vertexSlots(); ++v) {
+    if (!mesh.isLiveVertex(v) || mesh.kind(v) != VertexKind::Free) continue;
+    removeFreeVertex(run, v);
+    run.touched.clear();
+  }
 }
 
 TriMesh releaseMesh(RefineRun& run) {

@@ -73,6 +73,7 @@ struct FollowedWaters {
   NotedWaters cut_off, apart;   // disconnected: not kept, and kept beside the largest
   NotedWaters joined;           // by widened straits
   NotedWaters too_small;        // for an element: they stay as they are
+  NotedWaters islands;          // larger than some elements, that are gone
   NotedLengths straits, spits;  // closed, and land removed
   NotedLengths met;             // points and ends of lines that the shore was led through, by their distance from it
   std::size_t with_apart = 0;   // groups that keep parts beside the largest
@@ -87,6 +88,7 @@ struct FollowedWaters {
     apart.append(std::move(more.apart));
     joined.append(std::move(more.joined));
     too_small.append(std::move(more.too_small));
+    islands.append(std::move(more.islands));
     straits.append(std::move(more.straits));
     spits.append(std::move(more.spits));
     met.append(std::move(more.met));

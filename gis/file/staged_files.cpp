@@ -16,14 +16,14 @@
 #include <vector>
 
 #include "gis/error.hpp"
+#include "gis/file/leftovers.hpp"
 #include "gis/file/remove_folder.hpp"
+#include "gis/file/staging_names.hpp"
 
 namespace coastmesh {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* kBackupEnding = "~";  // of replaced files, in the staging folder
 
 fs::path folderOf(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
@@ -167,10 +167,7 @@ StagedFiles::StagedFiles(std::string path, OutputFiles files, bool overwrite)
   const fs::path folder = folderOf(target);
   if (!fs::is_directory(folder, error)) failToWrite(target, "there is no folder " + quoted(folder));
   requireFree();
-  fs::path pattern = folder / ".";
-  pattern += target.filename();
-  pattern += ".part-XXXXXX";
-  std::string name = pattern.string();
+  std::string name = stagingPattern(path_);
   keepSpareDescriptor();
   if (::mkdtemp(name.data()) == nullptr) failToWrite(target, std::strerror(errno));
   staging_folder_ = name;
@@ -235,7 +232,10 @@ void StagedFiles::move(Moves& moves) const {
   std::vector<fs::path> old(files_.targets.begin(), files_.targets.end());
   old.insert(old.end(), files_.stale.begin(), files_.stale.end());
   if (!files_.prj.empty() && !std::ranges::count(old, fs::path(files_.prj))) old.emplace_back(files_.prj);
-  const auto backupOf = [&](const fs::path& file) { return staging / (file.filename().string() + kBackupEnding); };
+  const auto backupOf = [&](const fs::path& file) {
+    std::string name = file.filename().string();
+    return staging / name.append(kBackupEnding);
+  };
   for (const fs::path& file : old) {
     const bool replaced = std::ranges::binary_search(staged, staging / file.filename());
     if (!replaced && !kept_.contains(file.string()) && !moves.placed(folder / file.filename()))

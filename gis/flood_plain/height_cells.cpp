@@ -15,8 +15,8 @@
 #include "gis/crs/geodesy.hpp"
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
-#include "gis/model/sample_raster.hpp"
 #include "gis/raster/raster_band.hpp"
+#include "gis/sample/sample_raster.hpp"
 
 namespace coastmesh {
 

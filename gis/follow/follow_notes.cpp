@@ -36,13 +36,14 @@ std::string wayText(const WaterWay& way, const Projection& projection) {
   return lengthText(way.width_m, projection) + " wide";
 }
 
-NotedWater notedOf(const DetachedWater& apart, const FollowOptions& options, const Projection& projection) {
+NotedWater notedOf(const DetachedWater& apart, const FollowOptions& options, bool has_barriers,
+                   const Projection& projection) {
   const auto& [water, way] = apart;
   std::string where = " at " + placeText(water.inside.front(), projection);
   if (water.at_open) where += ", which has an open boundary";
   where += way.exists ? (options.of_land ? ", behind land " : ", behind water ") + wayText(way, projection) + " at " +
                             placeText(way.place, projection)
-                      : ", without a connection in the data";
+                      : std::string(", without a connection in the data") + (has_barriers ? " or behind barriers" : "");
   return {water.area, areaInWords(water.area, projection.isIdentity()), where};
 }
 
@@ -54,17 +55,18 @@ NotedWater notedOf(const JoinedWater& joined, const Projection& projection) {
           ""};
 }
 
-FollowedWaters followedOf(const FollowNotes& notes, const FollowOptions& options, const Projection& projection) {
+FollowedWaters followedOf(const FollowNotes& notes, const FollowOptions& options, bool has_barriers,
+                          const Projection& projection) {
   FollowedWaters waters;
   waters.area_m2 = notes.area;
   waters.in_plane = projection.isIdentity();
   for (const DetachedWater& apart : notes.cut_off) {
-    waters.cut_off.add(notedOf(apart, options, projection));
+    waters.cut_off.add(notedOf(apart, options, has_barriers, projection));
     waters.cut_off_by_way |= apart.way.exists;
     waters.none_kept_open |= options.keep == KeepWater::Modelled && apart.water.at_open;
   }
   for (const DetachedWater& apart : notes.apart) {
-    waters.apart.add(notedOf(apart, options, projection));
+    waters.apart.add(notedOf(apart, options, has_barriers, projection));
     if (apart.way.exists) waters.closed_m2 += apart.water.area;
   }
   waters.with_apart = notes.apart.empty() ? 0 : 1;
@@ -120,6 +122,13 @@ std::string warningOf(const ShortSegments& segments, const Projection& projectio
          "; other sizes or another frame may avoid that";
 }
 
+void noteIslands(const std::vector<LostIsland>& lost, const Domain& domain, FollowedWaters& waters) {
+  for (const LostIsland& island : lost) {
+    waters.islands.add({island.area_m2, areaInWords(island.area_m2, domain.projection.isIdentity()),
+                        " at " + placeText(island.place, domain.projection)});
+  }
+}
+
 void noteLostLines(const LostLines& lost, const Domain& domain, CleanReport& report) {
   constexpr double kNoted = 0.5;  // elements; shorter losses are not reported
   for (const auto& [tag, part] : lost.lines) {
@@ -161,7 +170,7 @@ void noteFollowing(FollowNotes&& notes, const ShoreGuides& guides, const FollowO
       report.idle.push_back(name + kNoEffect);
     }
   }
-  report.waters.append(followedOf(notes, options, projection));
+  report.waters.append(followedOf(notes, options, !guides.barriers.empty(), projection));
 }
 
 }  // namespace coastmesh

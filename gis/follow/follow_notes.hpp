@@ -10,6 +10,7 @@
 #include "gis/follow/shore_joins.hpp"
 #include "gis/follow/water_lines.hpp"
 #include "gis/projection/projection.hpp"
+#include "gis/shore/lost_islands.hpp"
 
 namespace coastmesh {
 
@@ -51,6 +52,9 @@ struct ShortSegments {
 };
 
 std::string warningOf(const ShortSegments& segments, const Projection& projection);
+
+// Notes the islands that are gone, in the domain's plane, if that is of water.
+void noteIslands(const std::vector<LostIsland>& lost, const Domain& domain, FollowedWaters& waters);
 
 // Adds sentences on guides to the report, and the largest changes of the water, with their places in the input's CRS.
 // Sentences on these are left to `noteWaters`, as they are for all groups of features.

@@ -114,6 +114,15 @@ std::string noteOnTooSmall(const FollowedWaters& waters, const FollowOptions& op
          namesOf(small, false, waters);
 }
 
+std::string noteOnIslands(const FollowedWaters& waters) {
+  const NotedWaters& islands = waters.islands;
+  std::string note = "islands narrower than an element were removed, the largest of " + std::to_string(islands.count) +
+                     " that are larger than two: ";
+  for (std::size_t i = 0; i < std::min(kNamedSpits, islands.largest.size()); ++i)
+    note += (i == 0 ? "" : "; ") + islands.largest[i].before + islands.largest[i].after;
+  return note + "; --land-min 0 keeps them";
+}
+
 double leftOut(const FollowedWaters& waters, const FollowOptions& options) {
   return options.keep == KeepWater::All ? 0.0 : waters.cut_off.area_m2;
 }
@@ -138,6 +147,7 @@ NotesAndWarnings noteWaters(const FollowedWaters& waters, const FollowOptions& o
   if (waters.spits.count > 0)
     all.notes.push_back(noteOn("land narrower than an element that ended in water was removed, the longest of ",
                                waters.spits, kNamedSpits, "; --land-min 0 keeps such breakwaters and spits"));
+  if (waters.islands.count > 0) all.notes.push_back(noteOnIslands(waters));
   if (waters.too_small.count > 0) all.notes.push_back(noteOnTooSmall(waters, options));
   if (waters.joined.count > 0) all.notes.push_back(noteOnJoined(waters));
   if (waters.apart.count > 0) listFor(waters.closed_m2).push_back(noteOnApart(waters, options));

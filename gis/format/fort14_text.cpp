@@ -98,17 +98,16 @@ std::string oneLine(std::string title) {
   return first == std::string::npos ? std::string(kNoTitle) : title.substr(first, last - first + 1);
 }
 
-}  // namespace
-
-void writeFort14(TextWriter& file, const Grid& grid, std::span<const Point> places, Fort14Kind kind,
-                 const ItemLoop& loop) {
+// Title, nodes with `valueAt(i)`, and elements.
+template <typename ValueAt>
+void writeMesh(TextWriter& file, const Grid& grid, std::span<const Point> places, Fort14Kind kind, const ItemLoop& loop,
+               const ValueAt& valueAt) {
   // ADCIRC has triangles only.
   const std::optional<Elements> elements = kind == Fort14Kind::Schism ? std::optional<Elements>(grid) : std::nullopt;
   const std::size_t count = elements ? elements->size() : grid.triangles.size();
   file << oneLine(grid.title) << '\n' << count << ' ' << grid.nodes.size() << '\n';
   file.rows(loop, places.size(), [&](TextBlock& text, std::size_t i) {
-    const double depth = grid.z.empty() ? 0.0 : 0.0 - grid.z[i];  // never -0
-    text << i + 1 << ' ' << places[i].x << ' ' << places[i].y << ' ' << depth << '\n';
+    text << i + 1 << ' ' << places[i].x << ' ' << places[i].y << ' ' << valueAt(i) << '\n';
   });
   file.rows(loop, count, [&](TextBlock& text, std::size_t i) {
     if (elements && elements->isQuad(i)) {
@@ -119,8 +118,20 @@ void writeFort14(TextWriter& file, const Grid& grid, std::span<const Point> plac
     const auto& [a, b, c] = grid.triangles[elements ? elements->triangleOf(i) : i];
     text << i + 1 << " 3 " << a + 1 << ' ' << b + 1 << ' ' << c + 1 << '\n';
   });
+}
+
+}  // namespace
+
+void writeFort14(TextWriter& file, const Grid& grid, std::span<const Point> places, Fort14Kind kind,
+                 const ItemLoop& loop) {
+  writeMesh(file, grid, places, kind, loop,
+            [&](std::size_t i) { return grid.z.empty() ? 0.0 : 0.0 - grid.z[i]; });  // never -0
   writeSegments(file, grid, kind, true);
   writeSegments(file, grid, kind, false);
+}
+
+void writeGr3Values(TextWriter& file, const Grid& grid, std::span<const double> values, const ItemLoop& loop) {
+  writeMesh(file, grid, grid.nodes, Fort14Kind::Schism, loop, [&](std::size_t i) { return 0.0 + values[i]; });
 }
 
 namespace {
@@ -151,7 +162,7 @@ class NodeNumbers {
   IdMap index_;
 };
 
-NodeNumbers readNodes(ListReader& file, std::uint64_t count, Grid& grid) {
+NodeNumbers readNodes(ListReader& file, std::uint64_t count, Grid& grid, std::vector<std::int64_t>* given_ids) {
   std::vector<std::int64_t> ids;
   bool in_order = true;
   for (std::uint64_t i = 0; i < count; ++i) {
@@ -164,6 +175,7 @@ NodeNumbers readNodes(ListReader& file, std::uint64_t count, Grid& grid) {
   }
   if (!in_order) grid.notes.emplace_back("nodes are not numbered from 1 in their order");
   if (std::ranges::all_of(grid.z, [](double z) { return z == 0.0; })) grid.z.clear();
+  if (given_ids != nullptr) *given_ids = ids;
   return {std::move(ids), file};
 }
 
@@ -251,7 +263,7 @@ void readLandSegments(ListReader& file, std::uint64_t count, const NodeNumbers& 
 
 }  // namespace
 
-Grid readFort14(const std::string& path, Crs crs) {
+Grid readFort14(const std::string& path, Crs crs, std::vector<std::int64_t>* ids) {
   ListReader file(path);
   Grid grid;
   grid.crs = std::move(crs);
@@ -260,7 +272,7 @@ Grid readFort14(const std::string& path, Crs crs) {
   if (text.nextPhysicalLine() && text.hasWord() && text.line() != kNoTitle) grid.title = std::string(text.line());
   file.needStatement();
   const std::uint64_t elements = file.count(), nodes = file.count();
-  const NodeNumbers numbers = readNodes(file, nodes, grid);
+  const NodeNumbers numbers = readNodes(file, nodes, grid, ids);
   readElements(file, elements, numbers, grid);
   if (const auto open = countLine(file)) {
     readOpenSegments(file, *open, numbers, grid);

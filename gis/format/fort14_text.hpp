@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "gis/file/text_writer.hpp"
 #include "gis/grid/grid.hpp"
@@ -18,8 +20,13 @@ enum class Fort14Kind { Adcirc, Schism };
 void writeFort14(TextWriter& file, const Grid& grid, std::span<const Point> places, Fort14Kind kind,
                  const ItemLoop& loop);
 
+// A value at each node in the layout of hgrid.gr3, without boundaries, as SCHISM reads friction and the like. REQUIRES:
+// every value is known.
+void writeGr3Values(TextWriter& file, const Grid& grid, std::span<const double> values, const ItemLoop& loop);
+
 // Reads either, with coordinates in `crs`. Segments are not required to run along the boundary; `notes` report counts,
-// numbers and sums that are not as the programs require. Throws InputError.
-Grid readFort14(const std::string& path, Crs crs);
+// numbers and sums that are not as the programs require. `ids`, if not null, gets the numbers that nodes have in the
+// file. Throws InputError.
+Grid readFort14(const std::string& path, Crs crs, std::vector<std::int64_t>* ids = nullptr);
 
 }  // namespace coastmesh

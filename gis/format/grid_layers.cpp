@@ -8,6 +8,7 @@
 #include "gis/coast/feature_names.hpp"
 #include "gis/crs/geodesy.hpp"
 #include "gis/elements/quads.hpp"
+#include "gis/fields/node_fields.hpp"
 #include "gis/grid/grid_lines.hpp"
 
 namespace coastmesh {
@@ -77,6 +78,8 @@ GridLayer nodeLayer(const Grid& grid) {
   };
   if (!grid.z.empty()) layer.columns.push_back({"z", LayerColumn::Real(grid.z)});
   if (!grid.size_m.empty()) layer.columns.push_back({"size", LayerColumn::Real(grid.size_m)});
+  for (const NodeField& field : grid.node_fields)
+    layer.columns.push_back({wordOf(field), LayerColumn::Real(field.values)});
   return layer;
 }
 

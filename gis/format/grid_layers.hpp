@@ -85,10 +85,10 @@ struct GridLayer {
 std::vector<GridLayer> layersOf(const Grid& grid, const ItemLoop& loop = inOrder);
 
 // The parts of a grid that layers hold.
-inline constexpr GridParts kLayerParts{GridPart::Quads,        GridPart::Sizes,         GridPart::Features,
-                                       GridPart::FeatureNames, GridPart::Regions,       GridPart::Lines,
-                                       GridPart::LineNames,    GridPart::Rivers,        GridPart::Ibtypes,
-                                       GridPart::BareWeirs,    GridPart::BoundaryNames, GridPart::PartIslands};
+inline constexpr GridParts kLayerParts{
+    GridPart::Quads,         GridPart::Sizes,       GridPart::Features,  GridPart::FeatureNames, GridPart::Regions,
+    GridPart::Lines,         GridPart::LineNames,   GridPart::Rivers,    GridPart::Ibtypes,      GridPart::BareWeirs,
+    GridPart::BoundaryNames, GridPart::PartIslands, GridPart::NodeFields};
 
 // The file of a layer in formats with one layer per file: "lake.shp" goes with "lake_nodes.shp", "lake_boundaries.shp"
 // and "lake_lines.shp".

@@ -66,6 +66,14 @@ bool anyName(const Grid& grid) {
       grid.features, [](const GridFeature& feature) { return !feature.source.empty() || !feature.attributes.empty(); });
 }
 
+// "the nodal attributes manning, canopy"
+std::string fieldsOf(const Grid& grid) {
+  std::vector<std::string> names;
+  for (const NodeField& field : grid.node_fields)
+    if (names.empty() || names.back() != field.name) names.push_back(field.name);
+  return names.empty() ? "" : "the nodal attribute" + std::string(names.size() == 1 ? " " : "s ") + joined(names, ", ");
+}
+
 // Describes what the grid has of a part; empty if nothing.
 std::string wordsFor(GridPart part, const Grid& grid, const GridFormat& format) {
   switch (part) {
@@ -141,6 +149,8 @@ std::string wordsFor(GridPart part, const Grid& grid, const GridFormat& format) 
       return "that " + counted(parts, "boundary is an island", "boundaries are islands") + ' ' +
              typesOf(grid, isPartOfIsland) + ": a part of a shore gets the mainland's type, " + firstAt(first);
     }
+    case GridPart::NodeFields:
+      return fieldsOf(grid);
   }
   return "";
 }
@@ -179,14 +189,15 @@ std::string datumShiftOf(const Grid& grid, const GridFormat& format) {
   return has_prj ? "the datum shift of the CRS: readers of the .prj may place the mesh some 100 m away" : "";
 }
 
-constexpr std::array kGivenParts{GridPart::Regions,     GridPart::Pieces,       GridPart::Lines, GridPart::LineNames,
-                                 GridPart::Rivers,      GridPart::Ibtypes,      GridPart::Weirs, GridPart::BareWeirs,
-                                 GridPart::PartIslands, GridPart::BoundaryNames};
+constexpr std::array kGivenParts{GridPart::Regions,       GridPart::Pieces,    GridPart::Lines,
+                                 GridPart::LineNames,     GridPart::Rivers,    GridPart::Ibtypes,
+                                 GridPart::Weirs,         GridPart::BareWeirs, GridPart::PartIslands,
+                                 GridPart::BoundaryNames, GridPart::NodeFields};
 constexpr std::array kAllParts{
-    GridPart::Title,     GridPart::Quads,        GridPart::Sizes,     GridPart::Features,    GridPart::FeatureNames,
-    GridPart::Regions,   GridPart::Pieces,       GridPart::Lines,     GridPart::LineNames,   GridPart::Rivers,
-    GridPart::Ibtypes,   GridPart::Weirs,        GridPart::BareWeirs, GridPart::PartIslands, GridPart::BoundaryNames,
-    GridPart::Partition, GridPart::NodePartition};
+    GridPart::Title,     GridPart::Quads,         GridPart::Sizes,     GridPart::Features,    GridPart::FeatureNames,
+    GridPart::Regions,   GridPart::Pieces,        GridPart::Lines,     GridPart::LineNames,   GridPart::Rivers,
+    GridPart::Ibtypes,   GridPart::Weirs,         GridPart::BareWeirs, GridPart::PartIslands, GridPart::BoundaryNames,
+    GridPart::Partition, GridPart::NodePartition, GridPart::NodeFields};
 
 // Length in the grid's CRS over length on the ground, for a sample of edges. REQUIRES: a projected CRS in metres.
 double meanScale(const Grid& grid) {

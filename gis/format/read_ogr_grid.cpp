@@ -19,6 +19,8 @@
 #include "gis/crs/crs_from_ogr.hpp"
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
+#include "gis/fields/field_names.hpp"
+#include "gis/fields/node_fields.hpp"
 #include "gis/for_count.hpp"
 #include "gis/format/grid_layers.hpp"
 #include "gis/grid/boundary_chains.hpp"
@@ -151,6 +153,21 @@ std::vector<std::uint32_t> orderOf(const std::vector<std::int64_t>& ids) {
   return order;
 }
 
+// The columns of attributes that are known, with the number of each.
+std::vector<int> addFieldsOf(OGRLayer& layer, Grid& grid) {
+  std::vector<int> columns;
+  const OGRFeatureDefn& table = *layer.GetLayerDefn();
+  for (int i = 0; i < table.GetFieldCount(); ++i) {
+    const OGRFieldDefn& column = *table.GetFieldDefn(i);
+    const FieldName* const known = findFieldName(column.GetNameRef());
+    if (known == nullptr || column.GetType() != OFTReal || findField(grid, std::string(known->name)) != nullptr)
+      continue;
+    grid.node_fields.push_back({std::string(known->name), std::string(known->unit)});
+    columns.push_back(i);
+  }
+  return columns;
+}
+
 // Returns the ids of the nodes, ascending; empty if there is no layer of nodes with ids.
 std::vector<std::int64_t> readNodeLayer(const Companion& companion, const OgrErrors& errors, Grid& grid,
                                         NodesByPlace& index) {
@@ -159,6 +176,7 @@ std::vector<std::int64_t> readNodeLayer(const Companion& companion, const OgrErr
   LayerReader reader(*companion.layer, companion.path, errors);
   const int id_field = reader.field("id"), z_field = reader.field("z"), size_field = reader.field("size");
   if (id_field < 0) return ids;
+  const std::vector<int> columns = addFieldsOf(*companion.layer, grid);
   bool has_z = false;
   while (const OGRFeature* feature = reader.next()) {
     const OGRGeometry* geometry = feature->GetGeometryRef();
@@ -167,6 +185,10 @@ std::vector<std::int64_t> readNodeLayer(const Companion& companion, const OgrErr
     const OGRPoint& point = *geometry->toPoint();
     ids.push_back(feature->GetFieldAsInteger64(id_field));
     grid.nodes.push_back({point.getX(), point.getY()});
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      grid.node_fields[k].values.push_back(feature->IsFieldSetAndNotNull(columns[k])
+                                               ? feature->GetFieldAsDouble(columns[k])
+                                               : std::numeric_limits<double>::quiet_NaN());
     if (size_field >= 0) grid.size_m.push_back(feature->GetFieldAsDouble(size_field));
     const bool in_field = z_field >= 0 && feature->IsFieldSetAndNotNull(z_field);
     has_z = has_z || in_field || point.Is3D();

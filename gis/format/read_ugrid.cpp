@@ -17,6 +17,7 @@
 #include "gis/elements/elements.hpp"
 #include "gis/elements/quads.hpp"
 #include "gis/error.hpp"
+#include "gis/fields/node_fields.hpp"
 #include "gis/file/depth_names.hpp"
 #include "gis/file/netcdf_file.hpp"
 #include "gis/format/grid_names.hpp"
@@ -250,6 +251,7 @@ std::vector<DepthVariable> depthVariables(const NetcdfReader& file, const std::s
     const std::optional<std::size_t> times = timesOf(file, name, x);
     if (!times) continue;
     if (!isOrUnsaid(name, "mesh", mesh) || !isOrUnsaid(name, "location", "node")) continue;
+    if (!file.text(name, "nodal_attribute").empty()) continue;
     const Rank rank = rankOf(file, name, mesh);
     if (rank == Rank::None || !metresInUnit(file.text(name, "units"))) continue;
     const bool by_name = rank == Rank::ElevationName || rank == Rank::DepthName;
@@ -299,6 +301,22 @@ void readElevation(const NetcdfReader& file, const std::string& mesh, const std:
   for (double& z : grid.z) {
     if (down) z = 0.0 - z;
     if (computed) z = roundedDepth(z * metres);
+  }
+}
+
+// Nodal attributes as we write them.
+void readFields(const NetcdfReader& file, Grid& grid) {
+  for (const std::string& variable : file.variables()) {
+    NodeField field{file.text(variable, "nodal_attribute"), file.text(variable, "units")};
+    if (field.name.empty() || file.shape(variable) != std::vector{grid.nodes.size()}) continue;
+    const double component = file.number(variable, "nodal_attribute_value").value_or(0.0);
+    if (!(component >= 0.0 && component <= 1000.0)) file.fail("\"" + variable + "\" is no value of an attribute");
+    field.component = static_cast<std::uint32_t>(component);
+    if (findField(grid, field.name, field.component) != nullptr)
+      file.fail("\"" + variable + "\" is the attribute " + titleOf(field) + " once more");
+    field.usual = file.number(variable, "nodal_attribute_default").value_or(field.usual);
+    field.values = file.knownDoubles(variable);
+    grid.node_fields.push_back(std::move(field));
   }
 }
 
@@ -452,6 +470,7 @@ Grid readUgrid(const std::string& path, const Crs& unsaid) {
   if (const std::string name = mesh + "_node_size";
       file.hasVariable(name) && file.shape(name) == std::vector{grid.nodes.size()})
     grid.size_m = file.doubles(name);
+  readFields(file, grid);
   readFaceArrays(file, mesh, grid);
   readBoundaries(file, mesh, grid);
   readLines(file, mesh, grid);

@@ -19,6 +19,8 @@
 #include "gis/elements/elements.hpp"
 #include "gis/elements/quads.hpp"
 #include "gis/error.hpp"
+#include "gis/fields/field_names.hpp"
+#include "gis/fields/node_fields.hpp"
 #include "gis/file/depth_names.hpp"
 #include "gis/file/prj_file.hpp"
 #include "gis/file/single_precision.hpp"
@@ -381,6 +383,18 @@ void readElevation(const VtuFile& file, const std::vector<double>& places, bool 
   for (std::size_t i = 0; i < nodes; ++i) grid.z.push_back(places[3 * i + 2]);
 }
 
+// Node data with the name of an attribute that models know.
+void readFields(const VtuFile& file, Grid& grid) {
+  for (const std::string& name : file.names("PointData")) {
+    const FieldName* const known = findFieldName(name);
+    if (known == nullptr || findField(grid, std::string(known->name)) != nullptr) continue;
+    auto values = file.array("PointData", name);
+    if (!values || values->size() != grid.nodes.size()) continue;
+    NodeField& field = grid.node_fields.emplace_back(NodeField{std::string(known->name), std::string(known->unit)});
+    field.values = std::move(*values);
+  }
+}
+
 }  // namespace
 
 Grid readVtu(const std::string& path, const Crs& unsaid) {
@@ -399,6 +413,7 @@ Grid readVtu(const std::string& path, const Crs& unsaid) {
   grid.crs = on_globe ? wgs84() : readPrjBeside(path, unsaid);
   const std::vector<std::size_t> cells = readFaces(file, grid);
   readElevation(file, places, on_globe, grid);
+  readFields(file, grid);
   const auto readInto = [&](BulkList<double>& values, const char* name) {
     const std::vector<double> read = readCellData(file, name, cells);
     values.assign(read.begin(), read.end());

@@ -4,6 +4,8 @@
 #include <filesystem>
 
 #include "gis/error.hpp"
+#include "gis/fields/field_names.hpp"
+#include "gis/fields/node_fields.hpp"
 #include "gis/file/fortran_records.hpp"
 #include "gis/file/prj_file.hpp"
 #include "gis/file/text_reader.hpp"
@@ -11,6 +13,7 @@
 #include "gis/format/grid_formats.hpp"
 #include "gis/grid/boundary_kinds.hpp"
 #include "gis/grid/loop_role.hpp"
+#include "gis/lower_case.hpp"
 
 namespace coastmesh {
 namespace {
@@ -31,8 +34,7 @@ Ranks readGeometry(FortranReader& file, Grid& grid) {
   const std::vector<std::int32_t> counts = file.integers(2);
   std::vector<std::string> variables;
   if (counts[0] < 0 || counts[1] < 0) file.fail("the number of its variables is negative");
-  for (std::int64_t i = 0; i < std::int64_t{counts[0]} + counts[1]; ++i)
-    variables.push_back(trimmed(file.text().substr(0, 16)));
+  for (std::int64_t i = 0; i < std::int64_t{counts[0]} + counts[1]; ++i) variables.push_back(file.text());
   const std::vector<std::int32_t> parameters = file.integers(10);
   if (parameters[6] > 1) file.fail("it has " + std::to_string(parameters[6]) + " planes; only 2D meshes can be read");
   if (parameters[9] == 1) file.integers(6);  // the date
@@ -61,10 +63,15 @@ Ranks readGeometry(FortranReader& file, Grid& grid) {
   }
   if (file.atEnd()) return ranks;
   file.reals(1, real);  // the time
-  for (const std::string& name : variables) {
+  for (const std::string& variable : variables) {
     const std::vector<double> values = file.reals(nodes, real);
+    const std::string name = trimmed(variable.substr(0, 16));
     const bool is_bottom = name == "BOTTOM" || name == "FOND" || name == "BOTTOM ELEVATION";
     if (is_bottom && std::ranges::any_of(values, [](double z) { return z != 0.0; })) grid.z = values;
+    const std::string unit = variable.size() > 16 ? trimmed(variable.substr(16)) : std::string();
+    const std::string field = fieldOfTelemac(name, unit);
+    if (!field.empty() && findField(grid, field) == nullptr) grid.node_fields.push_back({field, unit});
+    if (!field.empty() && grid.node_fields.back().values.empty()) grid.node_fields.back().values = values;
   }
   return ranks;
 }
@@ -182,11 +189,28 @@ std::string padded(std::string_view text, std::size_t width) {
   return out;
 }
 
+// The names of the grid's attributes, each once: what would be a second friction has a name of its own.
+std::vector<std::string> namesOfFields(const Grid& grid) {
+  std::vector<std::string> names{"BOTTOM"};
+  const auto isTaken = [&](const std::string& name) { return std::ranges::find(names, name) != names.end(); };
+  for (const NodeField& field : grid.node_fields) {
+    std::string name = field.component == 0 ? telemacFieldName(field.name) : telemacWord(wordOf(field));
+    if (isTaken(name)) name = telemacWord(wordOf(field));
+    const std::string start = name.substr(0, 12);
+    for (int i = 2; isTaken(name); ++i) name = start + ' ' + std::to_string(i);
+    names.push_back(std::move(name));
+  }
+  names.erase(names.begin());
+  return names;
+}
+
 void writeGeometry(const Grid& grid, const BoundaryNodes& boundary, const std::string& path, const ItemLoop& loop) {
   FortranWriter file(path);
   file.text(padded(grid.title, 72) + "SERAFIND");
-  file.integers(std::array<std::int32_t, 2>{1, 0});
+  file.integers(std::array<std::int32_t, 2>{1 + static_cast<std::int32_t>(grid.node_fields.size()), 0});
   file.text(padded("BOTTOM", 16) + padded("M", 16));
+  const std::vector<std::string> names = namesOfFields(grid);
+  for (std::size_t k = 0; k < names.size(); ++k) file.text(padded(names[k], 16) + padded(grid.node_fields[k].unit, 16));
   file.integers(std::array<std::int32_t, 10>{1});
   const auto nodes = static_cast<std::int32_t>(grid.nodes.size());
   file.integers(std::array{static_cast<std::int32_t>(grid.triangles.size()), nodes, 3, 1});
@@ -199,6 +223,8 @@ void writeGeometry(const Grid& grid, const BoundaryNodes& boundary, const std::s
   file.doubles(loop, grid.nodes.size(), [&](std::size_t i) { return grid.nodes[i].y; });
   file.doubles(std::array{0.0});  // the time
   file.doubles(loop, grid.nodes.size(), [&](std::size_t i) { return grid.z.empty() ? 0.0 : grid.z[i]; });
+  for (const NodeField& field : grid.node_fields)
+    file.doubles(loop, field.values.size(), [&field](std::size_t i) { return field.values[i]; });
   file.close();
 }
 
@@ -216,12 +242,14 @@ void writeConditions(const BoundaryNodes& boundary, const std::string& path) {
   file.close();
 }
 
-// Writes TELEMAC's SELAFIN geometry in double precision (SERAFIND) with the variable BOTTOM, elevation in metres, and
-// beside it the boundary conditions, `lake.slf` with `lake.cli`, and the CRS in a .prj. Shores are walls (2 2 2), open
-// boundaries levels (5 4 4), rivers discharges (4 5 5). The file has codes for nodes only: a shore of a single edge
-// between two openings becomes open. Throws OutputError, also if a z is unknown or the mesh touches itself in a node.
+// Writes TELEMAC's SELAFIN geometry in double precision (SERAFIND) with the variable BOTTOM, elevation in metres, one
+// for each nodal attribute, such as BOTTOM FRICTION, and beside it the boundary conditions, `lake.slf` with `lake.cli`,
+// and the CRS in a .prj. Shores are walls (2 2 2), open boundaries levels (5 4 4), rivers discharges (4 5 5). The file
+// has codes for nodes only: a shore of a single edge between two openings becomes open. Throws OutputError, also if a z
+// is unknown or the mesh touches itself in a node.
 void writeTelemac(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   requireZ(grid, path);
+  requireFields(grid, path);
   const BoundaryNodes boundary = boundaryNodesOf(grid, path);
   writeGeometry(grid, boundary, path, loop);
   writeConditions(boundary, withEnding(path, ".cli"));
@@ -239,7 +267,7 @@ FormatRecord telemacFormat() {
            .description = "TELEMAC's SELAFIN and .cli, elevation positive up",
            .readable = true,
            .writable = true,
-           .holds = {GridPart::Title, GridPart::Rivers},
+           .holds = {GridPart::Title, GridPart::Rivers, GridPart::NodeFields},
            .says_depth = true,
            .needs_depths = true,
            .places = NodePlaces::OneTurn,

@@ -13,6 +13,8 @@
 #include "gis/coast/feature_names.hpp"
 #include "gis/elements/elements.hpp"
 #include "gis/elements/quads.hpp"
+#include "gis/fields/field_names.hpp"
+#include "gis/fields/node_fields.hpp"
 #include "gis/file/cf_grid_mapping.hpp"
 #include "gis/file/netcdf_file.hpp"
 #include "gis/format/grid_formats.hpp"
@@ -210,6 +212,27 @@ void defineCoordinate(UgridFile& ugrid, const Grid& grid, int nodes, bool is_x) 
                 [&grid, part = is_x ? &Point::x : &Point::y](std::size_t n) { return grid.nodes[n].*part; });
 }
 
+// Values that are not known are the fill value, and one equal to it is its neighbouring double, as for elevations.
+void defineFields(UgridFile& ugrid, const Grid& grid, int nodes) {
+  for (const NodeField& field : grid.node_fields) {
+    const FieldName* const known = findFieldName(field.name);
+    const std::string long_name = known != nullptr ? std::string(known->long_name) : titleOf(field);
+    const auto valueOf = [&field](std::size_t n) {
+      if (std::isnan(field.values[n])) return kFillZ;
+      return field.values[n] == kFillZ ? std::nextafter(kFillZ, 0.0) : field.values[n];
+    };
+    const int variable = ugrid.dataOfEach("node_" + variableWordOf(field), nodes, "node", long_name, field.unit,
+                                          field.values.size(), valueOf);
+    if (known != nullptr && !known->standard_name.empty())
+      ugrid.file().attribute(variable, "standard_name", std::string(known->standard_name));
+    ugrid.file().attribute(variable, "_FillValue", kFillZ);
+    ugrid.file().attribute(variable, "nodal_attribute", field.name);
+    if (field.component > 0)
+      ugrid.file().attribute(variable, "nodal_attribute_value", static_cast<int>(field.component));
+    if (!std::isnan(field.usual)) ugrid.file().attribute(variable, "nodal_attribute_default", field.usual);
+  }
+}
+
 void defineNodes(UgridFile& ugrid, const Grid& grid, int nodes) {
   defineCoordinate(ugrid, grid, nodes, true);
   defineCoordinate(ugrid, grid, nodes, false);
@@ -227,6 +250,7 @@ void defineNodes(UgridFile& ugrid, const Grid& grid, int nodes) {
   if (!grid.size_m.empty())
     ugrid.dataOfEach("node_size", nodes, "node", "length that edges were to have", "m", grid.size_m.size(),
                      [&grid](std::size_t n) { return grid.size_m[n]; });
+  defineFields(ugrid, grid, nodes);
 }
 
 // `value(b)` for each edge of each boundary b.
@@ -448,7 +472,7 @@ FormatRecord ugridFormat() {
            .holds = {GridPart::Title, GridPart::Quads, GridPart::Sizes, GridPart::Features, GridPart::Regions,
                      GridPart::Pieces, GridPart::Partition, GridPart::Lines, GridPart::LineNames, GridPart::Rivers,
                      GridPart::Ibtypes, GridPart::BareWeirs, GridPart::PartIslands, GridPart::FeatureNames,
-                     GridPart::BoundaryNames},
+                     GridPart::BoundaryNames, GridPart::NodeFields},
            .places = NodePlaces::OneTurn},
           {writeUgrid, readUgrid, nullptr, nullptr, depthRemark}};
 }

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "gis/elements/elements.hpp"
+#include "gis/fields/node_fields.hpp"
 #include "gis/file/prj_file.hpp"
 #include "gis/file/text_writer.hpp"
 #include "gis/format/grid_formats.hpp"
@@ -191,6 +192,7 @@ void writeFile(const Grid& grid, const VtuPlaces& places, const std::string& pat
   appendix.declare("UInt8", "types", 1, cells);
   file << "</Cells>\n<PointData>\n";
   if (!grid.z.empty()) appendix.declare("Float64", "z", 1, nodes * 8);
+  for (const NodeField& field : grid.node_fields) appendix.declare("Float64", variableWordOf(field), 1, nodes * 8);
   if (places.geographic) {
     appendix.declare("Float64", kVtuLongitude, 1, nodes * 8);
     appendix.declare("Float64", kVtuLatitude, 1, nodes * 8);
@@ -206,6 +208,7 @@ void writeFile(const Grid& grid, const VtuPlaces& places, const std::string& pat
   appendix.write(loop, nodes, places.place);
   writeCells(grid, elements, loop, appendix);
   if (!grid.z.empty()) appendix.write(grid.z);
+  for (const NodeField& field : grid.node_fields) appendix.write(field.values);
   if (places.geographic) {
     appendix.write(loop, nodes, [&](std::size_t i) { return places.geographic(i).lon; });
     appendix.write(loop, nodes, [&](std::size_t i) { return places.geographic(i).lat; });
@@ -225,9 +228,9 @@ void writeFile(const Grid& grid, const VtuPlaces& places, const std::string& pat
   file.close();
 }
 
-// Writes VTK's unstructured grid, appended raw, for ParaView: nodes at the coordinates of the CRS, z as node data,
-// smallest angle, area, source fid and region as cell data, boundaries, lines and names as field data. VTK cannot hold
-// a CRS: it is written to a .prj. Throws OutputError.
+// Writes VTK's unstructured grid, appended raw, for ParaView: nodes at the coordinates of the CRS, z and attributes as
+// node data, smallest angle, area, source fid and region as cell data, boundaries, lines and names as field data. VTK
+// cannot hold a CRS: it is written to a .prj. Throws OutputError.
 void writeVtu(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   const auto place = [&grid](std::size_t i) { return std::array<double, 3>{grid.nodes[i].x, grid.nodes[i].y, 0.0}; };
   writeFile(grid, {place, nullptr}, path, loop);
@@ -247,9 +250,9 @@ void writeVtuGlobe(const Grid& grid, const std::string& path, const ItemLoop& lo
   writeFile(grid, {place, [&nodes](std::size_t i) { return asLonLat(nodes[i]); }}, path, loop);
 }
 
-constexpr GridParts kParts{GridPart::Quads,       GridPart::Features,     GridPart::Regions, GridPart::Lines,
-                           GridPart::LineNames,   GridPart::Rivers,       GridPart::Ibtypes, GridPart::BareWeirs,
-                           GridPart::PartIslands, GridPart::BoundaryNames};
+constexpr GridParts kParts{GridPart::NodeFields, GridPart::Quads,       GridPart::Features,     GridPart::Regions,
+                           GridPart::Lines,      GridPart::LineNames,   GridPart::Rivers,       GridPart::Ibtypes,
+                           GridPart::BareWeirs,  GridPart::PartIslands, GridPart::BoundaryNames};
 
 }  // namespace
 

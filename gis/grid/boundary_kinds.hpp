@@ -22,9 +22,8 @@ struct BoundaryKind {
 };
 
 // True for an open boundary or a river, which water passes.
-inline bool isOpening(const BoundaryKind& kind) {
-  return kind.role == BoundaryRole::Open || kind.role == BoundaryRole::River;
-}
+inline bool isOpening(BoundaryRole role) { return role == BoundaryRole::Open || role == BoundaryRole::River; }
+inline bool isOpening(const BoundaryKind& kind) { return isOpening(kind.role); }
 
 // The role that a word of a user stands for, case-insensitive: "ocean" is open, "inflow" a river, "coast" land.
 std::optional<BoundaryRole> roleOfWord(const std::string& word);

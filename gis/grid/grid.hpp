@@ -55,6 +55,15 @@ struct GridFeature {
   std::string region{};  // empty: none
 };
 
+// Values of a model at nodes besides depths, such as friction: a nodal attribute (names are in gis/fields).
+struct NodeField {
+  std::string name;             // as ADCIRC spells it, if it knows it: "mannings_n_at_sea_floor"
+  std::string unit{};           // empty: none is known
+  std::uint32_t component = 0;  // of several values for each node, from 1; they follow one another. 0: the only one
+  double usual = std::numeric_limits<double>::quiet_NaN();  // of nodes of which nothing else is known; NaN: none
+  std::vector<double> values{};                             // one for each node; NaN if unknown
+};
+
 // A mesh as models and GIS see it: what writers write and readers read.
 struct Grid {
   std::string title;
@@ -62,6 +71,7 @@ struct Grid {
   BulkList<Point> nodes;                             // in `crs`; those of `makeGrid` all belong to a triangle
   std::vector<double> z;                             // metres, positive up; empty or one per node, NaN if unknown
   std::vector<double> size_m;                        // empty or one for each node: the requested edge length there
+  std::vector<NodeField> node_fields;                // each name and component once
   BulkList<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise
   // Empty or one for each triangle: two triangles with the same number that share an edge are the halves of a
   // quadrilateral of a file (gis/elements); kNone, or no other half: a triangle.
@@ -79,18 +89,25 @@ struct Grid {
 };
 
 // The arrays with one entry for each node, and for each triangle: edits of a grid use these. Each names every member of
-// Grid, so that a new member does not compile until it is added where it belongs.
+// Grid, so that a new member does not compile until it is added where it belongs. Those of `node_fields` come on top of
+// the former: `forEachNodeArray` visits all.
 template <typename AnyGrid>
 auto nodeArrays(AnyGrid& grid) {
-  auto& [title, crs, nodes, z, size_m, triangles, quad_of, feature_of, piece_of, part_of, node_part_of, min_angle_deg,
-         area_m2, features, boundaries, lines, notes] = grid;
+  auto& [title, crs, nodes, z, size_m, node_fields, triangles, quad_of, feature_of, piece_of, part_of, node_part_of,
+         min_angle_deg, area_m2, features, boundaries, lines, notes] = grid;
   return std::tie(nodes, z, size_m, node_part_of);
 }
 template <typename AnyGrid>
 auto triangleArrays(AnyGrid& grid) {
-  auto& [title, crs, nodes, z, size_m, triangles, quad_of, feature_of, piece_of, part_of, node_part_of, min_angle_deg,
-         area_m2, features, boundaries, lines, notes] = grid;
+  auto& [title, crs, nodes, z, size_m, node_fields, triangles, quad_of, feature_of, piece_of, part_of, node_part_of,
+         min_angle_deg, area_m2, features, boundaries, lines, notes] = grid;
   return std::tie(triangles, quad_of, feature_of, piece_of, part_of, min_angle_deg, area_m2);
+}
+
+template <typename AnyGrid, typename Use>
+void forEachNodeArray(AnyGrid& grid, const Use& use) {
+  std::apply([&use](auto&... array) { (use(array), ...); }, nodeArrays(grid));
+  for (auto& field : grid.node_fields) use(field.values);
 }
 
 // Throws OutputError if a z is unknown; for formats that need one at every node.

@@ -165,15 +165,38 @@ std::vector<std::uint32_t> indexWithout(const std::vector<bool>& gone) {
   return index_of;
 }
 
-template <typename Arrays>
-void keepIndexed(Arrays arrays, const std::vector<std::uint32_t>& index_of) {
-  forEachArray(arrays, [&](auto& values) {
+// For arrays: leaves out the items without an index.
+auto keepIndexed(const std::vector<std::uint32_t>& index_of) {
+  return [&index_of](auto& values) {
     if (values.empty()) return;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < index_of.size(); ++i)
       if (index_of[i] != kNone) values[kept++] = std::move(values[i]);
     values.resize(kept);
-  });
+  };
+}
+
+// Gives `grid` the fields of `other` that it lacks, unknown everywhere.
+void addFieldsOf(const Grid& other, Grid& grid) {
+  for (const NodeField& field : other.node_fields) {
+    const auto isIt = [&](const NodeField& own) { return own.name == field.name && own.component == field.component; };
+    if (std::ranges::any_of(grid.node_fields, isIt)) continue;
+    grid.node_fields.push_back({field.name, field.unit, field.component, field.usual, {}});
+    grid.node_fields.back().values.assign(grid.nodes.size(), kUnknown);
+  }
+}
+
+// Appends those of `part` to those of `whole`. REQUIRES: called before nodes are appended.
+void appendFields(Grid& whole, Grid& part) {
+  addFieldsOf(part, whole);
+  addFieldsOf(whole, part);
+  for (NodeField& field : whole.node_fields) {
+    const auto isIt = [&](const NodeField& other) {
+      return other.name == field.name && other.component == field.component;
+    };
+    const std::vector<double>& added = std::ranges::find_if(part.node_fields, isIt)->values;
+    field.values.insert(field.values.end(), added.begin(), added.end());
+  }
 }
 
 [[noreturn]] void fail(const std::string& what) { throw std::logic_error("the mesh is not consistent: " + what); }
@@ -206,7 +229,7 @@ Point meanPlace(const Crs& crs, std::span<const Point> places) {
 
 std::uint32_t addNode(Grid& grid, const Point& place) {
   const auto added = static_cast<std::uint32_t>(grid.nodes.size());
-  forEachArray(nodeArrays(grid), [&]<typename T, typename Allocator>(std::vector<T, Allocator>& values) {
+  forEachNodeArray(grid, [&]<typename T, typename Allocator>(std::vector<T, Allocator>& values) {
     if constexpr (std::is_same_v<T, Point>) {
       values.push_back(place);
     } else if constexpr (std::is_integral_v<T>) {
@@ -221,14 +244,14 @@ std::uint32_t addNode(Grid& grid, const Point& place) {
 
 std::uint32_t copyNode(Grid& grid, std::uint32_t source, const Point& place) {
   const auto added = static_cast<std::uint32_t>(grid.nodes.size());
-  forEachArray(nodeArrays(grid), [source](auto& values) { copyLast(values, source); });
+  forEachNodeArray(grid, [source](auto& values) { copyLast(values, source); });
   grid.nodes.back() = place;
   return added;
 }
 
 std::uint32_t addNodeBetween(Grid& grid, std::uint32_t a, std::uint32_t b, double share) {
   const auto added = static_cast<std::uint32_t>(grid.nodes.size());
-  forEachArray(nodeArrays(grid), [&]<typename T, typename Allocator>(std::vector<T, Allocator>& values) {
+  forEachNodeArray(grid, [&]<typename T, typename Allocator>(std::vector<T, Allocator>& values) {
     if constexpr (std::is_same_v<T, Point>) {
       values.push_back(placeBetween(grid.crs, values[a], values[b], share));
     } else if constexpr (std::is_integral_v<T>) {
@@ -252,7 +275,7 @@ std::uint32_t addNodeBetween(Grid& grid, std::uint32_t a, std::uint32_t b, doubl
 }
 
 void moveNode(Grid& grid, std::uint32_t node, std::uint32_t a, std::uint32_t b, double share) {
-  forEachArray(nodeArrays(grid), [&]<typename T, typename Allocator>(std::vector<T, Allocator>& values) {
+  forEachNodeArray(grid, [&]<typename T, typename Allocator>(std::vector<T, Allocator>& values) {
     if constexpr (std::is_same_v<T, Point>) {
       values[node] = placeBetween(grid.crs, values[node], placeBetween(grid.crs, values[a], values[b], 0.5), share);
     } else if constexpr (!std::is_integral_v<T>) {
@@ -313,7 +336,7 @@ std::uint32_t copyTriangle(Grid& grid, std::uint32_t source, const GridCorners& 
 std::vector<std::uint32_t> removeTriangles(Grid& grid, const std::vector<bool>& gone) {
   assert(gone.size() == grid.triangles.size());
   const std::vector<std::uint32_t> index_of = indexWithout(gone);
-  keepIndexed(triangleArrays(grid), index_of);
+  forEachArray(triangleArrays(grid), keepIndexed(index_of));
   cutLinesOffEdges(grid);
   return index_of;
 }
@@ -324,7 +347,7 @@ std::vector<std::uint32_t> removeNodes(Grid& grid, const std::vector<bool>& gone
   const auto keeps = [&](std::uint32_t node) { return !gone[node]; };
   cutBoundaries(grid, keeps);
   cutLines(grid, [&](std::uint32_t a, std::uint32_t b) { return keeps(a) && keeps(b); });
-  keepIndexed(nodeArrays(grid), index_of);
+  forEachNodeArray(grid, keepIndexed(index_of));
   renumberNodes(grid, [&](std::uint32_t node) { return index_of[node]; });
   return index_of;
 }
@@ -341,7 +364,7 @@ void replaceNodes(Grid& grid, const std::vector<std::uint32_t>& instead) {
 }
 
 void orderNodes(Grid& grid, const std::vector<std::uint32_t>& order) {
-  forEachArray(nodeArrays(grid), [&](auto& values) { reorder(values, order); });
+  forEachNodeArray(grid, [&](auto& values) { reorder(values, order); });
   std::vector<std::uint32_t> index_of(order.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) index_of[order[i]] = i;
   renumberNodes(grid, [&](std::uint32_t node) { return index_of[node]; });
@@ -420,6 +443,7 @@ void appendGrid(Grid& whole, Grid&& part, std::optional<std::uint32_t> first_pie
   };
   const std::size_t nodes = whole.nodes.size(), part_nodes = part.nodes.size();
   const std::size_t triangles = whole.triangles.size(), part_triangles = part.triangles.size();
+  appendFields(whole, part);
   forEachArray(nodeArrays(whole), nodeArrays(part),
                [&](auto& to, auto& from) { appendUnlessSilent(to, from, nodes, part_nodes); });
   forEachArray(triangleArrays(whole), triangleArrays(part),
@@ -445,7 +469,10 @@ void requireConsistent(const Grid& grid, const ItemLoop& loop) {
       fail("an array of " + std::string(of) + " has " + std::to_string(length) + " entries, not " +
            std::to_string(wanted));
   };
-  forEachArray(nodeArrays(grid), [&](const auto& values) { requireLength(values.size(), nodes, "nodes"); });
+  forEachNodeArray(grid, [&](const auto& values) { requireLength(values.size(), nodes, "nodes"); });
+  for (const NodeField& field : grid.node_fields)
+    if (field.values.size() != nodes)
+      fail("'" + field.name + "' has " + std::to_string(field.values.size()) + " values");
   forEachArray(triangleArrays(grid), [&](const auto& values) { requireLength(values.size(), triangles, "triangles"); });
   forEachByStretches(loop, triangles,
                      [&](std::size_t t) { requireIndices(grid.triangles[t], nodes, "a corner of a triangle is"); });

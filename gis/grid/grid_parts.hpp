@@ -24,6 +24,7 @@ enum class GridPart : std::uint8_t {
   BareWeirs,  // boundaries of a weir's type without these
   BoundaryNames,
   PartIslands,  // boundaries of an island's type that are only a part of a shore
+  NodeFields,
 };
 
 // A set of them.

@@ -176,16 +176,17 @@ std::vector<NodePair> sharedEdges(const TriMesh& mesh, std::span<const std::uint
 
 }  // namespace
 
-std::vector<Cover> coverOf(const TriMesh& mesh, std::span<const std::uint32_t> same, const Outline& outline,
-                           const ItemLoop& loop) {
+std::vector<Cover> coverOf(const TriMesh& mesh, std::span<const std::uint32_t> same,
+                           std::span<const std::uint8_t> is_far, const Outline& outline, const ItemLoop& loop) {
   const Tester tester(mesh, same, outline);
   std::vector<Cover> cover(mesh.triangles.size(), Cover::Free);
   forEachByStretches(loop, mesh.triangles.size(), [&](std::size_t t) {
-    if (tester.isMet(static_cast<TriId>(t))) cover[t] = Cover::Met;
+    if ((is_far.empty() || is_far[t] == 0) && tester.isMet(static_cast<TriId>(t))) cover[t] = Cover::Met;
   });
   // Between triangles that the outline does not meet, only its own edges separate inside from outside.
   const std::vector<NodePair> shared = sharedEdges(mesh, same, outline);
-  std::vector<std::uint8_t> seen(mesh.triangles.size(), 0);
+  std::vector<std::uint8_t> seen(is_far.begin(), is_far.end());
+  seen.resize(mesh.triangles.size(), 0);
   std::vector<TriId> reached;
   for (TriId first = 0; first < mesh.triangles.size(); ++first) {
     if (seen[first] != 0 || cover[first] == Cover::Met) continue;

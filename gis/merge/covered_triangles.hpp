@@ -18,8 +18,10 @@ enum class Cover : std::uint8_t {
 };
 
 // For each triangle of `mesh`, whose nodes are at `mesh.points`. `same` has for each node the node of the outline that
-// is the same, kNone if there is none: only by these do they touch.
-std::vector<Cover> coverOf(const TriMesh& mesh, std::span<const std::uint32_t> same, const Outline& outline,
+// is the same, kNone if there is none: only by these do they touch. Triangles with a flag in `is_far`, which may be
+// empty, are free.
+std::vector<Cover> coverOf(const TriMesh& mesh, std::span<const std::uint32_t> same,
+                           std::span<const std::uint8_t> is_far, const Outline& outline,
                            const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

@@ -4,8 +4,8 @@
 #include <map>
 #include <utility>
 
+#include "core/triangulate/delaunay.hpp"
 #include "gis/geometry/ring_area.hpp"
-#include "gis/merge/gap_faces.hpp"
 
 namespace coastmesh {
 
@@ -46,12 +46,8 @@ std::vector<std::array<VertexId, 3>> fillEnclosed(const TriMesh& mesh, const std
     if (signedAreaOf(pslg.points) > 0.0) continue;  // around a mesh
     const auto n = static_cast<VertexId>(ring.size());
     for (VertexId i = 0; i < n; ++i) pslg.segments.push_back({i, (i + 1) % n});
-    try {
-      for (const Triangle& t : constrainedDelaunay(pslg).triangles)
-        triangles.push_back({ring[t.v[0]], ring[t.v[1]], ring[t.v[2]]});
-    } catch (const BadPslg& error) {
-      throw cannotJoin(error);
-    }
+    for (const Triangle& t : constrainedDelaunay(pslg).triangles)
+      triangles.push_back({ring[t.v[0]], ring[t.v[1]], ring[t.v[2]]});
   }
   return triangles;
 }

@@ -259,11 +259,7 @@ class GapFiller {
          {Point{box.xmin, box.ymin}, Point{box.xmax, box.ymin}, Point{box.xmax, box.ymax}, Point{box.xmin, box.ymax}})
       pslg.points.push_back(corner);
     for (VertexId i = 0; i < 4; ++i) pslg.segments.push_back({first + i, first + (i + 1) % 4});
-    try {
-      return constrainedDelaunay(pslg, {}, loop_);
-    } catch (const BadPslg& error) {
-      throw cannotJoin(error);
-    }
+    return constrainedDelaunay(pslg, {}, loop_);
   }
 
   bool isLine(EdgeRef e) const { return std::ranges::binary_search(lines_, edgeKey(mesh_.origin(e), mesh_.target(e))); }
@@ -321,11 +317,6 @@ class GapFiller {
 };
 
 }  // namespace
-
-InputError cannotJoin(const BadPslg& error) {
-  return InputError("the meshes cannot be joined at (" + std::to_string(error.defect.place.x) + ", " +
-                    std::to_string(error.defect.place.y) + "): " + error.what() + "; check finds such places");
-}
 
 GapFaces fillGap(const TriMesh& mesh, std::span<const std::uint32_t> same, std::span<const Cover> cover,
                  std::span<const std::vector<VertexId>> holes, std::span<const NodePair> lines, const Outline& outline,

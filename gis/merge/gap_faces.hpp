@@ -38,12 +38,9 @@ struct GapFaces {
 // close to the outline, and not corners of `Free` triangles, are left out. So are triangles that touch edges of the
 // outline that do not join, or nodes between two of these, so that these stay boundary. `lines`, sorted keys, are
 // edges of the mesh that stay, unless the outline passes them. REQUIRES: the arguments are those and the result of
-// `coverOf`. Throws InputError if edges cross one another.
+// `coverOf`. Throws BadPslg if edges cross one another.
 GapFaces fillGap(const TriMesh& mesh, std::span<const std::uint32_t> same, std::span<const Cover> cover,
                  std::span<const std::vector<VertexId>> holes, std::span<const NodePair> lines, const Outline& outline,
                  const ItemLoop& loop = inOrder);
-
-// For a gap that cannot be triangulated.
-InputError cannotJoin(const BadPslg& error);
 
 }  // namespace coastmesh

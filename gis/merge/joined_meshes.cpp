@@ -25,25 +25,9 @@ namespace coastmesh {
 
 namespace {
 
-std::string placeText(const Point& p) { return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")"; }
-
 bool isTurned(const TriMesh& mesh, TriId t) {
   const auto& v = mesh.triangles[t].v;
   return orient2d(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]) <= 0;
-}
-
-// Throws InputError for a triangle in the box that is not counter-clockwise. `name`: "the mesh".
-void requireTurns(const TriMesh& mesh, const Box& box, const std::string& name) {
-  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
-    if (!isTurned(mesh, t)) continue;
-    Box own;
-    for (const VertexId v : mesh.triangles[t].v) own.add(mesh.points[v]);
-    if (!own.meets(box)) continue;
-    throw InputError(
-        "triangle " + std::to_string(t + 1) + " of " + name + " at " + placeText(mesh.points[mesh.triangles[t].v[0]]) +
-        " is clockwise, flat or jumps at the antimeridian: coastmesh convert to a .nc mends jumps, and with "
-        "--target turns clockwise ones");
-  }
 }
 
 // The loops of the grid's boundary around holes that are open all around, near the outline.
@@ -86,8 +70,9 @@ std::vector<VertexId> changedNodes(const TriMesh& mesh, std::span<const std::uin
 
 class MeshJoiner {
  public:
-  MeshJoiner(const Grid& grid, const Grid& inserted, const ItemLoop& loop)
+  MeshJoiner(const Grid& grid, const Grid& inserted, const NestPlane* plane, const ItemLoop& loop)
       : grid_(grid),
+        plane_(plane),
         loop_(loop),
         inserted_(linkGrid(inserted, loop).mesh),
         kinds_(grid),
@@ -95,11 +80,16 @@ class MeshJoiner {
         outline_(inserted, inserted_, loop) {
     joined_.mesh = linkGrid(grid, loop).mesh;
     joined_.has_open = outline_.hasOpen();
+    if (plane_ == nullptr) return;
+    is_far_.resize(joined_.mesh.triangles.size());
+    for (TriId t = 0; t < is_far_.size(); ++t)
+      is_far_[t] = std::ranges::all_of(joined_.mesh.triangles[t].v,
+                                       [&](VertexId v) { return plane_->isFar(joined_.mesh.points[v]); });
   }
 
   JoinedMeshes join() {
-    requireTurns(inserted_, outline_.box(), "the mesh that is put in");
-    requireTurns(joined_.mesh, outline_.box(), "the mesh");
+    requireTurns(inserted_, {}, "the mesh that is put in");
+    requireTurns(joined_.mesh, is_far_, "the mesh");
     moveSame();
     findCover();
     fillGaps();
@@ -117,6 +107,24 @@ class MeshJoiner {
   }
 
  private:
+  std::string placeText(const Point& place) const {
+    const Point p = plane_ == nullptr ? place : plane_->inverse(place);
+    return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")";
+  }
+
+  // Throws InputError for a triangle in the outline's box that is not counter-clockwise. `name`: "the mesh".
+  void requireTurns(const TriMesh& mesh, std::span<const std::uint8_t> is_far, const std::string& name) const {
+    for (TriId t = 0; t < mesh.triangles.size(); ++t) {
+      if (!isTurned(mesh, t) || (!is_far.empty() && is_far[t] != 0)) continue;
+      Box own;
+      for (const VertexId v : mesh.triangles[t].v) own.add(mesh.points[v]);
+      if (!own.meets(outline_.box())) continue;
+      throw InputError("triangle " + std::to_string(t + 1) + " of " + name + " at " +
+                       placeText(mesh.points[mesh.triangles[t].v[0]]) +
+                       " is clockwise or flat: coastmesh convert with --target turns clockwise ones");
+    }
+  }
+
   void moveSame() {
     joined_.same = sameNodes(grid_, outline_, loop_);
     for (std::uint32_t v = 0; v < joined_.same.size(); ++v)
@@ -124,9 +132,10 @@ class MeshJoiner {
   }
 
   void findCover() {
-    cover_ = coverOf(joined_.mesh, joined_.same, outline_, loop_);
+    cover_ = coverOf(joined_.mesh, joined_.same, is_far_, outline_, loop_);
     for (TriId t = 0; t < cover_.size(); ++t)
-      if (cover_[t] == Cover::Free && isTurned(joined_.mesh, t)) cover_[t] = Cover::Met;  // by a node that moved
+      if (cover_[t] == Cover::Free && (is_far_.empty() || is_far_[t] == 0) && isTurned(joined_.mesh, t))
+        cover_[t] = Cover::Met;  // by a node that moved
     for (const Quad& quad : quadsOf(grid_)) {
       Cover &first = cover_[quad.halves[0]], &second = cover_[quad.halves[1]];
       if (first == Cover::Free && second != Cover::Free) first = Cover::Met;
@@ -137,6 +146,15 @@ class MeshJoiner {
   }
 
   void fillGaps() {
+    try {
+      tryToFill();
+    } catch (const BadPslg& error) {
+      throw InputError("the meshes cannot be joined at " + placeText(error.defect.place) + ": " + error.what() +
+                       "; check finds such places");
+    }
+  }
+
+  void tryToFill() {
     gap_ = fillGap(joined_.mesh, joined_.same, cover_, openHoles(joined_.mesh, kinds_, outline_, loop_),
                    lineEdges(grid_), outline_, loop_);
     assemble();
@@ -237,19 +255,23 @@ class MeshJoiner {
   }
 
   const Grid& grid_;
+  const NestPlane* const plane_;
   const ItemLoop& loop_;
   const TriMesh inserted_;
   const EdgeKinds kinds_, inserted_kinds_;
   const Outline outline_;
   JoinedMeshes joined_;
+  std::vector<std::uint8_t> is_far_;  // for each triangle of the grid: on the other side of the Earth
   std::vector<Cover> cover_;
   GapFaces gap_;
 };
 
 }  // namespace
 
-JoinedMeshes joinMeshes(const Grid& grid, const Grid& inserted, const ItemLoop& loop) {
-  return MeshJoiner(grid, inserted, loop).join();
+JoinedMeshes joinMeshes(const Grid& grid, const Grid& inserted, const NestPlane* plane, const ItemLoop& loop) {
+  if (plane == nullptr) return MeshJoiner(grid, inserted, nullptr, loop).join();
+  const Grid flat = plane->flat(grid, loop), flat_inserted = plane->flat(inserted, loop);
+  return MeshJoiner(flat, flat_inserted, plane, loop).join();
 }
 
 }  // namespace coastmesh

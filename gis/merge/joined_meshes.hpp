@@ -9,12 +9,13 @@
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/grid/grid.hpp"
 #include "gis/merge/gap_faces.hpp"
+#include "gis/merge/nest_plane.hpp"
 
 namespace coastmesh {
 
 // Which triangles a merged mesh has.
 struct JoinedMeshes {
-  TriMesh mesh;                     // the grid's, nodes that both have at the places of the inserted mesh's
+  TriMesh mesh;  // the grid's, nodes that both have at the places of the inserted mesh's, in the plane if there is one
   std::vector<std::uint32_t> same;  // for each node of the grid: that of the inserted mesh that it becomes, or kNone
   // The triangles of the grid that are not covered, of the inserted mesh, and of the gap between them. Nodes are
   // numbered as in `GapFaces`.
@@ -31,7 +32,7 @@ struct JoinedMeshes {
   bool isTaken(TriId t) const { return taken[t] != 0; }
 };
 
-// Throws InputError as `mergeGrids` does.
-JoinedMeshes joinMeshes(const Grid& grid, const Grid& inserted, const ItemLoop& loop = inOrder);
+// In `plane` if that is not null, else in the grids' coordinates. Throws InputError as `mergeGrids` does.
+JoinedMeshes joinMeshes(const Grid& grid, const Grid& inserted, const NestPlane* plane, const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

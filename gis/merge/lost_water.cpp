@@ -8,6 +8,7 @@
 #include "core/metric.hpp"
 #include "gis/geometry/box_tree.hpp"
 #include "gis/geometry/ring_area.hpp"
+#include "gis/grid/grid_edit.hpp"
 #include "gis/grid/local_plane.hpp"
 
 namespace coastmesh {
@@ -42,14 +43,22 @@ double commonArea(const std::array<Point, 3>& one, std::array<Point, 3> other) {
 }  // namespace
 
 LostWater lostWater(const Grid& before, const Grid& now, std::span<const std::uint32_t> triangles,
-                    const ItemLoop& loop) {
+                    const NestPlane* plane, const ItemLoop& loop) {
   if (before.triangles.empty()) return {};
-  const Box around = boxAround(before.nodes, loop);
+  const auto inPlane = [&](const Grid& grid, std::uint32_t t) {
+    std::array<Point, 3> corners = cornersOf(grid, t);
+    if (plane != nullptr)
+      for (Point& corner : corners) corner = plane->forward(corner);
+    return corners;
+  };
+  Box around;
+  for (std::uint32_t t = 0; t < before.triangles.size(); ++t)
+    for (const Point& p : inPlane(before, t)) around.add(p);
   std::vector<std::uint32_t> near;
   std::vector<Box> boxes;
   for (const std::uint32_t t : triangles) {
     Box box;
-    for (const Point& p : cornersOf(now, t)) box.add(p);
+    for (const Point& p : inPlane(now, t)) box.add(p);
     if (!box.meets(around)) continue;
     near.push_back(t);
     boxes.push_back(box);
@@ -57,24 +66,24 @@ LostWater lostWater(const Grid& before, const Grid& now, std::span<const std::ui
   const BoxTree tree(boxes, BoxTree::Order::Hilbert, loop);
   std::vector<double> lost(before.triangles.size(), 0.0);
   forEachByStretches(loop, lost.size(), [&](std::size_t i) {
-    std::array<Point, 3> corners = cornersOf(before, static_cast<std::uint32_t>(i));
+    const std::array<Point, 3> corners = inPlane(before, static_cast<std::uint32_t>(i));
     const double area = 0.5 * std::abs(cross(corners[1] - corners[0], corners[2] - corners[0]));
     if (!(area > 0.0)) return;
     Box box;
     for (const Point& p : corners) box.add(p);
     double covered = 0.0;
-    tree.visit(box, [&](std::uint32_t k) { covered += commonArea(corners, cornersOf(now, near[k])); });
+    tree.visit(box, [&](std::uint32_t k) { covered += commonArea(corners, inPlane(now, near[k])); });
     const double share = std::max(0.0, 1.0 - covered / area);
-    flattenLocally(before.crs, corners);
-    lost[i] = share * 0.5 * std::abs(cross(corners[1] - corners[0], corners[2] - corners[0]));
+    std::array<Point, 3> ground = cornersOf(before, static_cast<std::uint32_t>(i));
+    flattenLocally(before.crs, ground);
+    lost[i] = share * 0.5 * std::abs(cross(ground[1] - ground[0], ground[2] - ground[0]));
   });
   LostWater all;
   for (std::uint32_t t = 0; t < lost.size(); ++t) {
     all.area_m2 += lost[t];
     if (lost[t] <= all.largest_m2) continue;
     all.largest_m2 = lost[t];
-    const std::array<Point, 3> corners = cornersOf(before, t);
-    all.place = centroid(corners[0], corners[1], corners[2]);
+    all.place = meanPlace(before.crs, cornersOf(before, t));
   }
   return all;
 }

@@ -6,6 +6,7 @@
 #include "core/item_loop.hpp"
 #include "core/point.hpp"
 #include "gis/grid/grid.hpp"
+#include "gis/merge/nest_plane.hpp"
 
 namespace coastmesh {
 
@@ -18,7 +19,8 @@ struct LostWater {
 
 // What of the triangles of `before` is in none of these triangles of `now`. Both are in the same CRS, none overlaps
 // another of its mesh.
+// `plane`: where they are compared; null: in their own coordinates.
 LostWater lostWater(const Grid& before, const Grid& now, std::span<const std::uint32_t> triangles,
-                    const ItemLoop& loop = inOrder);
+                    const NestPlane* plane = nullptr, const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

@@ -2,21 +2,25 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include "gis/cut/cut_boundaries.hpp"
+#include "gis/fields/node_fields.hpp"
 #include "gis/grid/boundary_kinds.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/linked_grid.hpp"
 #include "gis/merge/joined_meshes.hpp"
 #include "gis/merge/nearby_shore.hpp"
+#include "gis/merge/nest_plane.hpp"
 #include "gis/merge/seam_boundaries.hpp"
 
 namespace coastmesh {
 
 namespace {
 
-// Both have features and the same kinds of values, or neither.
+// Both have features and the same kinds of values, or neither. Where only one has an attribute, the other gets its
+// default.
 void matchValues(Grid& grid, Grid& inserted) {
   if (grid.feature_of.empty() != inserted.feature_of.empty()) {
     Grid& silent = grid.feature_of.empty() ? grid : inserted;
@@ -28,6 +32,8 @@ void matchValues(Grid& grid, Grid& inserted) {
     a.clear();
     b.clear();
   };
+  addMissingFields(grid, inserted);
+  addMissingFields(inserted, grid);
   clearUnlessBoth(grid.size_m, inserted.size_m);
   clearUnlessBoth(grid.min_angle_deg, inserted.min_angle_deg);
   clearUnlessBoth(grid.area_m2, inserted.area_m2);
@@ -42,12 +48,13 @@ bool dropPartition(Grid& grid) {
   return had_one;
 }
 
-// The grid's triangles without a flag, with the depths of their nodes.
+// The grid's triangles without a flag, with the depths and fields of their nodes.
 Grid partWithout(const Grid& grid, const std::vector<std::uint8_t>& keeps) {
   Grid part;
   part.crs = grid.crs;
   part.nodes = grid.nodes;
   part.z = grid.z;
+  part.node_fields = grid.node_fields;
   for (std::size_t t = 0; t < keeps.size(); ++t)
     if (keeps[t] == 0) part.triangles.push_back(grid.triangles[t]);
   removeUnusedNodes(part);
@@ -182,7 +189,10 @@ void setSources(Grid& grid, const JoinedMeshes& joined, std::size_t inserted_tri
 }  // namespace
 
 MergeReport mergeGrids(Grid& grid, Grid&& inserted, const ItemLoop& loop) {
-  const JoinedMeshes joined = joinMeshes(grid, inserted, loop);
+  const std::optional<NestPlane> found = NestPlane::around(grid, inserted, loop);
+  const NestPlane* const plane = found ? &*found : nullptr;
+  if (plane != nullptr) matchTurn(inserted, grid);
+  const JoinedMeshes joined = joinMeshes(grid, inserted, plane, loop);
   MergeReport report;
   report.covered = joined.covered;
   report.cut_off = joined.cut_off;
@@ -193,7 +203,7 @@ MergeReport mergeGrids(Grid& grid, Grid&& inserted, const ItemLoop& loop) {
     report.partition_dropped = dropPartition(*part) || report.partition_dropped;
 
   const EdgeKinds kinds_before(grid);
-  const NearbyShore shore_before(grid, loop);
+  const NearbyShore shore_before(grid, plane, loop);
   const std::vector<std::uint32_t> instead = becomes(joined.same, inserted.nodes.size());
   const std::size_t inserted_triangles = inserted.triangles.size();
   SeamOrigin origin;
@@ -224,7 +234,7 @@ MergeReport mergeGrids(Grid& grid, Grid&& inserted, const ItemLoop& loop) {
   std::vector<std::uint32_t> others;
   for (std::uint32_t t = 0; t < grid.triangles.size(); ++t)
     if (report.triangles[t].mesh != 0) others.push_back(t);
-  report.lost = lostWater(report.gone, grid, others, loop);
+  report.lost = lostWater(report.gone, grid, others, plane, loop);
   return report;
 }
 

@@ -8,12 +8,14 @@
 
 namespace coastmesh {
 
-NearbyShore::NearbyShore(const Grid& grid, const ItemLoop& loop) {
+NearbyShore::NearbyShore(const Grid& grid, const NestPlane* plane, const ItemLoop& loop) : plane_(plane) {
   std::vector<Box> boxes;
   for (const Boundary& boundary : grid.boundaries) {
     const bool is_opening = isOpening({boundary.role, boundary.ibtype});
     for (const auto& [from, to] : edgesOf(boundary)) {
-      const Edge& edge = edges_.emplace_back(grid.nodes[from], grid.nodes[to], is_opening);
+      const Point a = at(grid.nodes[from]), b = at(grid.nodes[to]);
+      if (plane != nullptr && plane->isFar(a) && plane->isFar(b)) continue;
+      const Edge& edge = edges_.emplace_back(a, b, is_opening);
       boxes.push_back(Box::of(edge.a, edge.b));
       longest_ = std::max(longest_, distance(edge.a, edge.b));
     }
@@ -21,7 +23,8 @@ NearbyShore::NearbyShore(const Grid& grid, const ItemLoop& loop) {
   tree_ = BoxTree(boxes, BoxTree::Order::Hilbert, loop);
 }
 
-bool NearbyShore::passes(const Point& a, const Point& b) const {
+bool NearbyShore::passes(const Point& from, const Point& to) const {
+  const Point a = at(from), b = at(to);
   const Point middle = midpoint(a, b);
   const double own = squaredDistance(a, b);
   bool is_at_shore = false, is_at_opening = false;

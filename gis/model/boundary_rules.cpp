@@ -56,6 +56,13 @@ std::optional<std::string> typeOf(const Feature& feature, const std::string& col
   return std::nullopt;
 }
 
+// The feature's attribute `name`, in whatever case; empty if it has none.
+std::string givenName(const Feature& feature) {
+  for (const auto& [key, value] : feature.attributes)
+    if (lowerCase(key) == "name") return value;
+  return {};
+}
+
 bool isOfTypes(const RawLayer& layer) { return layer.use == FeatureUse::Boundary; }
 
 // The columns of tables, and attributes that features of a cleaned file have kept.
@@ -141,6 +148,9 @@ class LayerPlaces {
   std::optional<CrsMap> map_;
 };
 
+// As a rule's, which says neither names nor where boundaries end.
+BoundaryKind typeAlone(const BoundaryKind& kind) { return {kind.role, kind.ibtype}; }
+
 // Sets the edges after each other. Where the boundary touches itself in a node, the next in order is taken.
 void linkEdges(const EdgesToType& edges, const std::vector<std::size_t>& index, std::vector<NearEdge>& near) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> by_start;  // first node, place in `near`
@@ -207,6 +217,7 @@ class BoundaryLayer {
 
   std::optional<Crs> crs_;
   std::vector<BoundaryRule> rules_;
+  std::vector<std::string> names_;  // that each rule gives to the boundary; lines go on in others whatever their names
   RuleShapes as_given_;
   RuleShapes turned_;   // continued past the antimeridian
   bool jumps_ = false;  // true if the two differ
@@ -232,6 +243,8 @@ struct BoundaryLayer::Typing {
 
 void BoundaryLayer::addRule(const BoundaryKind& kind, const Feature& feature, RuleForm form) {
   rules_.push_back({kind, form, feature.fid, std::string(nameOf(feature.attributes))});
+  // A polygon that is meshed is named for its water.
+  names_.push_back(isOpening(kind) && form != RuleForm::Shore ? givenName(feature) : "");
 }
 
 void BoundaryLayer::addArea(const BoundaryKind& kind, const Feature& feature, const Polygon& polygon) {
@@ -269,6 +282,7 @@ void BoundaryLayer::build() {
 
 void BoundaryLayer::set(std::size_t edge, std::size_t rule, std::size_t first, RuledEdges& ruled) const {
   ruled.kinds[edge] = rules_[rule].kind;
+  ruled.kinds[edge]->name = names_[rule];
   ruled.rules[edge] = static_cast<std::uint32_t>(first + rule);
 }
 
@@ -291,7 +305,7 @@ void BoundaryLayer::apply(const EdgesToType& edges, bool roughly, std::size_t fi
       if (!roughly) continue;
       some.bounds.add(Box::of(edge->a, edge->b));
       if (!shapes.anyNear(*edge, kAround * edge->element, kSmall * edge->element, plane)) continue;
-      some.near.push_back({*edge, last, kNone, edges.before.empty() ? BoundaryKind{} : edges.before[e]});
+      some.near.push_back({*edge, last, kNone, edges.before.empty() ? BoundaryKind{} : typeAlone(edges.before[e])});
       some.index.push_back(e);
     }
     return some;

@@ -11,95 +11,11 @@
 #include "gis/for_count.hpp"
 #include "gis/model/fill_depths.hpp"
 #include "gis/model/impossible_depths.hpp"
-#include "gis/model/sample_average.hpp"
-#include "gis/model/sample_raster.hpp"
 #include "gis/rounded_depth.hpp"
+#include "gis/sample/raster_values.hpp"
 
 namespace coastmesh {
 namespace {
-
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-// If the triangles around a node have fewer pixels than this, the four pixels around the node are used.
-constexpr double kLeastPixels = 4.0;
-// The share of pixels in a node's triangles that must have a value for their mean to take precedence over other
-// rasters.
-constexpr double kMostPixels = 0.5;
-
-// Collects values of rasters, in their own sign and level, for nodes that have none yet.
-class ValueSearch {
- public:
-  ValueSearch(const Grid& grid, const DepthOptions& options, const ItemLoop& loop, DepthReport& report)
-      : grid_(grid),
-        options_(options),
-        loop_(loop),
-        report_(report),
-        values_(grid.nodes.size(), kUnknown),
-        partial_(grid.nodes.size(), kUnknown),
-        partial_file_(grid.nodes.size(), 0) {
-    report_.nodes_of_file.assign(options.files.size(), 0);
-  }
-
-  void take(std::size_t file, const RunControl& control) {
-    const RasterBand raster(options_.files[file]);
-    raster.requireEvenFiles();
-    const std::vector<std::string>& notes = raster.geometry().notes;
-    report_.notes.insert(report_.notes.end(), notes.begin(), notes.end());
-    if (raster.crs().isPlane() && !grid_.crs.isPlane())
-      report_.warnings.push_back("'" + raster.path() + "' has no CRS; taken to be in that of the mesh, " +
-                                 nameOf(grid_.crs));
-    std::vector<std::uint32_t> open = unknownNodes();
-    if (open.empty()) return;
-    const std::vector<Point> pixels = pixelsOf(grid_, raster, loop_);
-    if (options_.method == DepthMethod::Average) {
-      const auto samples = sampleAverage(raster, grid_, pixels, open, kLeastPixels, loop_, control);
-      report_.averaged += put(file, open, samples, kMostPixels);
-      open = unknownNodes();
-    }
-    put(file, open, sampleBilinear(raster, pixels, open, options_.readers, loop_, control), 1.0);
-  }
-
-  std::vector<double> finish() {
-    for (std::size_t i = 0; i < values_.size(); ++i) {
-      if (!std::isnan(values_[i]) || std::isnan(partial_[i])) continue;
-      values_[i] = partial_[i];
-      ++report_.partial;
-      ++report_.nodes_of_file[partial_file_[i]];
-    }
-    return std::move(values_);
-  }
-
- private:
-  std::vector<std::uint32_t> unknownNodes() const {
-    std::vector<std::uint32_t> nodes;
-    for (std::uint32_t i = 0; i < values_.size(); ++i)
-      if (std::isnan(values_[i])) nodes.push_back(i);
-    return nodes;
-  }
-
-  std::size_t put(std::size_t file, const std::vector<std::uint32_t>& nodes, const std::vector<RasterSample>& samples,
-                  double least_share) {
-    std::size_t taken = 0;
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-      if (!(samples[k].share > 0.0)) continue;
-      if (samples[k].share >= least_share) {
-        values_[nodes[k]] = samples[k].value;
-        ++taken;
-      } else if (std::isnan(partial_[nodes[k]])) {
-        partial_[nodes[k]] = samples[k].value;
-        partial_file_[nodes[k]] = file;
-      }
-    }
-    report_.nodes_of_file[file] += taken;
-    return taken;
-  }
-
-  const Grid& grid_;
-  const DepthOptions& options_;
-  const ItemLoop& loop_;
-  DepthReport& report_;
-  std::vector<double> values_, partial_;
-  std::vector<std::size_t> partial_file_;
-};
 
 // Share of all nodes, or of the area: more without a value is not just the edge of a raster.
 constexpr double kMuchWithout = 0.05;
@@ -201,6 +117,14 @@ std::string dryWarning(std::vector<double> z, std::size_t dry, const DepthOption
          ": a lake's surface may be that high above the rasters' zero; give it with --water-level. Or " + by_sign;
 }
 
+void takeCounts(const RasterCounts& counts, DepthReport& report) {
+  report.nodes_of_file = counts.nodes_of_file;
+  report.averaged = counts.averaged;
+  report.partial = counts.partial;
+  report.notes = counts.notes;
+  report.warnings = counts.warnings;
+}
+
 void measure(const Grid& grid, DepthReport& report) {
   double least = std::numeric_limits<double>::infinity(), greatest = -least;
   for (const double z : grid.z) {
@@ -228,9 +152,10 @@ DepthReport setDepths(Grid& grid, const DepthOptions& options, const RunControl&
   DepthReport report;
   if (options.files.empty()) return report;
   const std::vector<double> before = options.keep_known ? std::move(grid.z) : std::vector<double>();
-  ValueSearch search(grid, options, loop, report);
-  for (std::size_t file = 0; file < options.files.size(); ++file) search.take(file, control);
+  RasterValues search(grid, {options.method == DepthMethod::Average, BandValues::Lengths, options.readers}, loop);
+  for (const std::string& file : options.files) search.take({file}, control);
   grid.z = search.finish();
+  takeCounts(search.counts(), report);
   for (double& z : grid.z) z = roundedDepth((options.positive_down ? 0.0 - z : z) - options.water_level_m);
   report.kept = keepFrom(before, grid.z);
   const std::size_t known = std::accumulate(report.nodes_of_file.begin(), report.nodes_of_file.end(), std::size_t{0});

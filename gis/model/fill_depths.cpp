@@ -19,9 +19,9 @@ namespace coastmesh {
 namespace {
 
 // Neighbours of each node, ascending, along edges with an end of unknown z.
-Neighbours neighboursOfUnknown(const Grid& grid, const ItemLoop& loop) {
+Neighbours neighboursOfUnknown(const Grid& grid, const std::vector<double>& values_at, const ItemLoop& loop) {
   using Edge = std::pair<std::uint32_t, std::uint32_t>;
-  const auto isUnknown = [&](std::uint32_t node) { return std::isnan(grid.z[node]); };
+  const auto isUnknown = [&](std::uint32_t node) { return std::isnan(values_at[node]); };
   std::vector<Edge> edges = joined(overStretches(loop, grid.triangles.size(), [&](std::size_t first, std::size_t last) {
     std::vector<Edge> some;
     for (std::size_t t = first; t < last; ++t) {
@@ -47,9 +47,10 @@ double distance(const Grid& grid, std::uint32_t a, std::uint32_t b) {
 }
 
 // Sets `nodes` to the means of their neighbours, all of which have a value.
-void settleNodes(Grid& grid, const Neighbours& neighbours, std::vector<std::uint32_t> nodes, const ItemLoop& loop) {
+void settleNodes(std::vector<double>& values_at, const Neighbours& neighbours, std::vector<std::uint32_t> nodes,
+                 double (*rounded)(double), const ItemLoop& loop) {
   std::ranges::sort(nodes);
-  std::vector<std::uint32_t> number(grid.nodes.size(), kNone);
+  std::vector<std::uint32_t> number(values_at.size(), kNone);
   for (std::size_t i = 0; i < nodes.size(); ++i) number[nodes[i]] = static_cast<std::uint32_t>(i);
   Membrane membrane;
   std::vector<double> values;
@@ -60,26 +61,27 @@ void settleNodes(Grid& grid, const Neighbours& neighbours, std::vector<std::uint
         membrane.neighbour.push_back(number[next]);
         continue;
       }
-      fixed += grid.z[next];
-      membrane.low = std::min(membrane.low, grid.z[next]);
-      membrane.high = std::max(membrane.high, grid.z[next]);
+      fixed += values_at[next];
+      membrane.low = std::min(membrane.low, values_at[next]);
+      membrane.high = std::max(membrane.high, values_at[next]);
     }
     membrane.fixed.push_back(fixed);
     membrane.degree.push_back(static_cast<double>(neighbours.of(node).size()));
     membrane.begin.push_back(membrane.neighbour.size());
-    values.push_back(grid.z[node]);
+    values.push_back(values_at[node]);
   }
   membrane.weight.assign(membrane.neighbour.size(), 1.0);
   settle(membrane, values, loop);
-  for (std::size_t i = 0; i < nodes.size(); ++i) grid.z[nodes[i]] = roundedDepth(values[i]);
+  for (std::size_t i = 0; i < nodes.size(); ++i) values_at[nodes[i]] = rounded(values[i]);
 }
 
 }  // namespace
 
-std::size_t fillFromNeighbours(Grid& grid, const ItemLoop& loop) {
-  const Neighbours neighbours = neighboursOfUnknown(grid, loop);
+std::size_t fillFromNeighbours(const Grid& grid, std::vector<double>& values_at, double (*rounded)(double),
+                               const ItemLoop& loop) {
+  const Neighbours neighbours = neighboursOfUnknown(grid, values_at, loop);
   std::vector<std::uint32_t> ring, all;
-  const auto isUnknown = [&](std::uint32_t node) { return std::isnan(grid.z[node]); };
+  const auto isUnknown = [&](std::uint32_t node) { return std::isnan(values_at[node]); };
   const auto addUnknownNeighbours = [&](std::uint32_t node, std::vector<bool>& waiting) {
     for (const std::uint32_t next : neighbours.of(node)) {
       if (!isUnknown(next) || waiting[next]) continue;
@@ -99,28 +101,28 @@ std::size_t fillFromNeighbours(Grid& grid, const ItemLoop& loop) {
       int known = 0;
       for (const std::uint32_t next : neighbours.of(node)) {
         if (isUnknown(next)) continue;
-        sum += grid.z[next];
+        sum += values_at[next];
         ++known;
       }
       values.push_back(sum / known);
     }
     const std::vector<std::uint32_t> done = std::move(ring);
     ring.clear();
-    for (std::size_t i = 0; i < done.size(); ++i) grid.z[done[i]] = values[i];
+    for (std::size_t i = 0; i < done.size(); ++i) values_at[done[i]] = values[i];
     for (const std::uint32_t node : done) addUnknownNeighbours(node, waiting);
     all.insert(all.end(), done.begin(), done.end());
   }
   const std::size_t filled = all.size();
-  if (filled > 0) settleNodes(grid, neighbours, std::move(all), loop);
+  if (filled > 0) settleNodes(values_at, neighbours, std::move(all), rounded, loop);
   return filled;
 }
 
-std::size_t fillFromNearest(Grid& grid, const ItemLoop& loop) {
-  const Neighbours neighbours = neighboursOfUnknown(grid, loop);
+std::size_t fillFromNearest(const Grid& grid, std::vector<double>& values_at, const ItemLoop& loop) {
+  const Neighbours neighbours = neighboursOfUnknown(grid, values_at, loop);
   using Entry = std::tuple<double, std::uint32_t, std::uint32_t>;  // distance, node, the node with its value
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   std::vector<bool> done(grid.nodes.size(), false);
-  for (std::uint32_t node = 0; node < grid.nodes.size(); ++node) done[node] = !std::isnan(grid.z[node]);
+  for (std::uint32_t node = 0; node < grid.nodes.size(); ++node) done[node] = !std::isnan(values_at[node]);
   const auto addNeighbours = [&](std::uint32_t node, std::uint32_t source, double far) {
     for (const std::uint32_t next : neighbours.of(node))
       if (!done[next]) queue.emplace(far + distance(grid, node, next), next, source);
@@ -133,17 +135,17 @@ std::size_t fillFromNearest(Grid& grid, const ItemLoop& loop) {
     queue.pop();
     if (done[node]) continue;
     done[node] = true;
-    grid.z[node] = grid.z[source];
+    values_at[node] = values_at[source];
     ++filled;
     addNeighbours(node, source, far);
   }
   return filled;
 }
 
-std::vector<std::uint32_t> fillWatersApart(Grid& grid) {
+std::vector<std::uint32_t> fillWatersApart(const Grid& grid, std::vector<double>& values_at) {
   std::vector<std::uint32_t> known, unknown;
   for (std::uint32_t node = 0; node < grid.nodes.size(); ++node)
-    (std::isnan(grid.z[node]) ? unknown : known).push_back(node);
+    (std::isnan(values_at[node]) ? unknown : known).push_back(node);
   if (known.empty()) return {};
   if (unknown.empty()) return unknown;
   std::vector<Bounds> places;
@@ -168,10 +170,18 @@ std::vector<std::uint32_t> fillWatersApart(Grid& grid) {
             if (found < std::pair{nearest, source}) std::tie(nearest, source) = found;
           });
     }
-    values.push_back(grid.z[source]);
+    values.push_back(values_at[source]);
   }
-  for (std::size_t i = 0; i < unknown.size(); ++i) grid.z[unknown[i]] = values[i];
+  for (std::size_t i = 0; i < unknown.size(); ++i) values_at[unknown[i]] = values[i];
   return unknown;
 }
+
+std::size_t fillFromNeighbours(Grid& grid, const ItemLoop& loop) {
+  return fillFromNeighbours(grid, grid.z, roundedDepth, loop);
+}
+
+std::size_t fillFromNearest(Grid& grid, const ItemLoop& loop) { return fillFromNearest(grid, grid.z, loop); }
+
+std::vector<std::uint32_t> fillWatersApart(Grid& grid) { return fillWatersApart(grid, grid.z); }
 
 }  // namespace coastmesh

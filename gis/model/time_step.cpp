@@ -168,6 +168,22 @@ std::vector<ShortStep> stepsBelow(const Grid& grid, double time_step_s, double c
   return found;
 }
 
+std::vector<LongStep> stepsAbove(const Grid& grid, double time_step_s, double courant, double least_depth_m,
+                                 const ItemLoop& loop) {
+  const EdgeMeter meter(grid.nodes, grid.crs, loop);
+  std::vector<LongStep> found =
+      joined(overStretches(loop, grid.triangles.size(), [&](std::size_t first, std::size_t last) {
+        std::vector<LongStep> some;
+        for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
+          const double depth = deepestOf(grid, t), step = stepOf(meter.shortestOf(grid.triangles[t]), depth);
+          if (depth > least_depth_m && time_step_s < courant * step) some.push_back({t, step});
+        }
+        return some;
+      }));
+  std::ranges::stable_sort(found, std::ranges::greater{}, &LongStep::step_s);
+  return found;
+}
+
 std::vector<ShortEdge> edgesBelow(const Grid& grid, double least_m, const ItemLoop& loop) {
   const EdgeMeter meter(grid.nodes, grid.crs, loop);
   auto edges = joined(overStretches(loop, grid.triangles.size(), [&](std::size_t first, std::size_t last) {

@@ -51,6 +51,17 @@ struct ShortStep {
 // Triangles whose Courant number at `time_step_s` is above `courant`, the worst first.
 std::vector<ShortStep> stepsBelow(const Grid& grid, double time_step_s, double courant, const ItemLoop& loop = inOrder);
 
+// A triangle whose Courant number is too small.
+struct LongStep {
+  std::uint32_t triangle = 0;
+  double step_s = 0.0;  // for a Courant number of 1
+};
+
+// Triangles in water deeper than `least_depth_m` whose Courant number at `time_step_s` is below `courant`, the worst
+// first.
+std::vector<LongStep> stepsAbove(const Grid& grid, double time_step_s, double courant, double least_depth_m,
+                                 const ItemLoop& loop = inOrder);
+
 struct ShortEdge {
   Point place;  // its middle
   double length_m = 0.0;

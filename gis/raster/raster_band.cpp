@@ -95,7 +95,7 @@ struct RasterBand::Dataset {
   }
 };
 
-RasterBand::RasterBand(std::string path) : dataset_(std::make_unique<Dataset>()) {
+RasterBand::RasterBand(std::string path, BandValues kind) : kind_(kind), dataset_(std::make_unique<Dataset>()) {
   geometry_.path = std::move(path);
   const std::string& name = geometry_.path;
   registerDrivers();
@@ -130,16 +130,7 @@ RasterBand::RasterBand(std::string path) : dataset_(std::make_unique<Dataset>())
   raster.is_single = type == GDT_Float32;
   raster.scale = raster.band->GetScale();
   raster.offset = raster.band->GetOffset();
-  const auto [unit, metres] = unitOf(*raster.dataset, *raster.band);
-  if (!metres)
-    throw InputError("'" + name + "': the unit of its values is '" + unit +
-                     "', which is no length; if they are in metres, have the file say so (gdal_edit.py -units m, or "
-                     "ncatted for netCDF)");
-  if (*metres != 1.0) {
-    raster.scale *= *metres;
-    raster.offset *= *metres;
-    geometry_.notes.push_back("'" + name + "' is in " + unit + ": its values are multiplied by " + numberText(*metres));
-  }
+  if (kind == BandValues::Lengths) bringToMetres();
   geometry_.columns = raster.dataset->GetRasterXSize();
   geometry_.rows = raster.dataset->GetRasterYSize();
   readPlaces(errors.text());
@@ -216,6 +207,19 @@ RasterUse RasterBand::use() const {
 
 RasterBand::~RasterBand() = default;
 RasterBand::RasterBand(RasterBand&&) noexcept = default;
+
+void RasterBand::bringToMetres() {
+  Dataset& raster = *dataset_;
+  const auto [unit, metres] = unitOf(*raster.dataset, *raster.band);
+  if (!metres)
+    throw InputError("'" + path() + "': the unit of its values is '" + unit +
+                     "', which is no length; if they are in metres, have the file say so (gdal_edit.py -units m, or "
+                     "ncatted for netCDF)");
+  if (*metres == 1.0) return;
+  raster.scale *= *metres;
+  raster.offset *= *metres;
+  geometry_.notes.push_back("'" + path() + "' is in " + unit + ": its values are multiplied by " + numberText(*metres));
+}
 
 RasterGeometry readRasterGeometry(const std::string& path) {
   const RasterBand band(path);

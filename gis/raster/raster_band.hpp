@@ -51,6 +51,9 @@ struct RasterGeometry {
   }
 };
 
+// Whether the values of a band are lengths, which are read in metres, or numbers in any unit, read as they are.
+enum class BandValues { Lengths, AsTheyAre };
+
 // What was read of a raster: bytes of its pixels, uncompressed, in their type, including repeated reads; and the files
 // that contain them, if the raster names its files.
 struct RasterUse {
@@ -72,9 +75,8 @@ RasterGeometry readRasterGeometry(const std::string& path);
 // a mask (of the band, of the raster, an alpha band).
 class RasterBand {
  public:
-  // Throws InputError, also for a raster without georeference, for complex numbers, and for values whose unit is not a
-  // length.
-  explicit RasterBand(std::string path);
+  // Throws InputError, also for a raster without georeference, for complex numbers, and for lengths whose unit is none.
+  explicit RasterBand(std::string path, BandValues kind = BandValues::Lengths);
   ~RasterBand();
   RasterBand(RasterBand&&) noexcept;
   RasterBand& operator=(RasterBand&&) = delete;
@@ -91,7 +93,10 @@ class RasterBand {
   std::int64_t tileColumns() const { return tile_columns_; }
   std::int64_t tileRows() const { return tile_rows_; }
 
-  // The window's values row by row, in metres, with scale and offset applied, NaN where missing. Columns beyond either
+  // The same band, opened once more.
+  RasterBand reopened() const { return RasterBand(path(), kind_); }
+
+  // The window's values row by row, with scale and offset applied, NaN where missing. Columns beyond either
   // end wrap around if `wraps()`. REQUIRES: otherwise the window is in the raster. Throws InputError.
   std::vector<double> read(const RasterWindow& window) const;
   // Throws InputError for a VRT of files whose pixels are not evenly spaced.
@@ -102,10 +107,12 @@ class RasterBand {
  private:
   struct Dataset;
 
+  void bringToMetres();
   void readPlaces(const std::string& told);
   void readInto(const RasterWindow& window, double* values, std::int64_t stride) const;
 
   RasterGeometry geometry_;
+  BandValues kind_;
   std::unique_ptr<Dataset> dataset_;
   std::int64_t tile_columns_ = 1;
   std::int64_t tile_rows_ = 1;

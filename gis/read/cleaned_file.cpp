@@ -20,7 +20,7 @@ namespace coastmesh {
 namespace {
 
 OGRLayer* layerNamed(const OpenSource& source, std::string_view name) {
-  for (OGRLayer* layer : source.layers) {
+  for (OGRLayer* layer : source.dataset->GetLayers()) {
     if (layer->GetName() == name) return layer;
   }
   return nullptr;
@@ -76,7 +76,7 @@ struct Cleaned {
   std::map<FeatureId, Lines> area_lines;
   std::map<FeatureId, std::int64_t> part_of;  // of areas: the part of the graph
   std::map<std::pair<FeatureUse, FeatureId>, Lines> lines;
-  std::map<std::string, Lines> boundaries;  // by type
+  std::map<std::pair<std::string, std::string>, Lines> boundaries;  // by type and name
   std::map<FeatureId, std::vector<Polygon>> regions;
   std::map<std::int64_t, std::map<std::int64_t, Point>> vertices;  // by part and number
   std::vector<Point> alone;                                        // vertices without edges
@@ -94,6 +94,10 @@ std::int64_t wholeOf(const OGRFeature& row, const char* field) {
   return row.GetFieldAsInteger64(row.GetFieldIndex(field));
 }
 std::string textOf(const OGRFeature& row, const char* field) { return row.GetFieldAsString(row.GetFieldIndex(field)); }
+// Empty if there is no such field.
+std::string textIfAny(const OGRFeature& row, const char* field) {
+  return row.GetFieldIndex(field) < 0 ? std::string() : textOf(row, field);
+}
 
 // Reads the rows of layers with shapes of one type.
 class ShapeReader {
@@ -155,10 +159,8 @@ void takeEdges(OGRLayer* layer, const ShapeReader& shapes, Cleaned& cleaned) {
       cleaned.area_lines[side].push_back(points);
       cleaned.part_of[side] = part;
     }
-    if (const int type = row.GetFieldIndex(kBoundaryField); type >= 0 && row.IsFieldSetAndNotNull(type)) {
-      if (const std::string text = row.GetFieldAsString(type); !text.empty())
-        cleaned.boundaries[text].push_back(points);
-    }
+    if (std::string type = textIfAny(row, kBoundaryField); !type.empty())
+      cleaned.boundaries[{std::move(type), textIfAny(row, kBoundaryNameField)}].push_back(points);
     if (const auto use = useOfKind(textOf(row, "kind")))
       cleaned.lines[{*use, wholeOf(row, "line_id")}].push_back(std::move(points));
   });
@@ -191,8 +193,11 @@ void takeEdits(OGRLayer* layer, const ShapeReader& shapes) {
   });
 }
 
-bool isReadWhole(const OpenSource& source) {
-  return source.layers.size() == static_cast<std::size_t>(source.dataset->GetLayerCount());
+// A GIS names the layer that it shows. As an area, that layer means nothing without the others.
+bool isReadWhole(const OpenSource& source, FeatureUse given_as) {
+  if (source.layers.size() == static_cast<std::size_t>(source.dataset->GetLayerCount())) return true;
+  return given_as == FeatureUse::Area && source.layers.size() == 1 &&
+         source.layers[0]->GetName() == std::string_view(kPslgLayer) && layerNamed(source, kFeatureLayer) != nullptr;
 }
 
 [[noreturn]] void refuseAsGuest(const OpenSource& source, FeatureUse use) {
@@ -213,7 +218,7 @@ class CleanedLayers {
     addAreaLayer(report);
     for (const FeatureUse use : {FeatureUse::Constraint, FeatureUse::Weir, FeatureUse::Open}) addLineLayer(use);
     addRegionLayer();
-    for (const auto& [type, lines] : cleaned_.boundaries) addBoundaryLayer(type, lines);
+    for (const auto& [type, lines] : cleaned_.boundaries) addBoundaryLayer(type.first, type.second, lines);
     addPointLayer();
     return std::move(layers_);
   }
@@ -279,9 +284,11 @@ class CleanedLayers {
     }
   }
 
-  void addBoundaryLayer(const std::string& type, const Lines& lines) {
+  void addBoundaryLayer(const std::string& type, const std::string& name, const Lines& lines) {
     RawLayer& layer = add(FeatureUse::Boundary);
-    addLineFeature(layer).attributes = {{kBoundaryField, type}};
+    Feature& feature = addLineFeature(layer);
+    feature.attributes = {{kBoundaryField, type}};
+    if (!name.empty()) feature.attributes.emplace_back("name", name);
     JoinedLines joined = joinLines(lines);
     for (JoinedLines::Part& ring : joined.rings) {
       ring.points.push_back(ring.points.front());
@@ -310,7 +317,7 @@ std::optional<Crs> crsOf(OGRLayer& layer) {
 
 std::optional<std::vector<RawLayer>> readCleaned(const OpenSource& source, FeatureUse given_as, const OgrErrors& errors,
                                                  ReadReport& report) {
-  if (!isReadWhole(source)) return std::nullopt;
+  if (!isReadWhole(source, given_as)) return std::nullopt;
   OGRLayer* const pslg = layerNamed(source, kPslgLayer);
   if (!pslg || !hasFields(*pslg, {"kind", "region", "left_fid", "right_fid"})) return std::nullopt;
   if (given_as != FeatureUse::Area) refuseAsGuest(source, given_as);

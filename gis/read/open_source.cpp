@@ -19,6 +19,7 @@
 #include "gis/lower_case.hpp"
 #include "gis/read/odd_geojson.hpp"
 #include "gis/read/osm_ways.hpp"
+#include "gis/secrets.hpp"
 
 namespace coastmesh {
 
@@ -209,6 +210,16 @@ std::string fieldsInWords(const OpenSource& source) {
   return names.empty() ? "; it has no fields" : "; its fields are " + listed(names, kShown);
 }
 
+// True for the name of something other than a file: of a database ("PG:dbname=coasts"), or a URL.
+bool isConnection(const std::string& path) {
+  if (path.find("://") != std::string::npos) return true;
+  for (int i = 0; i < GDALGetDriverCount(); ++i) {
+    const char* const prefix = GDALGetMetadataItem(GDALGetDriver(i), GDAL_DMD_CONNECTION_PREFIX, nullptr);
+    if (prefix != nullptr && *prefix != '\0' && STARTS_WITH_CI(path.c_str(), prefix)) return true;
+  }
+  return false;
+}
+
 [[noreturn]] void refuse(const std::string& name, const std::string& path, const OgrErrors& errors) {
   std::string why;
   if (!errors.text().empty()) why.append(" (").append(errors.text()).append(")");
@@ -217,8 +228,11 @@ std::string fieldsInWords(const OpenSource& source) {
                      ": name standard input '-', which may hold an archive");
   VSIStatBufL stat;
   if (VSIStatL(path.c_str(), &stat) != 0) {
+    if (isConnection(path)) throw InputError(sourceInWords(name) + ": cannot be opened" + why);
+    // Of a missing file GDAL says no more than that.
+    const bool says_more = path.starts_with("/vsi") || errors.text().find("No such file") == std::string::npos;
     throw InputError(sourceInWords(name) + ": no such file; check the path, or name a source that OGR can open" +
-                     (path.starts_with("/vsi") || path.find("://") != std::string::npos ? why : ""));
+                     (says_more ? why : ""));
   }
   if (!VSI_ISDIR(stat.st_mode) && stat.st_size == 0) throw InputError(sourceInWords(name) + ": the file is empty");
   // GDAL does not open a file that is one odd geometry, and does not report where it is odd.
@@ -251,7 +265,7 @@ OpenSource openSource(const std::string& given, const std::vector<std::string>& 
   registerDrivers();
   const auto [file, layer_of_file] = splitLayer(given);
   OpenSource source;
-  source.name = nameOf(file);
+  source.name = withoutSecrets(nameOf(file));
   std::vector<std::string> names = wanted;
   if (!layer_of_file.empty()) names = {layer_of_file};
   source.names_layers = !names.empty();

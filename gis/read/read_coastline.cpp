@@ -243,9 +243,11 @@ Coastline readCoastline(const std::vector<Source>& sources, const ReadFilter& fi
                         const SeeLayers& see_areas, const SnapIn& snap_in) {
   if (sources.empty()) throw InputError("no input was given: name at least one vector source");
   std::vector<RawLayer> layers;
+  ReadFilter of_guests;
+  of_guests.unsaid_in_plane = filter.unsaid_in_plane;
   for (const Source& source : sources) {
     const bool is_area = source.use == FeatureUse::Area;
-    std::vector<RawLayer> of_source = readLayers(source, is_area ? filter : ReadFilter{}, report);
+    std::vector<RawLayer> of_source = readLayers(source, is_area ? filter : of_guests, report);
     if (is_area && see_areas) see_areas(of_source);
     for (RawLayer& layer : of_source)
       if (layer.use != FeatureUse::Boundary) layers.push_back(std::move(layer));

@@ -18,10 +18,13 @@
 #include "gis/mesh_layers.hpp"
 #include "gis/read/bare_geojson.hpp"
 #include "gis/read/cleaned_file.hpp"
+#include "gis/read/geojson_crs.hpp"
+#include "gis/read/geojson_member.hpp"
 #include "gis/read/near_box.hpp"
 #include "gis/read/ogr_geometry.hpp"
 #include "gis/read/open_source.hpp"
 #include "gis/read/osm_ways.hpp"
+#include "gis/secrets.hpp"
 
 namespace coastmesh {
 
@@ -197,10 +200,14 @@ class LayerReader {
     }
   }
 
-  // `filtered`: other features may have been left out.
-  RawLayer finish(bool filtered) {
-    if (raw_.use == FeatureUse::Area && !filtered && raw_.columns.empty() && count_ == 1 && raw_.features.size() == 1)
-      takeBareApart();
+  // True if it has a single feature without attributes.
+  bool isLone() const {
+    return raw_.use == FeatureUse::Area && raw_.columns.empty() && count_ == 1 && raw_.features.size() == 1;
+  }
+
+  // `bare`: it is a geometry, no row of a table, which keeps its number.
+  RawLayer finish(bool bare) {
+    if (bare && isLone()) takeBareApart();
     return std::move(raw_);
   }
 
@@ -253,11 +260,11 @@ class LayerReader {
                    "; polygons or lines are needed");
 }
 
-std::vector<RawLayer> finishAll(std::vector<LayerReader>& readers, bool filtered, const std::string& source,
+std::vector<RawLayer> finishAll(std::vector<LayerReader>& readers, bool bare, const std::string& source,
                                 std::uint64_t points) {
   std::vector<RawLayer> raw;
   for (LayerReader& reader : readers) {
-    RawLayer finished = reader.finish(filtered);
+    RawLayer finished = reader.finish(bare);
     if (!finished.empty()) raw.push_back(std::move(finished));
   }
   if (raw.empty()) refuseEmpty(source, points);
@@ -288,11 +295,11 @@ std::vector<RawLayer> readLayers(const Source& given, const ReadFilter& filter, 
   std::vector<LayerReader> readers;
   if (std::optional<GeometryParts> bare = filtered ? std::nullopt : readBareGeojson(given.path)) {
     Feature feature;
-    feature.source = given.path;
+    feature.source = withoutSecrets(given.path);
     feature.use = given.use;
-    readers.emplace_back(wgs84(), given.path, given.use);
+    readers.emplace_back(wgs84(), feature.source, given.use);
     readers.front().add(std::move(*bare), std::move(feature), report);
-    return finishAll(readers, false, given.path, report.skipped_points - points_before);
+    return finishAll(readers, true, given.path, report.skipped_points - points_before);
   }
 
   OgrErrors errors;
@@ -300,8 +307,9 @@ std::vector<RawLayer> readLayers(const Source& given, const ReadFilter& filter, 
   const OgrOption what_is_left_out("CPL_DEBUG", "GeoJSON");
   const OpenSource source = openSource(given.path, filter.layers, errors);
   refuseOddGeojson(source, errors);
+  if (!filter.unsaid_in_plane) requireKnownCrs(source);
   if (given.use == FeatureUse::Area) refuseMesh(source);
-  if (!filtered) {
+  if (filter.where.empty()) {
     if (std::optional<std::vector<RawLayer>> cleaned = readCleaned(source, given.use, errors, report))
       return std::move(*cleaned);
   }
@@ -344,7 +352,11 @@ std::vector<RawLayer> readLayers(const Source& given, const ReadFilter& filter, 
     throw InputError(sourceInWords(source.name) + ": --where \"" + filter.where +
                      "\" holds for no feature with a geometry in it" +
                      (of_osm ? "; " + std::string(kHowToReadOsmCoasts) : ""));
-  return finishAll(readers, !filter.where.empty() || not_read > 0, source.name, report.skipped_points - points_before);
+  // A stream, or in an archive: files are read by `readBareGeojson`.
+  const bool bare = filter.where.empty() && not_read == 0 && readers.size() == 1 && readers.front().isLone() &&
+                    source.dataset->GetDriverName() == std::string_view("GeoJSON") &&
+                    isBareGeometry(source.dataset->GetDescription());
+  return finishAll(readers, bare, source.name, report.skipped_points - points_before);
 }
 
 }  // namespace coastmesh

@@ -22,7 +22,7 @@ struct ReadFilter {
   std::vector<std::string> layers;  // only layers of these names; empty: all
   std::string where;                // only features that satisfy this SQL condition; empty: all
   std::optional<Box> near{};        // in degrees: features that are not near it may be left out, see `keepNear`
-  bool unsaid_in_plane = false;     // if no source says its CRS, all are in a plane, also if they may be in degrees
+  bool unsaid_in_plane = false;     // if no source says a CRS that is known, all are in a plane, degrees or not
 };
 
 }  // namespace coastmesh

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <unordered_map>
 
 #include "core/metric.hpp"
@@ -16,7 +17,17 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-// The triangles that a patch replaces, in its plane, with a value at each corner.
+// A place within three nodes, or between two: values there are their means with these weights.
+struct Within {
+  std::array<std::uint32_t, 3> nodes;
+  std::array<double, 3> weights;
+
+  double of(const std::vector<double>& values) const {
+    return weights[0] * values[nodes[0]] + weights[1] * values[nodes[1]] + weights[2] * values[nodes[2]];
+  }
+};
+
+// The triangles that a patch replaces, in its plane.
 class OldTriangles {
  public:
   OldTriangles(const Grid& grid, const RemeshPatch& patch, const ItemLoop& loop) : grid_(grid), patch_(patch) {
@@ -42,9 +53,10 @@ class OldTriangles {
     tree_ = BoxTree(boxes, BoxTree::Order::Hilbert, loop);
   }
 
-  // Linear in the triangle at the place; rounding may have put it just outside of all.
-  double zAt(const Point& place) const {
-    double best = -std::numeric_limits<double>::infinity(), z = kUnknown;
+  // In the triangle at the place; rounding may have put it just outside of all.
+  std::optional<Within> at(const Point& place) const {
+    double best = -std::numeric_limits<double>::infinity();
+    std::optional<Within> found;
     const double slack =
         kSlack * std::max(tree_.bounds().xmax - tree_.bounds().xmin, tree_.bounds().ymax - tree_.bounds().ymin);
     tree_.visit(Box::of(place, place).grownBy(slack), [&](std::uint32_t i) {
@@ -55,10 +67,9 @@ class OldTriangles {
       const double least = std::min({at_a, at_b, 1.0 - at_a - at_b});
       if (!(least > best)) return;
       best = least;
-      const auto& v = grid_.triangles[patch_.triangles[i]];
-      z = at_a * grid_.z[v[0]] + at_b * grid_.z[v[1]] + (1.0 - at_a - at_b) * grid_.z[v[2]];
+      found = {grid_.triangles[patch_.triangles[i]], {at_a, at_b, 1.0 - at_a - at_b}};
     });
-    return z;
+    return found;
   }
 
  private:
@@ -108,10 +119,17 @@ NewNodes newNodesOf(const Grid& grid, const RemeshPatch& patch, const TriMesh& m
     place = patch.domain.projection.inverse(mesh.points[first + i]);
     if (grid.crs.geographic) place.x = range.bring(place.x);
   });
-  if (grid.z.empty()) return nodes;
+  if (grid.z.empty() && grid.node_fields.empty()) return nodes;
   const OldTriangles old(grid, patch, loop);
-  nodes.z.resize(count);
-  forEachByStretches(loop, count, [&](std::size_t i) { nodes.z[i] = old.zAt(mesh.points[first + i]); });
+  std::vector<std::optional<Within>> within(count);
+  forEachByStretches(loop, count, [&](std::size_t i) { within[i] = old.at(mesh.points[first + i]); });
+  const auto valuesOf = [&](const std::vector<double>& of_grid) {
+    std::vector<double> values(count);
+    for (std::size_t i = 0; i < count; ++i) values[i] = within[i] ? within[i]->of(of_grid) : kUnknown;
+    return values;
+  };
+  if (!grid.z.empty()) nodes.z = valuesOf(grid.z);
+  for (const NodeField& field : grid.node_fields) nodes.fields.push_back(valuesOf(field.values));
   // Vertices on segments are between two nodes.
   const auto placeOf = [&](std::uint32_t node) {
     return pslg.points[static_cast<std::size_t>(std::ranges::lower_bound(patch.nodes, node) - patch.nodes.begin())];
@@ -120,7 +138,12 @@ NewNodes newNodesOf(const Grid& grid, const RemeshPatch& patch, const TriMesh& m
     const Point a = placeOf(ends[0]), b = placeOf(ends[1]);
     for (const VertexId v : added) {
       const double share = distance(a, mesh.points[v]) / distance(a, b);
-      nodes.z[v - first] = (1.0 - share) * grid.z[ends[0]] + share * grid.z[ends[1]];
+      const auto between = [&](const std::vector<double>& of_grid) {
+        return (1.0 - share) * of_grid[ends[0]] + share * of_grid[ends[1]];
+      };
+      if (!grid.z.empty()) nodes.z[v - first] = between(grid.z);
+      for (std::size_t k = 0; k < nodes.fields.size(); ++k)
+        nodes.fields[k][v - first] = between(grid.node_fields[k].values);
     }
   }
   return nodes;

@@ -20,13 +20,14 @@ struct DividedEdge {
 // The vertices of a patch's new mesh that are not those of its graph, in order: vertex `domain.pslg.points.size() + i`
 // is the i-th.
 struct NewNodes {
-  std::vector<Point> places;  // in the grid's CRS
-  std::vector<double> z;      // empty if the grid has none
+  std::vector<Point> places;                // in the grid's CRS
+  std::vector<double> z;                    // empty if the grid has none
+  std::vector<std::vector<double>> fields;  // of each field of the grid
   std::vector<DividedEdge> divided;
 };
 
-// Depths are linear over the triangles that are replaced, and along divided edges; unknown (NaN) where a corner's is.
-// Longitudes are in the range of the grid's. `mesh` is of the patch's graph.
+// Depths and fields are linear over the triangles that are replaced, and along divided edges; unknown (NaN) where a
+// corner's is. Longitudes are in the range of the grid's. `mesh` is of the patch's graph.
 NewNodes newNodesOf(const Grid& grid, const RemeshPatch& patch, const TriMesh& mesh, const ItemLoop& loop = inOrder);
 
 }  // namespace coastmesh

@@ -60,6 +60,7 @@ struct Slots {
 struct NewItems {
   std::vector<Point> places;
   std::vector<double> z, size_m;
+  std::vector<std::vector<double>> fields;            // of each field of the grid
   std::vector<std::array<std::uint32_t, 3>> corners;  // in the new numbers
   std::vector<std::uint32_t> features;
   std::vector<double> min_angle_deg;
@@ -151,6 +152,7 @@ ReplaceReport replacePatches(Grid& grid, const std::vector<RemeshPatch>& patches
   const Slots nodes(gone_nodes, report.nodes_added), triangles(gone_triangles, report.triangles_added);
 
   NewItems items;
+  items.fields.resize(grid.node_fields.size());
   Divisions divisions;
   std::size_t first_node = 0;
   for (std::size_t p = 0; p < patches.size(); ++p) {
@@ -171,6 +173,8 @@ ReplaceReport replacePatches(Grid& grid, const std::vector<RemeshPatch>& patches
     }
     items.places.insert(items.places.end(), of_patch[p].places.begin(), of_patch[p].places.end());
     items.z.insert(items.z.end(), of_patch[p].z.begin(), of_patch[p].z.end());
+    for (std::size_t k = 0; k < items.fields.size(); ++k)
+      items.fields[k].insert(items.fields[k].end(), of_patch[p].fields[k].begin(), of_patch[p].fields[k].end());
     for (std::size_t i = 0; i < added; ++i)
       items.size_m.push_back(meshes[p].size_m.empty() ? kUnknown : meshes[p].size_m[kept + i]);
     addAngles(patches[p].domain, mesh, loop, items.min_angle_deg);
@@ -179,8 +183,8 @@ ReplaceReport replacePatches(Grid& grid, const std::vector<RemeshPatch>& patches
   }
 
   // Every member of Grid: see `nodeArrays`.
-  auto& [title, crs, places, z, size_m, corners, quad_of, feature_of, piece_of, part_of, node_part_of, min_angle_deg,
-         area_m2, features, boundaries, lines, notes] = grid;
+  auto& [title, crs, places, z, size_m, node_fields, corners, quad_of, feature_of, piece_of, part_of, node_part_of,
+         min_angle_deg, area_m2, features, boundaries, lines, notes] = grid;
   report.partition_dropped = !part_of.empty() || !node_part_of.empty();
   part_of.clear();
   node_part_of.clear();
@@ -202,6 +206,8 @@ ReplaceReport replacePatches(Grid& grid, const std::vector<RemeshPatch>& patches
   nodes.place(places, loop, [&](std::size_t i) { return items.places[i]; });
   nodes.place(z, loop, [&](std::size_t i) { return items.z[i]; });
   nodes.place(size_m, loop, [&](std::size_t i) { return items.size_m[i]; });
+  for (std::size_t k = 0; k < node_fields.size(); ++k)
+    nodes.place(node_fields[k].values, loop, [&](std::size_t i) { return items.fields[k][i]; });
   if (!area_m2.empty()) {
     const std::vector<double> areas = areasOfFew(places, items.corners, crs);
     triangles.place(area_m2, loop, [&](std::size_t i) { return areas[i]; });

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "core/tri_mesh.hpp"
+#include "gis/check/check_target.hpp"
 #include "gis/grid/boundary_kinds.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/on_sphere.hpp"
-#include "gis/model/check_target.hpp"
 
 namespace coastmesh {
 

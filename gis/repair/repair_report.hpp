@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/point.hpp"
-#include "gis/model/check_target.hpp"
+#include "gis/check/check_target.hpp"
 
 namespace coastmesh {
 

@@ -10,12 +10,12 @@
 #include "core/metric.hpp"
 #include "core/predicates.hpp"
 #include "core/quality.hpp"
+#include "gis/check/flow_links.hpp"
+#include "gis/check/target_limits.hpp"
 #include "gis/crs/crs_map.hpp"
 #include "gis/grid/ground_orientation.hpp"
 #include "gis/grid/local_plane.hpp"
 #include "gis/long_wave.hpp"
-#include "gis/model/flow_links.hpp"
-#include "gis/model/target_limits.hpp"
 
 namespace coastmesh {
 namespace {

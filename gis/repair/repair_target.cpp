@@ -8,6 +8,7 @@
 
 #include "core/quality.hpp"
 #include "core/run_control.hpp"
+#include "gis/check/triangle_overlaps.hpp"
 #include "gis/crs/geodesy.hpp"
 #include "gis/elements/quads.hpp"
 #include "gis/error.hpp"
@@ -15,7 +16,6 @@
 #include "gis/grid/linked_grid.hpp"
 #include "gis/grid/local_plane.hpp"
 #include "gis/grid/one_turn.hpp"
-#include "gis/model/triangle_overlaps.hpp"
 #include "gis/repair/repair_boundaries.hpp"
 #include "gis/repair/repair_depths.hpp"
 #include "gis/repair/repair_pinches.hpp"

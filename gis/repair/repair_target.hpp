@@ -6,8 +6,8 @@
 
 #include "core/item_loop.hpp"
 #include "core/run_control.hpp"
+#include "gis/check/check_target.hpp"
 #include "gis/grid/grid.hpp"
-#include "gis/model/check_target.hpp"
 #include "gis/repair/repair_options.hpp"
 #include "gis/repair/repair_report.hpp"
 

@@ -46,14 +46,14 @@ std::vector<NodePair> MeshTriangles::boundaryEdges() const {
   return single;
 }
 
-double MeshTriangles::zAt(const Point& place) const {
-  const auto t = grid_.z.empty() ? std::nullopt : at(place);
+double MeshTriangles::valueAt(const std::vector<double>& values, const Point& place) const {
+  const auto t = values.empty() ? std::nullopt : at(place);
   if (!t) return std::numeric_limits<double>::quiet_NaN();
   const auto& v = grid_.triangles[*t];
   const Point &a = grid_.nodes[v[0]], &b = grid_.nodes[v[1]], &c = grid_.nodes[v[2]];
   const double whole = cross(b - a, c - a);
   const double of_a = cross(b - place, c - place) / whole, of_b = cross(c - place, a - place) / whole;
-  return of_a * grid_.z[v[0]] + of_b * grid_.z[v[1]] + (1.0 - of_a - of_b) * grid_.z[v[2]];
+  return of_a * values[v[0]] + of_b * values[v[1]] + (1.0 - of_a - of_b) * values[v[2]];
 }
 
 }  // namespace coastmesh

@@ -22,7 +22,9 @@ class MeshTriangles {
   // The one that contains the place; of several, the first.
   std::optional<std::uint32_t> at(const Point& place) const;
   // Linear between nodes; NaN outside the triangles, and if the mesh has no depths there.
-  double zAt(const Point& place) const;
+  double zAt(const Point& place) const { return valueAt(grid_.z, place); }
+  // The same for any values of its nodes, or none.
+  double valueAt(const std::vector<double>& values, const Point& place) const;
 
   // Edges that only one of these triangles has, by their nodes.
   std::vector<NodePair> boundaryEdges() const;

@@ -10,6 +10,7 @@
 #include "gis/crs/crs_map.hpp"
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
+#include "gis/read/geojson_crs.hpp"
 #include "gis/read/number_attribute.hpp"
 #include "gis/read/ogr_geometry.hpp"
 #include "gis/read/open_source.hpp"
@@ -119,6 +120,7 @@ std::vector<RiverLine> readRiverLines(const std::string& path, const Crs& crs, c
   const OgrOption what_is_left_out("CPL_DEBUG", "GeoJSON");
   const OpenSource source = openSource(path, {}, errors);
   refuseOddGeojson(source, errors);
+  requireKnownCrs(source);
   std::vector<RiverLine> lines;
   const bool only = source.dataset->GetLayerCount() == 1;
   bool has_depth = false, has_name = false;

@@ -125,18 +125,23 @@ double wavelengthOf(double period_s, double depth_m) {
   return 2.0 * std::numbers::pi * depth_m / x;
 }
 
+double sizeByWaves(const DepthRules& rules, double depth_m) {
+  double size = std::numeric_limits<double>::infinity();
+  if (rules.wave_elements > 0.0) size = wavelengthOf(rules.period_s, depth_m) / rules.wave_elements;
+  if (rules.crossing_s > 0.0) size = std::min(size, longWaveSpeed(depth_m) * rules.crossing_s);
+  return size;
+}
+
 TileRule depthRule(const DepthRules& rules) {
   TileRule rule;
   // Three box filters reach 1.5 times their width, and slopes one pixel further, also without a filter.
   constexpr double kNext = 1e-3;
   if (rules.slope_elements > 0.0) rule.margin_m = std::max(0.8 * rules.slope_filter_m, kNext);
-  const DepthTable waves(rules.least_depth_m, [&](double depth) {
-    return rules.wave_elements > 0.0 ? wavelengthOf(rules.period_s, depth) / rules.wave_elements : kNothing;
-  });
+  const DepthTable waves(rules.least_depth_m, [&](double depth) { return sizeByWaves(rules, depth); });
   rule.sizes = [rules, waves](const RasterTile& tile, std::span<float> sizes) {
     forEachDepth(tile, rules, [&](std::size_t pixel, int, int, double depth) {
       double size = kNothing;
-      if (rules.wave_elements > 0.0) size = waves.at(std::max(depth, rules.least_depth_m));
+      if (rules.byWaves()) size = waves.at(std::max(depth, rules.least_depth_m));
       for (const DepthBand& band : rules.bands)
         if (depth >= band.from_m && depth < band.to_m) size = std::min(size, band.size_m);
       sizes[pixel] = static_cast<float>(size);
@@ -182,8 +187,7 @@ double FilledField::sizeOf(double depth_m) const {
   // A margin, because nodes get their depths along the edges of the mesh, which differ slightly.
   constexpr double kMargin = 1.1;
   if (rule_.kind == SizeRule::Kind::Step) return kMargin * longWaveSpeed(depth) * rule_.time_step_s / rule_.courant;
-  double size = std::numeric_limits<double>::infinity();
-  if (rules.wave_elements > 0.0) size = wavelengthOf(rules.period_s, depth) / rules.wave_elements;
+  double size = sizeByWaves(rules, depth);
   for (const DepthBand& band : rules.bands)
     if (depth_m >= band.from_m && depth_m < band.to_m) size = std::min(size, band.size_m);
   return size;

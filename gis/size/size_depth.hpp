@@ -14,6 +14,9 @@ class DepthGaps;
 // waves.
 double wavelengthOf(double period_s, double depth_m);
 
+// The size that the rules of waves request at a depth of at least `least_depth_m`; infinite if there are none.
+double sizeByWaves(const DepthRules& rules, double depth_m);
+
 // The minimum of the sizes of several rules.
 TileRule depthRule(const DepthRules& rules);
 

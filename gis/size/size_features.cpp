@@ -17,6 +17,7 @@
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
 #include "gis/geometry/box_tree.hpp"
+#include "gis/read/geojson_crs.hpp"
 #include "gis/read/number_attribute.hpp"
 #include "gis/read/ogr_geometry.hpp"
 #include "gis/read/open_source.hpp"
@@ -337,6 +338,7 @@ SizedFeatures readSizedFeatures(const std::string& path, const Crs& crs, double 
   const OgrOption what_is_left_out("CPL_DEBUG", "GeoJSON");
   const OpenSource source = openSource(path, {}, errors);
   refuseOddGeojson(source, errors);
+  requireKnownCrs(source);
   SizedFeatures features;
   FeatureReader reader(crs, usual_rate, features);
   const bool only = source.dataset->GetLayerCount() == 1;

@@ -166,15 +166,26 @@ double RasterField::mostKnownIn(const SizeTile& tile, std::uint32_t node, int x,
   return most;
 }
 
-// The pixels that meet a box; nullopt for a box across the seam of a raster that wraps, or beyond the reach of the
-// projection, which may contain any.
+// The pixels that meet a box, in columns beyond the first or last one across the seam of a raster that wraps;
+// nullopt for a box around a pole, over half of such a raster, or beyond the reach of the projection, which may contain
+// any.
 std::optional<Box> RasterField::pixelsIn(const SizeBox& box) const {
   const RasterGeometry& raster = frame_->raster;
   Box pixels;
-  // Corners, midpoints of sides and the centre.
-  for (int k = 0; k < 9; ++k) {
-    const Point p = frame_->pixelOf(box.centre + box.half * Point{k % 3 - 1.0, k / 3 - 1.0});
+  // Corners and midpoints of sides, around the box, then the centre.
+  constexpr std::array<Point, 9> kPlaces{
+      {{-1, -1}, {0, -1}, {1, -1}, {1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {0, 0}}};
+  double first = 0.0, last = 0.0;
+  const auto besideLast = [&](double x) { return last + std::remainder(x - last, raster.columns); };
+  for (std::size_t k = 0; k < kPlaces.size(); ++k) {
+    Point p = frame_->pixelOf(box.centre + box.half * kPlaces[k]);
     if (!std::isfinite(p.x) || !std::isfinite(p.y)) return std::nullopt;
+    if (raster.wraps && k > 0) p.x = besideLast(p.x);
+    if (k == 0) first = p.x;
+    if (raster.wraps && k == kPlaces.size() - 2 &&
+        std::abs(first + std::remainder(p.x - first, raster.columns) - p.x) > 1.0)
+      return std::nullopt;
+    last = p.x;
     pixels.add(p);
   }
   const double extent = std::max(pixels.xmax - pixels.xmin, pixels.ymax - pixels.ymin);
@@ -215,7 +226,7 @@ void RasterField::bound(std::span<const SizeBox> boxes, std::span<SizeRange> ran
     if (tiles_.empty()) continue;
     const std::optional<Box> pixels = pixelsIn(boxes[i]);
     if (!pixels) {
-      ranges[i] = {0.0, kInfinity};
+      ranges[i] = {least_, kInfinity};
       continue;
     }
     constexpr double kFewPixels = 2.0 * (1.0 + 2.0 * kBulge) + 2.0 * kHair;  // two, with what was added

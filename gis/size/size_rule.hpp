@@ -53,11 +53,14 @@ struct DepthRules {
   double least_depth_m = 1.0;   // metres, above 0
   double period_s = 44712.0;    // of the wave, seconds, above 0: that of the M2 tide, 12.42 hours
   double wave_elements = 0.0;   // elements per wavelength; 0: not used
+  double crossing_s = 0.0;      // sizes are at most what a long wave travels in this time, seconds; 0: not used
   double slope_elements = 0.0;  // elements per length of 2 pi times depth over slope; 0: not used
   double slope_filter_m = 0.0;  // slopes of features shorter than this are ignored, metres
   std::vector<DepthBand> bands;
 
-  bool any() const { return wave_elements > 0.0 || slope_elements > 0.0 || !bands.empty(); }
+  // True if sizes follow from the speed of waves: every depth requests one.
+  bool byWaves() const { return wave_elements > 0.0 || crossing_s > 0.0; }
+  bool any() const { return byWaves() || slope_elements > 0.0 || !bands.empty(); }
 };
 
 // A rule as plain values, to be sent to other processes.

@@ -31,9 +31,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // True if the rule may request no size where a raster knows the depth.
-bool mayRequestNothing(const SizeRule& rule) {
-  return rule.kind == SizeRule::Kind::Depths && !(rule.depths.wave_elements > 0.0);
-}
+bool mayRequestNothing(const SizeRule& rule) { return rule.kind == SizeRule::Kind::Depths && !rule.depths.byWaves(); }
 
 // A field for each rule; where several rasters overlap, the first with a value is used.
 std::vector<std::unique_ptr<SizeField>> rasterFields(const std::vector<RasterGeometry>& rasters,
@@ -145,6 +143,7 @@ constexpr double kLeastCells = 200'000.0;
 std::string askingOfDepths(const DepthRules& rules) {
   std::string options;
   for (const auto& [asked, option] : {std::pair{rules.wave_elements > 0.0, "--wave-elements"},
+                                      {rules.crossing_s > 0.0, "--courant-min"},
                                       {rules.slope_elements > 0.0, "--slope-elements"},
                                       {!rules.bands.empty(), "--depth-band"}})
     if (asked) options += (options.empty() ? "" : " or ") + std::string(option);
@@ -164,8 +163,8 @@ DepthSizes sizesOfDepths(const SizeOptions& options, const SizeInputs& inputs, c
   const DepthRules& rules = options.depth;
   const bool has_step = options.time_step_s > 0.0;
   // Slopes request nothing where depths were not measured. On a whole globe land is meshed as well, and has no depths.
-  const bool fills = options.gaps != GapFill::None && !domain.closed() &&
-                     (has_step || rules.wave_elements > 0.0 || !rules.bands.empty());
+  const bool fills =
+      options.gaps != GapFill::None && !domain.closed() && (has_step || rules.byWaves() || !rules.bands.empty());
   const SizeRule asked{SizeRule::Kind::Depths, rules, 0.0, 0.0};
   const SizeRule step{SizeRule::Kind::Step, rules, options.time_step_s, kShortestOfSize * options.courant};
   // Squares at the edges of gaps need not be smaller than the smallest size; if that is unknown, this share of the root
@@ -180,15 +179,16 @@ DepthSizes sizesOfDepths(const SizeOptions& options, const SizeInputs& inputs, c
       {std::isfinite(least_m) ? least_m : 0.0, options.least_m, kFinest * 2.0 * root.half / scale(root.centre)});
   // The rule from whose sizes depths are computed. Without a time step, one whose sizes are about as large as elements:
   // for the wave, or for the bands.
-  const double long_step_s =
-      rules.wave_elements > 0.0 ? rules.period_s / rules.wave_elements : least_m / longWaveSpeed(deepest_m);
+  const double long_step_s = rules.crossing_s > 0.0      ? rules.crossing_s
+                             : rules.wave_elements > 0.0 ? rules.period_s / rules.wave_elements
+                                                         : least_m / longWaveSpeed(deepest_m);
   const SizeRule telling = has_step ? step : SizeRule{SizeRule::Kind::Step, rules, long_step_s, 1.0};
   // Depths are read once for all rules.
   std::vector<SizeRule> of_depths;
   if (rules.any()) of_depths.push_back(asked);
   if (has_step) of_depths.push_back(step);
   // With bands alone, an infinite size may mean a depth outside them.
-  const bool by_parts = fills && !has_step && !(rules.wave_elements > 0.0);
+  const bool by_parts = fills && !has_step && !rules.byWaves();
   if (by_parts) of_depths.push_back(telling);
   if (of_depths.empty()) return sizes;
   const auto read = [&](const std::vector<SizeRule>& which) {

@@ -44,6 +44,7 @@ struct SizeOptions {
   GapFill gaps = GapFill::Mean;  // depths used where `bathymetry` has none
   double time_step_s = 0.0;      // 0: not used
   double courant = 1.0;          // above 0
+  double least_courant = 0.0;    // of `time_step_s`: see `DepthRules::crossing_s`; 0: not used
 
   CoastDetail coast = CoastDetail::Keep;            // Follow: the shore is generalised to the elements beside it
   FollowOptions follow{};                           // options of Follow

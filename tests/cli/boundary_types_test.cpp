@@ -59,6 +59,22 @@ class BoundaryTypes : public ProgramTest {
     return roles;
   }
 
+  // "NAME ROLE" of each boundary, sorted.
+  std::string namesIn(const std::string& mesh) const {
+    done({"convert", file(mesh), "-o", file("names.geojson"), "--overwrite", "--quiet"});
+    std::vector<std::string> all;
+    const Json boundaries = Json::parse(readText(file("names_boundaries.geojson")));
+    for (const Json& boundary : boundaries["features"]) {
+      const Json& properties = boundary["properties"];
+      const std::string role = properties["role"];
+      all.push_back(properties["name"].is_null() ? role : properties["name"].get<std::string>() + " " + role);
+    }
+    std::ranges::sort(all);
+    std::string text;
+    for (const std::string& each : all) text += (text.empty() ? "" : ", ") + each;
+    return text;
+  }
+
  private:
   static void expectDone(const ProgramRun& run) {
     EXPECT_EQ(run.code, 0) << run.errors;
@@ -143,6 +159,42 @@ TEST_F(BoundaryTypes, StandardInputAndPipesDefineThemToo) {
   EXPECT_TRUE(readText(file("mesh.nc")) == then);
   doneInShell("\"$0\" clean - -o again.gpkg --quiet < cleaned.gpkg");
   EXPECT_TRUE(readText(file("again.gpkg")) == readText(file("cleaned.gpkg")));
+}
+
+// Two openings that touch are two boundaries, if their names differ; those of one name are one.
+TEST_F(BoundaryTypes, NamesOfFeaturesAreThoseOfBoundaries) {
+  const std::string lake = put("lake.geojson", Json::array({lakeAt(5, {{"name", "Lake"}})}));
+  const auto line = [](double from, double to, const std::string& name) {
+    return feature({{"type", "open"}, {"name", name}}, "LineString", {{from, 50.0}, {to, 50.0}});
+  };
+  const std::string types =
+      put("types.geojson", {line(5, 5.05, "west"), line(5.05, 5.08, "east"), line(5.08, 5.1, "east"),
+                            westOf(5, {{"type", "land"}, {"name", "x"}})});
+  done({"mesh", lake, "-o", file("a.nc"), "-o", file("a.vtu"), "--boundaries", types, "--size", "500", "--quiet"});
+  for (const std::string mesh : {"a.nc", "a.vtu"}) EXPECT_EQ(namesIn(mesh), "east open, land, west open") << mesh;
+}
+
+// In one step, and with a cleaned file between, of which a GIS names the layer.
+TEST_F(BoundaryTypes, ACleanedFileHasThemWithTheirNames) {
+  const std::string input =
+      put("lake.geojson", {lakeAt(5, {{"name", "Lake"}}), southOf(5, {{"name", "S"}, {"type", "open"}}),
+                           westOf(5, {{"name", "W"}, {"type", "river"}})});
+  const std::vector<std::string> finish{"-o", file("a.nc"), "--size", "500", "--quiet", "--overwrite"};
+  const auto mesh = [&](const std::string& of, std::vector<std::string> options) {
+    options.insert(options.begin(), {"mesh", of});
+    options.insert(options.end(), finish.begin(), finish.end());
+    done(options);
+    return readText(file("a.nc"));
+  };
+  const std::string one_step = mesh(input, {"--boundary-column", "type"});
+  EXPECT_EQ(namesIn("a.nc"), "S open, W river, land");
+  const std::string cleaned = file("cleaned.gpkg");
+  done({"clean", input, "-o", cleaned, "--boundary-column", "type", "--quiet"});
+  EXPECT_TRUE(mesh(cleaned, {}) == one_step);
+  EXPECT_TRUE(mesh(cleaned + "|layername=pslg", {}) == one_step);
+  EXPECT_TRUE(mesh(cleaned, {"--layer", "pslg"}) == one_step);
+  done({"clean", cleaned, "-o", file("again.gpkg"), "--quiet"});
+  EXPECT_TRUE(readText(file("again.gpkg")) == readText(cleaned));
 }
 
 // Unusable types are reported before a long job begins.

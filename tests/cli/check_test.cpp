@@ -2,7 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <fstream>
+#include <iterator>
 
 #include "tests/cli/program.hpp"
 
@@ -14,6 +17,11 @@ using ::testing::HasSubstr;
 
 class Check : public ProgramTest {
  protected:
+  std::string contentOf(const std::string& path) const {
+    std::ifstream stream(path);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+
   // A fort.14 without boundaries: 4 by 4 squares of 1 km at each of `origins`, in metres.
   std::string sheets(const std::string& name, const std::vector<std::pair<double, double>>& origins,
                      double depth) const {
@@ -60,6 +68,38 @@ TEST_F(Check, NodesThatDoNotHangTogether) {
   const ProgramRun seam = runProgram({"check", sheets("seam.14", {{0, 0}, {4000, 0}}, 10.0)});
   EXPECT_EQ(seam.code, 1);
   EXPECT_THAT(seam.output, HasSubstr("repeated node: 5"));
+}
+
+// The sheet's corners have the numbers 1, 5, 25 and 21.
+TEST_F(Check, BoundariesThatAreNotTheMeshs) {
+  const std::string bare = contentOf(sheets("bare.14", {{0, 0}}, 10.0));
+  const std::string unbounded = bare.substr(0, bare.size() - std::string("0\n0\n0\n0\n").size());
+  const std::string south = "1 2 3 4 5", rest = "5 10 15 20 25 24 23 22 21 16 11 6 1";
+  const auto withBoundaries = [&](const std::string& open, const std::string& land) {
+    const auto count = [](const std::string& nodes) { return std::to_string(std::ranges::count(nodes, ' ') + 1); };
+    const auto lines = [](std::string nodes) {
+      std::ranges::replace(nodes, ' ', '\n');
+      return nodes + "\n";
+    };
+    return write("bounded.14", unbounded + "1\n" + count(open) + "\n" + count(open) + "\n" + lines(open) + "1\n" +
+                                   count(land) + "\n" + count(land) + " 0\n" + lines(land));
+  };
+  EXPECT_EQ(runProgram({"check", withBoundaries(south, rest)}).code, 0);
+  const ProgramRun short_cut = runProgram({"check", withBoundaries(south, "5 10 15 20 25 21 16 11 6 1")});
+  EXPECT_EQ(short_cut.code, 1);
+  EXPECT_THAT(short_cut.output, AllOf(HasSubstr("stray boundary: 1"), HasSubstr("no boundary: 4")));
+  const ProgramRun twice = runProgram({"check", withBoundaries(south, "4 " + rest)});
+  EXPECT_EQ(twice.code, 1);
+  EXPECT_THAT(twice.output, HasSubstr("boundary twice: 1"));
+}
+
+TEST_F(Check, NodesWithoutTrianglesAreAdvice) {
+  std::string text = contentOf(sheets("all.14", {{0, 0}}, 10.0));
+  text.replace(text.find("32 25"), 5, "31 25");
+  text.erase(text.find("32 3 "), text.find("0\n0\n0\n0\n") - text.find("32 3 "));
+  text.replace(text.find("31 3 "), text.find("0\n0\n0\n0\n") - text.find("31 3 "), "31 3 1 2 7\n");
+  const ProgramRun run = runProgram({"check", write("fewer.14", text)});
+  EXPECT_THAT(run.output, HasSubstr("advice, unused node: 1"));
 }
 
 TEST_F(Check, DepthsThatEarthDoesNotHaveAreWarnedOf) {

@@ -68,6 +68,24 @@ TEST_F(SizeLimits, BeyondTheBudgetNothingIsMade) {
   }
 }
 
+// Shores that almost coincide take many vertices without any size; the budget keeps the run short.
+TEST_F(SizeLimits, ASliverIsWarnedOf) {
+  const auto meshStrip = [&](const std::string& width) {
+    const std::string north = "5800000" + width;
+    const std::string strip =
+        write("strip.geojson", R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:32631"}},
+        "features":[{"type":"Feature","id":7,"properties":{},"geometry":{"type":"Polygon","coordinates":
+        [[[500000,5800000],[520000,5800000],[520000,)" +
+                                   north + "],[500000," + north + "],[500000,5800000]]]}}]}");
+    return runProgram({"mesh", strip, "-o", file("a.nc"), "--max-vertices", "2000", "--overwrite", "--quiet"}).errors;
+  };
+  const std::string errors = meshStrip(".08");
+  for (const char* part : {"strip.geojson', feature 7: bounds on angles take about 200000 vertices",
+                           "along about 20 km", "0.08 m apart", "--snap"})
+    EXPECT_NE(errors.find(part), std::string::npos) << part << errors;
+  EXPECT_EQ(meshStrip(".2").find("coincide"), std::string::npos);
+}
+
 // A mesh slightly over the budget is recognised before the whole size map is made.
 TEST_F(SizeLimits, ALittleBeyondWhatIsBegunTakesNoWholeMap) {
   // About 650,000 vertices are needed; up to 520,000 would be meshed.

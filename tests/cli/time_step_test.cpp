@@ -111,14 +111,17 @@ class TimeStep : public ProgramTest {
     });
     return nodes;
   }
-  // The shortest time step in a .2dm, without code of the library; infinite if no node is under water.
-  double leastStep() const {
+  // The shortest and the longest time step of triangles in a .2dm, without code of the library; those of dry ones are
+  // infinite and do not count as the longest.
+  double leastStep() const { return stepRange().first; }
+  double mostStep() const { return stepRange().second; }
+  std::pair<double, double> stepRange() const {
     const std::vector<Node> nodes = readNodes();
     std::vector<std::array<std::size_t, 3>> triangles;
     forCards([&](const std::string& card, std::istringstream& words) {
       if (card == "E3T") words >> triangles.emplace_back()[0] >> triangles.back()[1] >> triangles.back()[2];
     });
-    double least = INFINITY;
+    double least = INFINITY, most = 0.0;
     for (const auto& v : triangles) {
       double edge = INFINITY, depth = 0.0;
       for (std::size_t i = 0; i < 3; ++i) {
@@ -126,9 +129,11 @@ class TimeStep : public ProgramTest {
         edge = std::min(edge, std::hypot(a.x - b.x, a.y - b.y));
         depth = std::max(depth, -a.z);
       }
-      least = std::min(least, edge / std::sqrt(9.81 * depth));
+      const double step = edge / std::sqrt(9.81 * depth);
+      least = std::min(least, step);
+      if (std::isfinite(step)) most = std::max(most, step);
     }
-    return least;
+    return {least, most};
   }
 };
 
@@ -196,6 +201,36 @@ TEST_F(TimeStep, AskedForHoldsOrIsListedWithExitCode1) {
   const Json asked = step().at("asked");
   EXPECT_GT(asked.at("missed").get<int>(), 0);
   EXPECT_NEAR(asked.at("places").at(0).at("time_step_s").get<double>() / leastStep(), 1.0, 0.01);
+}
+
+// As models want whose schemes damp waves at small Courant numbers.
+TEST_F(TimeStep, CourantNumbersReachTheLeast) {
+  const std::vector<std::string> options{"--size-shore", "2000",        "--size-max",   "20000",     "--grade",
+                                         "0.5",          "--time-step", "30",           "--courant", "20",
+                                         "--coast",      "follow",      "--bathymetry", depths()};
+  ASSERT_EQ(mesh(options).code, 0);
+  EXPECT_GT(mostStep(), 2.0 * 30.0 / 0.6);
+  std::vector<std::string> with = options;
+  with.insert(with.end(), {"--courant-min", "0.6"});
+  const ProgramRun run = mesh(with);
+  EXPECT_EQ(run.code, 0) << run.errors;
+  EXPECT_LE(mostStep(), 1.003 * 30.0 / 0.6);
+  EXPECT_EQ(step().at("asked").at("courant_min"), 0.6);
+  EXPECT_EQ(step().at("asked").at("missed_min"), 0);
+  // The other bounds of sizes go before, and what then misses the number is reported.
+  with.insert(with.end(), {"--size-min", "3000"});
+  const ProgramRun bounded = mesh(with);
+  EXPECT_EQ(bounded.code, 1);
+  EXPECT_THAT(bounded.errors, HasSubstr("--courant-min 0.6 with --time-step 30 is not reached in "));
+  EXPECT_THAT(bounded.errors, HasSubstr("or a smaller --size-min helps"));
+  EXPECT_GT(step().at("asked").at("missed_min").get<int>(), 0);
+}
+
+TEST_F(TimeStep, TheLeastCourantNumberIsFarBelowTheMost) {
+  const ProgramRun run =
+      mesh({"--size", "2000", "--time-step", "30", "--bathymetry", depths(), "--courant-min", "0.4"});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_THAT(run.errors, HasSubstr("--courant-min 0.4 needs a --courant of at least 1.2"));
 }
 
 // Some edges of a coast that follows sizes are too short for the step; they are repaired in the mesh.

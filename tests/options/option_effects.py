@@ -156,6 +156,7 @@ def cases():
         "--water-level": Case("2", extra=depths),
         "--min-depth": Case("30", extra=depths),
         "--depth-fill": Case("none", extra=["--bathymetry", "part.asc"]),
+        "--attribute": Case("manning=0.02"),
         "--boundaries": Case("open.geojson"),
         "--boundary-column": Case("other", extra=["--boundaries", "open.geojson"]),
         "--open-deeper": Case("20", extra=depths),
@@ -197,6 +198,7 @@ def cases():
         "--strait-min": Case("0.2", input="straits.geojson", extra=["--size", "150", "--coast", "follow"]),
         "--time-step": Case("20", extra=stepped),
         "--courant": Case("0.4", extra=[*stepped, "--time-step", "20"]),
+        "--courant-min": Case("1", extra=[*stepped, "--time-step", "2", "--courant", "9"]),
         "--smooth": Case(),
         "--quality": Case("centred", extra=["--size", "10"]),
         "--pinches": Case("open", input="hourglass.geojson"),
@@ -274,7 +276,7 @@ def cases():
               "--numbers": Case("numbers.csv"), "--assume-crs": Case("EPSG:4326", input="degrees.2dm")}
     for name in ("--min-angle", "--max-angle", "--size", "--size-min", "--size-max", "--grade", "--size-shore", "--shore-rate",
                  "--channel-elements", "--size-features", "--size-raster", "--wave-elements", "--wave-period",
-                 "--slope-elements", "--slope-filter", "--depth-band", "--time-step", "--courant"):
+                 "--slope-elements", "--slope-filter", "--depth-band", "--time-step", "--courant", "--courant-min"):
         remesh[name] = Case(mesh[name].value, extra=mesh[name].extra)
     for name in ("--bathymetry", "--depth-method", "--depth-sign", "--water-level", "--min-depth"):
         remesh[name] = Case(mesh[name].value, extra=mesh[name].extra)

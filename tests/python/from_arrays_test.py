@@ -140,7 +140,11 @@ class FromArraysTest(unittest.TestCase):
         self.refused(wrong, "^'points': node 1 at .* has no longitude and latitude in EPSG:4326", POINTS + 400, TRIANGLES,
                      crs="EPSG:4326")
         self.refused(coastmesh.OptionError, '^crs: "nowhere" is not a CRS', POINTS, TRIANGLES, crs="nowhere")
-        self.refused(coastmesh.OptionError, "^crs: 4326 is not a text$", POINTS, TRIANGLES, crs=4326)
+        for crs in (32633, np.int64(32633)):
+            self.assertEqual(self.warned(POINTS, TRIANGLES, crs=crs)[0].crs, "EPSG:32633")
+        self.refused(coastmesh.OptionError, '^crs: "EPSG:-1" is not a CRS', POINTS, TRIANGLES, crs=-1)
+        for crs in (4326.0, True, [4326]):
+            self.refused(coastmesh.OptionError, r"^crs: .* is neither a text nor a code of EPSG$", POINTS, TRIANGLES, crs=crs)
 
 
 class DepthsTest(unittest.TestCase):

@@ -171,6 +171,15 @@ class OptionsTest(unittest.TestCase):
             self.assertNotEqual(one[0], bands[0])
             self.assertEqual(self.digest(bathymetry=[depths]), self.digest(bathymetry=depths))
 
+    def test_attributes(self):
+        mesh = coastmesh.mesh(LAKE, attribute=["manning=0.02", "a=7"], size_max=8000)
+        self.assertEqual(list(mesh.attributes), ["mannings_n_at_sea_floor", "a"])
+        self.assertTrue((mesh.attributes["a"] == 7.0).all())
+        self.assertEqual(len(mesh.attributes["mannings_n_at_sea_floor"]), len(mesh.points))
+        again = pickle.loads(pickle.dumps(mesh))
+        self.assertTrue((again.attributes["mannings_n_at_sea_floor"] == 0.02).all())
+        self.assertEqual(coastmesh.mesh(LAKE).attributes, {})
+
     def test_what_is_no_value_is_refused_by_its_keyword(self):
         for options, said in (({"size": "4 km"}, "size: '4 km' is not a number in the range above 0"),
                               ({"size": 10**400}, "size: '1000"),

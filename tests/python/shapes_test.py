@@ -4,6 +4,7 @@
 usage: shapes_test.py
 """
 import datetime
+import decimal
 import hashlib
 import json
 import math
@@ -144,7 +145,7 @@ class FormsTest(ShapesTest):
         mercator = [radius * math.radians(x), radius * math.log(math.tan(math.pi / 4 + math.radians(y) / 2))]
         named = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::3857"}}
         point = {"type": "Point", "coordinates": mercator}
-        for given in (Shape(point, "EPSG:3857"), [Shape(point, "EPSG:3857")], collection([feature(**{
+        for given in (Shape(point, "EPSG:3857"), Shape(point, 3857), Shape(point, np.int32(3857)), [Shape(point, "EPSG:3857")], collection([feature(**{
                 "kind": "Point", "coordinates": mercator})], crs=named)):
             mesh = self.quietly(coastmesh.mesh, LAKE, size=3000, constraints=given)
             self.assertLess(np.hypot(*(mesh.points - (x, y)).T).min(), 1e-9)
@@ -177,6 +178,38 @@ class FormsTest(ShapesTest):
         self.assertIn("open", {boundary["role"] for boundary in opened.boundaries})
         passed = self.quietly(coastmesh.mesh, LAKE, size=3000, coast="follow", passages=SHAPES["passages"])
         self.assertIn("passage 'west'", " ".join(passed.report["input"]["notes"]))
+
+
+    def test_missing_attributes_of_tables(self):
+        class NAType:  # as of pandas: it is equal to nothing, and has no truth
+            def __eq__(self, other):
+                return self
+
+            def __bool__(self):
+                raise TypeError("boolean value of NA is ambiguous")
+
+        without = self.made("mesh", size_features=feature("Point", [5.1, 45.1], size=500))
+        for missing in (None, math.nan, np.float32("nan"), np.datetime64("NaT"), NAType(), decimal.Decimal("nan")):
+            self.assertEqual(self.made("mesh", size_features=feature("Point", [5.1, 45.1], size=500, rate=missing)), without)
+
+    def test_attributes_come_back_as_text(self):
+        values = {"flag": np.bool_(True), "day": np.datetime64("2024-02-29T12:00:00", "ns"), "name": np.str_("Eider"),
+                  "rank": np.int8(3), "width": decimal.Decimal("2.5"), 7: "seven", "none": np.ma.masked, "old": False,
+                  "path": os.PathLike}
+        for lake in ({"type": "Feature", "properties": values, "geometry": LAKE},
+                     collection([Shape({"type": "Feature", "properties": values, "geometry": LAKE})])):
+            attributes = self.quietly(coastmesh.mesh, lake).features[0]["attributes"]
+            self.assertTrue(attributes.pop("day").startswith("2024"))
+            self.assertEqual(attributes, {"flag": "1", "name": "Eider", "rank": "3", "width": "2.5", "7": "seven", "old": "0",
+                                          "path": str(os.PathLike)})
+
+    def test_attributes_that_no_file_holds_are_named(self):
+        point = SHAPES["size_features"][0]
+        for value, what in ((object(), "is a object, neither"), (b"x", "is a bytes, neither"), (1j, "is a complex, neither"),
+                            (math.inf, "is infinite"), (np.float32("-inf"), "is infinite")):
+            odd = feature("Point", [5.1, 45.1], size=500, note=value)
+            self.refused(coastmesh.InputError, f"^size_features: attribute 'note' of feature 1 {what}", size_features=[point, odd])
+            self.refused(coastmesh.InputError, f"^size_features: attribute 'note' of feature 0 {what}", size_features=odd)
 
 
 class MessagesTest(ShapesTest):

@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "gis/check/check_target.hpp"
 #include "gis/error.hpp"
+#include "gis/fields/field_source.hpp"
 #include "gis/format/grid_format.hpp"
 #include "gis/format/grid_io.hpp"
 #include "gis/format/poly_io.hpp"
@@ -22,8 +24,8 @@
 #include "gis/model/assign_boundaries.hpp"
 #include "gis/model/boundary_edges.hpp"
 #include "gis/model/boundary_rules.hpp"
-#include "gis/model/check_target.hpp"
 #include "gis/model/depth.hpp"
+#include "gis/model/set_fields.hpp"
 #include "gis/model/target.hpp"
 #include "gis/model/time_step.hpp"
 #include "gis/raster/raster_axes.hpp"
@@ -228,14 +230,14 @@ TEST_F(GisGridExamples, BoundaryRules) {
   EXPECT_EQ(kindOfText("tidal", "column type").role, BoundaryRole::Open);
 }
 
-// gis/model/check_target.hpp: Everything that makes a model refuse a grid.
+// gis/check/check_target.hpp: Everything that makes a model refuse a grid.
 TEST_F(GisGridExamples, CheckTarget) {
-  //! [gis/model/check_target.hpp]
+  //! [gis/check/check_target.hpp]
   Grid grid = squares();
   std::swap(grid.triangles[3][0], grid.triangles[3][1]);  // now clockwise
   std::vector<std::string_view> found;
   for (const TargetDefect& defect : checkTarget(grid, Target::Adcirc)) found.push_back(toString(defect.kind));
-  //! [gis/model/check_target.hpp]
+  //! [gis/check/check_target.hpp]
   EXPECT_NE(std::ranges::find(found, toString(TargetDefectKind::Clockwise)), found.end());
   EXPECT_TRUE(checkTarget(squares(), Target::Adcirc).empty());
 }
@@ -256,6 +258,34 @@ TEST_F(GisGridExamples, Depth) {
   EXPECT_EQ(report.nodes_of_file, (std::vector<std::size_t>{25}));
   EXPECT_GE(report.least_m, 15.0);
   EXPECT_GT(grid.z[24], grid.z[0]);
+}
+
+// gis/fields/field_source.hpp: Where a nodal attribute comes from, as the user says it.
+TEST_F(GisGridExamples, FieldSource) {
+  //! [gis/fields/field_source.hpp]
+  std::vector<FieldSource> sources;
+  std::string wrong = addFieldSource("manning=cover.tif,n.csv", sources);  // classes, and their values
+  wrong += addFieldSource("manning=0.022", sources);                       // for all other nodes
+  const std::vector<std::string> files = filesOfFieldSource("manning=cover.tif,n.csv");
+  //! [gis/fields/field_source.hpp]
+  EXPECT_EQ(wrong, "");
+  EXPECT_EQ(sources.front().table, "n.csv");
+  EXPECT_EQ(sources.back().number, 0.022);
+  EXPECT_EQ(files.size(), 2u);
+}
+
+// gis/model/set_fields.hpp: Nodal attributes, from rasters and numbers.
+TEST_F(GisGridExamples, SetFields) {
+  reference::WorkFolder::write("n.asc",
+                               "ncols 2\nnrows 1\nxllcorner 490000\nyllcorner 6790000\ncellsize 20000\n0.03 0.03\n");
+  //! [gis/model/set_fields.hpp]
+  Grid grid = squares();
+  const std::vector<FieldSource> sources{{"mannings_n_at_sea_floor", {}, "n.asc"}, {"surface_canopy_coefficient", 1.0}};
+  const std::vector<FieldReport> reports = setFields(grid, sources, DepthMethod::Bilinear, DepthFill::Neighbours);
+  //! [gis/model/set_fields.hpp]
+  EXPECT_EQ(reports.front().nodes_of_file, (std::vector<std::size_t>{25}));
+  EXPECT_EQ(grid.node_fields.front().values, std::vector<double>(25, 0.03));
+  EXPECT_EQ(grid.node_fields.back().values, std::vector<double>(25, 1.0));
 }
 
 // gis/model/target.hpp: The models that a grid may be made for.

@@ -74,6 +74,12 @@ class Mesh:
         return self._made.z
 
     @property
+    def attributes(self):
+        """dict of float64 arrays (n,) by name: values of models at the points, such as mannings_n_at_sea_floor; NaN where
+        unknown. Attributes with several values for a point have a number behind each name."""
+        return self._made.attributes
+
+    @property
     def min_angle(self):
         """float64 array (m,): the smallest angle of each triangle on the ground, degrees; None where not known."""
         return self._made.min_angle

@@ -1,7 +1,10 @@
 """What functions of coastmesh are given to work on: files, GeoJSON, whatever has a __geo_interface__, arrays."""
 import contextlib
+import datetime
 import itertools
 import json
+import math
+import numbers
 import os
 
 import numpy as np
@@ -158,10 +161,13 @@ def _feature(geometry):
 
 
 def _geojson_text(geojson, crs=None):
-    """GeoJSON as text. `crs`: of pyproj, the name of one, or the "crs" of GeoJSON; None leaves what `geojson` says."""
+    """GeoJSON as text. `crs`: of pyproj, the name or EPSG's code of one, or the "crs" of GeoJSON; None leaves what `geojson`
+    says."""
     crs = geojson.get("crs") if crs is None else crs
-    if geojson.get("type") not in ("Feature", "FeatureCollection"):
-        geojson = _feature(geojson)
+    if geojson.get("type") == "FeatureCollection" and isinstance(geojson.get("features"), (list, tuple)):
+        geojson = {**geojson, "features": [_with_attributes(part, i) for i, part in enumerate(geojson["features"])]}
+    elif geojson.get("type") != "FeatureCollection":
+        geojson = _with_attributes(geojson, 0) if geojson.get("type") == "Feature" else _feature(geojson)
     if crs is not None:
         geojson = {**geojson, "crs": crs if isinstance(crs, dict) and "type" in crs else _named_crs(crs)}
     try:
@@ -170,8 +176,48 @@ def _geojson_text(geojson, crs=None):
         raise InputError(f"GeoJSON: {error}") from None
 
 
+_SAME_IN_JSON = {str, int, bool, type(None)}
+
+
+def _with_attributes(feature, number):
+    """A feature, the `number`-th, with attributes that JSON has."""
+    if hasattr(feature, "__geo_interface__"):
+        feature = _geojson_of(feature)
+    properties = feature.get("properties") if isinstance(feature, dict) else None
+    if not isinstance(properties, dict):
+        return feature
+    return {**feature, "properties": {
+        str(name): value if type(value) in _SAME_IN_JSON else _attribute(value, name, number)
+        for name, value in properties.items()}}
+
+
+def _attribute(value, name, number):
+    """Numbers of any kind as Python's, dates and whatever else has a text as text, what stands for a missing value in numpy
+    and pandas as None."""
+    if isinstance(value, (np.datetime64, np.timedelta64)):  # their tolist() makes a number of nanoseconds
+        return None if np.isnat(value) else str(value)
+    value = value.tolist() if isinstance(value, (np.generic, np.ndarray)) else value
+    kind = type(value)
+    if kind in _SAME_IN_JSON or isinstance(value, (str, list, tuple, dict)):
+        return value
+    if kind.__name__ in ("NAType", "NaTType"):
+        return None
+    is_complex = isinstance(value, numbers.Complex) and not isinstance(value, numbers.Real)
+    if isinstance(value, numbers.Number) and not is_complex:
+        value = int(value) if isinstance(value, numbers.Integral) else float(value)
+        if math.isinf(value):
+            raise InputError(f"attribute {name!r} of feature {number} is infinite")
+        return None if math.isnan(value) else value
+    has_text = kind.__str__ is not object.__str__ or kind.__repr__ is not object.__repr__
+    if is_complex or isinstance(value, bytes) or not has_text:
+        raise InputError(f"attribute {name!r} of feature {number} is a {kind.__name__}, neither a number nor a date nor a text")
+    return str(value)
+
+
 def _named_crs(crs):
-    if isinstance(crs, str):
+    if isinstance(crs, (int, np.integer)) and not isinstance(crs, bool):
+        authority = ["EPSG", str(crs)]
+    elif isinstance(crs, str):
         authority = crs.split(":")
     else:
         authority = crs.to_authority() if hasattr(crs, "to_authority") else None

@@ -52,5 +52,18 @@ TEST(ClosedGrid, TurnedTrianglesAreFound) {
             static_cast<std::ptrdiff_t>(grid.triangles.size()));
 }
 
+// Its boundary lies within a small cap, the mesh around it.
+TEST(ClosedGrid, SoAreOceansAroundOneIsland) {
+  const testing::SpaceVector island = testing::vectorOf({-71.0, 18.0});
+  const Grid grid = testing::octahedralGlobe(5, [&](const testing::SpaceVector& middle) {
+    return testing::dot(middle, island) < 0.995 * testing::lengthOf(middle);
+  });
+  const MeshInfo info = describeMesh(grid), whole = describeMesh(wholeGlobe(0.0));
+  EXPECT_EQ(info.surface, "ellipsoid");
+  EXPECT_GT(info.quality.min_angle_deg, whole.quality.min_angle_deg - 1.0);
+  EXPECT_GT(info.area_m2, 0.99 * 5.10065621724e14);
+  EXPECT_TRUE(checkBound(grid, info.quality.min_angle_deg).defects.empty());
+}
+
 }  // namespace
 }  // namespace coastmesh

@@ -8,11 +8,11 @@
 #include <random>
 #include <set>
 
+#include "gis/check/check_target.hpp"
 #include "gis/elements/quads.hpp"
 #include "gis/grid/boundary_kinds.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/linked_grid.hpp"
-#include "gis/model/check_target.hpp"
 #include "tests/gis/grid_samples.hpp"
 #include "tests/gis/quad_samples.hpp"
 #include "tests/support/item_loops.hpp"

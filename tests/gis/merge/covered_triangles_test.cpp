@@ -13,7 +13,7 @@ using namespace coastmesh::testing;
 
 std::vector<Cover> coverWithout(const TriMesh& mesh, const Outline& outline) {
   const std::vector<std::uint32_t> none(mesh.points.size(), kNone);
-  return coverOf(mesh, none, outline);
+  return coverOf(mesh, none, {}, outline);
 }
 
 TEST(CoveredTriangles, AgreesWithManyPlacesInThem) {
@@ -66,7 +66,7 @@ TEST(CoveredTriangles, ThoseThatContinueTheOutlineAreFree) {
   for (std::uint32_t v = 0; v < same.size(); ++v)
     for (const Outline::Edge& e : outline.edges())
       if (mesh.points[v] == outline.place(e.a)) same[v] = e.a;
-  const std::vector<Cover> cover = coverOf(mesh, same, outline);
+  const std::vector<Cover> cover = coverOf(mesh, same, {}, outline);
   for (TriId t = 0; t < mesh.triangles.size(); ++t) {
     const auto& v = mesh.triangles[t].v;
     const Point middle = centroid(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]);

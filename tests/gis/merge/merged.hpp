@@ -12,12 +12,12 @@
 #include <vector>
 
 #include "core/quality.hpp"
+#include "gis/check/triangle_overlaps.hpp"
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/grid/boundary_kinds.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/linked_grid.hpp"
 #include "gis/merge/merge_grids.hpp"
-#include "gis/model/triangle_overlaps.hpp"
 #include "tests/gis/grid_samples.hpp"
 
 namespace coastmesh::testing {

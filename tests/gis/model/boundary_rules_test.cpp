@@ -181,6 +181,29 @@ TEST(BoundaryRules, LinesOfTwoTypesThatMeetWithinAnEdgeLeaveNoGap) {
   EXPECT_EQ(kindsOfTwo(rules), (Kinds{kOpen, kRiver}));
 }
 
+// The names that rules give to edges, one after another.
+std::string namesOf(const Kinds& kinds) {
+  std::string names;
+  for (const auto& kind : kinds) names += !kind ? "-" : kind->name.empty() ? "." : kind->name;
+  return names;
+}
+
+// The name of a lake is not that of its shore, while lines and polygons of a file are about the boundary.
+TEST(BoundaryRules, NamesOfMeshedPolygonsAreNotThoseOfBoundaries) {
+  RawLayer layer = layerOf(FeatureUse::Area);
+  addPolygon(layer, "type", "open", kSquare);
+  layer.features[0].attributes.emplace_back("name", "A");
+  BoundaryRules rules;
+  rules.addInput({layer}, "type");
+  EXPECT_EQ(namesOf(kindsOfTwo(rules)), ".-");
+  const TemporaryFolder folder;
+  const std::string path = folder / "box.geojson";
+  std::ofstream(path) << R"({"type": "FeatureCollection", "features": [{"type": "Feature", "properties":
+      {"role": "open", "NAME": "A"}, "geometry": {"type": "Polygon", "coordinates":
+      [[[-1, -1], [1.2, -1], [1.2, 1], [-1, 1], [-1, -1]]]}}]})";
+  EXPECT_EQ(namesOf(kindsOfTwo(BoundaryRules::ofFile(path, ""))), "A-");
+}
+
 TEST(BoundaryRules, PolygonsThatJumpAtTheAntimeridianLieAcrossIt) {
   const TemporaryFolder folder;
   const std::string path = folder / "jump.geojson";
@@ -245,6 +268,27 @@ TEST(RoughBoundaryRules, ALineDrawnByHandLeavesNoWalls) {
   addLine(layer, "type", "open", {{10.2, 4}, {10.45, 5.5}, {10, 7}});
   ruled = roughlyRuled(layer);
   EXPECT_EQ(inLetters(ruled.kinds), ".......... ooooooo... .......... ..........");
+  EXPECT_TRUE(ruled.missed.empty());
+}
+
+RawLayer namedLines() {
+  RawLayer layer = layerOf(FeatureUse::Area);
+  addLine(layer, "type", "open", {{-0.1, 0.1}, {4.2, 0.1}});
+  addLine(layer, "type", "open", {{4.2, 0.1}, {9.9, 0.1}});
+  addLine(layer, "type", "land", {{10, 0}, {10, 2}});
+  addLine(layer, "type", "river", {{10, 3}, {10, 4}});
+  addLine(layer, "type", "open", {{10, 5}, {10, 7}});
+  for (std::size_t i = 0; i < 4; ++i)
+    layer.line_features[i].attributes.emplace_back("Name",
+                                                   std::string(1, static_cast<char>('A' + static_cast<int>(i))));
+  layer.line_features[4].attributes.emplace_back("username", "E");
+  return layer;
+}
+
+// Lines of one type are followed as one, whatever their names: the edge where they meet has one of these.
+TEST(RoughBoundaryRules, OpeningsHaveTheNamesOfTheirFeatures) {
+  const RuledEdges ruled = roughlyRuled(namedLines());
+  EXPECT_EQ(namesOf({ruled.kinds.begin(), ruled.kinds.begin() + 20}), "AAAAABBBBB..-D-..---");
   EXPECT_TRUE(ruled.missed.empty());
 }
 

@@ -13,8 +13,8 @@
 #include <limits>
 
 #include "gis/size/size_source.hpp"
+#include "tests/gis/check/target_samples.hpp"
 #include "tests/gis/grid_samples.hpp"
-#include "tests/gis/model/target_samples.hpp"
 
 namespace coastmesh {
 namespace {

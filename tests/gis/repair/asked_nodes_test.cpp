@@ -7,7 +7,7 @@
 #include "core/metric.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/ground_orientation.hpp"
-#include "tests/gis/model/target_samples.hpp"
+#include "tests/gis/check/target_samples.hpp"
 
 namespace coastmesh {
 namespace {

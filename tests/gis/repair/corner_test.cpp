@@ -9,7 +9,7 @@
 #include "gis/crs/geodesy.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/local_plane.hpp"
-#include "tests/gis/model/target_samples.hpp"
+#include "tests/gis/check/target_samples.hpp"
 #include "tests/gis/repair/slanting_sea.hpp"
 
 namespace coastmesh {

@@ -12,7 +12,7 @@
 #include "gis/repair/repair_boundaries.hpp"
 #include "gis/repair/repair_shore.hpp"
 #include "gis/repair/repair_state.hpp"
-#include "tests/gis/model/target_samples.hpp"
+#include "tests/gis/check/target_samples.hpp"
 #include "tests/gis/repair/slanting_sea.hpp"
 
 namespace coastmesh {

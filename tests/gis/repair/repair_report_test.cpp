@@ -5,7 +5,7 @@
 #include <random>
 #include <tuple>
 
-#include "tests/gis/model/target_samples.hpp"
+#include "tests/gis/check/target_samples.hpp"
 
 namespace coastmesh {
 namespace {

@@ -8,8 +8,8 @@
 #include <random>
 
 #include "core/quality.hpp"
+#include "gis/check/check_target.hpp"
 #include "gis/grid/local_plane.hpp"
-#include "gis/model/check_target.hpp"
 #include "gis/repair/repair_shore.hpp"
 #include "gis/repair/repair_target.hpp"
 #include "tests/gis/grid_samples.hpp"

@@ -7,7 +7,7 @@
 #include "core/bulk_list.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/repair/repair_target.hpp"
-#include "tests/gis/model/target_samples.hpp"
+#include "tests/gis/check/target_samples.hpp"
 
 namespace coastmesh {
 namespace {

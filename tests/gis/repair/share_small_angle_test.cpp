@@ -9,7 +9,7 @@
 #include "gis/grid/linked_grid.hpp"
 #include "gis/repair/repair_boundaries.hpp"
 #include "gis/repair/repair_shape.hpp"
-#include "tests/gis/model/target_samples.hpp"
+#include "tests/gis/check/target_samples.hpp"
 
 namespace coastmesh {
 namespace {
