@@ -96,7 +96,7 @@ void setRiverFields(Grid& rivers, const Grid& mesh, const ItemLoop& loop) {
   for (const NodeField& field : mesh.node_fields) {
     NodeField& made =
         rivers.node_fields.emplace_back(NodeField{field.name, field.unit, field.component, field.usual, {}});
-    for (const Point& place : rivers.nodes) made.values.push_back(triangles.valueAt(field.values, place));
+    for (const Point& place : rivers.nodes) made.values.push_back(roundedValue(triangles.valueAt(field.values, place)));
     fillFromNeighbours(rivers, made.values, roundedValue, loop);
     for (double& value : made.values)
       if (std::isnan(value)) value = defaultOf(field);
@@ -117,16 +117,15 @@ void keepValues(Grid& grid, const MergedMesh& merged, bool keeps_depths) {
   const Grid& gone = merged.merged.gone;
   if ((grid.z.empty() && grid.node_fields.empty()) || gone.triangles.empty()) return;
   const MeshTriangles before(gone, boxAround(gone.nodes, inOrder));
-  const auto keep = [&](const std::vector<double>& known, std::size_t node, std::vector<double>& values) {
-    const double value = before.valueAt(known, grid.nodes[node]);
-    if (!std::isnan(value)) values[node] = value;
+  const auto keep = [](double value, double& kept) {
+    if (!std::isnan(value)) kept = value;
   };
   for (std::size_t i = 0; i < grid.nodes.size(); ++i) {
     if (merged.nodes[i].mesh != kNone) continue;
-    if (keeps_depths && !grid.z.empty()) keep(gone.z, i, grid.z);
+    if (keeps_depths && !grid.z.empty()) keep(before.zAt(grid.nodes[i]), grid.z[i]);
     for (NodeField& field : grid.node_fields)
       if (const NodeField* const known = findField(gone, field.name, field.component))
-        keep(known->values, i, field.values);
+        keep(roundedValue(before.valueAt(known->values, grid.nodes[i])), field.values[i]);
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/metric.hpp"
 #include "gis/crs/longitude_range.hpp"
+#include "gis/fields/node_fields.hpp"
 #include "gis/geometry/box_tree.hpp"
 
 namespace coastmesh {
@@ -129,7 +130,10 @@ NewNodes newNodesOf(const Grid& grid, const RemeshPatch& patch, const TriMesh& m
     return values;
   };
   if (!grid.z.empty()) nodes.z = valuesOf(grid.z);
-  for (const NodeField& field : grid.node_fields) nodes.fields.push_back(valuesOf(field.values));
+  for (const NodeField& field : grid.node_fields) {
+    nodes.fields.push_back(valuesOf(field.values));
+    for (double& value : nodes.fields.back()) value = roundedValue(value);
+  }
   // Vertices on segments are between two nodes.
   const auto placeOf = [&](std::uint32_t node) {
     return pslg.points[static_cast<std::size_t>(std::ranges::lower_bound(patch.nodes, node) - patch.nodes.begin())];
@@ -143,7 +147,7 @@ NewNodes newNodesOf(const Grid& grid, const RemeshPatch& patch, const TriMesh& m
       };
       if (!grid.z.empty()) nodes.z[v - first] = between(grid.z);
       for (std::size_t k = 0; k < nodes.fields.size(); ++k)
-        nodes.fields[k][v - first] = between(grid.node_fields[k].values);
+        nodes.fields[k][v - first] = roundedValue(between(grid.node_fields[k].values));
     }
   }
   return nodes;
