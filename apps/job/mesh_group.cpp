@@ -25,6 +25,7 @@
 #include "gis/coast/feature_names.hpp"
 #include "gis/crs/geodesy.hpp"
 #include "gis/error.hpp"
+#include "gis/flood_plain/take_out_coast.hpp"
 #include "gis/follow/coast_follow.hpp"
 #include "gis/follow/follow_notes.hpp"
 #include "gis/follow/least_edges.hpp"
@@ -376,6 +377,7 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
   } else {
     const FollowOptions follow = followOptionsOf(job);
     labelSegments(domain.pslg);  // plane graphs have no labels, which areas and openings need
+    takeOutCoast(domain);
     const double area_m2 = areaAsMeasured(domain, result);
     const EdgeWishes wishes{kShoreMargin * StepOutcome::kUsualShare * job.sizes.least_m,
                             job.mesh.refine.max_angle_deg <= kNotObtuseDeg};

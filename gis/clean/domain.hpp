@@ -28,6 +28,8 @@ struct Domain {
   Projection projection = Projection::plane();
   std::vector<VertexId> asked{};    // points of the PSLG that the user requested as vertices, on segments or not
   std::vector<DomainLine> lines{};  // the lines that tags of segments refer to: see segment_tags.hpp
+  // The coast between the water and a flood plain, in the plane, if it is no line of the PSLG: sizes count it as shore.
+  std::vector<std::pair<Point, Point>> coast{};
   std::vector<std::pair<Point, Point>> frame{};  // sides of the frame, in the plane, which moving shores may reach
   Resolution resolution;                         // to be kept by later changes of the domain
   // For a whole globe, where no side of a segment is outside: the label of places in no feature, and the label at the

@@ -235,8 +235,6 @@ Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOpti
   ShoreGraph graph = settledGraph(std::move(joined.opened.after), size, loop);
   // Points on the shore of land that was removed are in the water now.
   addLoose(in_water, asked.missingFrom(together(graph.source, in_water.source)));
-  for (std::size_t line = 0; line < domain.lines.size(); ++line)
-    if (domain.lines[line].use == FeatureUse::Area) in_water.coasts.insert(lineTag(line));
   returnLines(graph, std::move(in_water), sizes, options.channel_min, lost);
   ShoreGraph followed = coarsened(std::move(graph), domain, size, joined.opened, task, report);
   addLost(lost, asked.missingFrom(followed.source));

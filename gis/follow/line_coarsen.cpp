@@ -13,21 +13,14 @@ namespace {
 
 // Shares of the size.
 constexpr double kShort = 0.5;
-constexpr double kOff = 0.1, kRoughOff = 0.4;
+constexpr double kOff = 0.1;
 constexpr int kRounds = 40;
 
 class Coarsener {
  public:
   Coarsener(std::vector<LineChain>& chains, const LineCutter& cutter, const Pslg& shores,
-            const std::vector<Segment>& lines, const std::vector<char>& stays, const std::set<std::int32_t>& rough,
-            const SizeFunction& size)
-      : chains_(chains),
-        cutter_(cutter),
-        nodes_(cutter.nodes()),
-        lines_(lines),
-        stays_(stays),
-        rough_(rough),
-        size_(size) {
+            const std::vector<Segment>& lines, const std::vector<char>& stays, const SizeFunction& size)
+      : chains_(chains), cutter_(cutter), nodes_(cutter.nodes()), lines_(lines), stays_(stays), size_(size) {
     std::vector<Box> boxes;
     for (const Point& p : shores.points) boxes.push_back(Box::of(p, p));
     first_node_ = boxes.size();
@@ -93,7 +86,7 @@ class Coarsener {
     if (joined_.contains(endsOf(one.from, other.to)) || cutter_.areOnOneShore(one.from, other.to)) return false;
     const Point &a = at(one.from), &b = between.at, &c = at(other.to);
     if (a == c) return false;
-    const double size = size_.at(b), most = (rough_.contains(lines_[chain[i].of].tag) ? kRoughOff : kOff) * size;
+    const double size = size_.at(b), most = kOff * size;
     if (std::min(distance(a, b), distance(b, c)) >= kShort * size) return false;
     const auto isNear = [&](const Point& p) { return squaredDistanceToSegment(p, a, c) <= most * most; };
     return isNear(b) && std::ranges::all_of(gone_[i], isNear) && std::ranges::all_of(gone_[i + 1], isNear) &&
@@ -121,7 +114,6 @@ class Coarsener {
   const std::vector<LineNode>& nodes_;
   const std::vector<Segment>& lines_;
   const std::vector<char>& stays_;
-  const std::set<std::int32_t>& rough_;
   const SizeFunction& size_;
   const std::vector<Point>* shore_points_ = nullptr;
   std::size_t first_node_ = 0;  // in `points_`, after the points of shores
@@ -134,9 +126,8 @@ class Coarsener {
 }  // namespace
 
 void coarsenLines(std::vector<LineChain>& chains, const LineCutter& cutter, const Pslg& shores,
-                  const std::vector<Segment>& lines, const std::vector<char>& stays,
-                  const std::set<std::int32_t>& rough, const SizeFunction& size) {
-  if (!chains.empty()) Coarsener(chains, cutter, shores, lines, stays, rough, size).run();
+                  const std::vector<Segment>& lines, const std::vector<char>& stays, const SizeFunction& size) {
+  if (!chains.empty()) Coarsener(chains, cutter, shores, lines, stays, size).run();
 }
 
 }  // namespace coastmesh

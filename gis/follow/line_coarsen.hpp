@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <set>
 #include <vector>
 
 #include "gis/follow/line_pieces.hpp"
@@ -19,10 +18,9 @@ struct LineStep {
 using LineChain = std::vector<LineStep>;
 
 // Removes nodes of chains where pieces are shorter than half the size, if they are within a tenth of the size of the
-// piece that replaces theirs, or 0.4 for lines whose tag is in `rough`, and nothing else lies between. `lines`: those
-// that `cutter` cuts. `stays`: which of their points must stay.
+// piece that replaces theirs, and nothing else lies between. `lines`: those that `cutter` cuts. `stays`: which of their
+// points must stay.
 void coarsenLines(std::vector<LineChain>& chains, const LineCutter& cutter, const Pslg& shores,
-                  const std::vector<Segment>& lines, const std::vector<char>& stays,
-                  const std::set<std::int32_t>& rough, const SizeFunction& size);
+                  const std::vector<Segment>& lines, const std::vector<char>& stays, const SizeFunction& size);
 
 }  // namespace coastmesh

@@ -17,8 +17,6 @@ namespace {
 constexpr double kOff = 0.4;       // from the shore; nearer parts of lines belong to it
 constexpr double kSlow = 1.0;      // a line that takes longer for its last `kOff` is led straight to the shore
 constexpr double kSampling = 0.1;  // between samples for this
-constexpr double kApart = 0.5;     // of two parts of a coast; nearer ones are left out
-constexpr double kAlong = 2.0;     // times that apart along the coast: different parts
 
 bool isPlain(const Segment& s) { return s.left == s.right && s.left >= 0; }
 
@@ -48,8 +46,7 @@ class Returner {
     is_done_.assign(pieces_.size(), 0);
     for (std::uint32_t i = 0; i < is_done_.size(); ++i)
       if (is_done_[i] == 0) treat(chainThrough(i));
-    if (!lines_.coasts.empty()) dropNarrow();
-    coarsenLines(chains_, cutter_, graph_.pslg, lines_.segments, lines_.stays, lines_.coasts, sizes_.wanted);
+    coarsenLines(chains_, cutter_, graph_.pslg, lines_.segments, lines_.stays, sizes_.wanted);
     addToGraph();
   }
 
@@ -158,72 +155,6 @@ class Returner {
     const auto [part, is_first] = lost_.lines.try_emplace(lines_.segments[line].tag, LostLines::Part{.first = middle});
     part->second.length_m += length / sizes_.scale.at(middle);
     part->second.elements += length / sizes_.wanted.at(middle);
-  }
-
-  // A step of a coast.
-  struct CoastStep {
-    std::size_t chain;
-    double along;  // to its middle, from the beginning of the chain
-    Point middle;
-  };
-
-  bool isCoast(const LineChain& chain) const { return lines_.coasts.contains(lines_.segments[chain.front().of].tag); }
-
-  // Leaves out steps of coasts that are near to another part of a coast.
-  void dropNarrow() {
-    std::vector<CoastStep> steps;
-    std::vector<Box> boxes;
-    std::vector<double> lengths(chains_.size(), 0.0);
-    for (std::size_t c = 0; c < chains_.size(); ++c) {
-      if (!isCoast(chains_[c])) continue;
-      for (const LineStep& step : chains_[c]) {
-        const double length = distance(at(step.from), at(step.to));
-        steps.push_back({c, lengths[c] + 0.5 * length, midpoint(at(step.from), at(step.to))});
-        boxes.push_back(Box::of(at(step.from), at(step.to)));
-        lengths[c] += length;
-      }
-    }
-    const BoxTree tree(boxes, BoxTree::Order::Hilbert);
-    const auto isNarrow = [&](const CoastStep& here) {
-      const double off = kApart * sizes_.wanted.at(here.middle);
-      bool found = false;
-      tree.visit(Box::of(here.middle, here.middle).grownBy(off), [&](std::uint32_t other) {
-        const CoastStep& there = steps[other];
-        const double ahead = std::abs(there.along - here.along);
-        const bool is_apart = there.chain != here.chain || std::min(ahead, lengths[here.chain] - ahead) > kAlong * off;
-        found = found || (is_apart && distance(here.middle, there.middle) < off);
-      });
-      return found;
-    };
-    std::vector<LineChain> kept;
-    auto step = steps.begin();
-    for (LineChain& chain : chains_) {
-      if (!isCoast(chain)) {
-        kept.push_back(std::move(chain));
-        continue;
-      }
-      bool goes_on = false;
-      for (const LineStep& each : chain) {
-        if (isNarrow(*step++)) {
-          lose(each.of, at(each.from), at(each.to));
-          goes_on = false;
-          continue;
-        }
-        if (!std::exchange(goes_on, true)) kept.emplace_back();
-        kept.back().push_back(each);
-      }
-    }
-    std::erase_if(kept, [this](const LineChain& chain) { return isCoast(chain) && isScrap(chain); });
-    chains_ = std::move(kept);
-  }
-
-  // True for what is left of a coast if it is no longer than an element.
-  bool isScrap(const LineChain& chain) {
-    double length = 0.0;
-    for (const LineStep& step : chain) length += distance(at(step.from), at(step.to));
-    if (length > sizes_.wanted.at(at(chain.front().from))) return false;
-    for (const LineStep& step : chain) lose(step.of, at(step.from), at(step.to));
-    return true;
   }
 
   void addToGraph() {

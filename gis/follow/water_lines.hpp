@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <set>
 #include <vector>
 
 #include "gis/follow/shore_sizes.hpp"
@@ -21,9 +20,6 @@ struct WaterLines {
   std::vector<VertexId> loose;    // points on no segment
   std::vector<VertexId> shore;    // of each point: its vertex of the graph, or kNone
   std::size_t bridges = 0;        // number of segments on land, the last ones
-  // Tags of lines that are coasts: they are generalised as far as shores, and left out where they come back to
-  // themselves, as along both banks of a narrow creek.
-  std::set<std::int32_t> coasts{};
 };
 
 // Moves segments with the same water on both sides, and points on no other segment, out of the graph. `asked`: sources

@@ -229,6 +229,7 @@ VertexDemand demandOf(const ComposedSizes& source, const SizeDemand& demand, con
 // The shore as in `shoreLines`, and the coast between the domain's water and a flood plain.
 std::vector<SizedLine> shoreAndCoast(const Pslg& shore, const Domain& domain, double size_m, double rate) {
   std::vector<SizedLine> lines = shoreLines(shore, size_m, rate);
+  for (const auto& [a, b] : domain.coast) lines.push_back({a, b, size_m, rate});
   if (domain.lines.empty()) return lines;
   for (const Segment& s : shore.segments)
     if (isLineTag(s.tag) && domain.lines[lineOfTag(s.tag)].use == FeatureUse::Area)
