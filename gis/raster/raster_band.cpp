@@ -16,6 +16,7 @@
 #include "gis/crs/length_unit.hpp"
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
+#include "gis/quiet_hdf5.hpp"
 #include "gis/raster/raster_axes.hpp"
 #include "gis/raster/raster_mosaic.hpp"
 
@@ -99,6 +100,7 @@ RasterBand::RasterBand(std::string path) : dataset_(std::make_unique<Dataset>())
   geometry_.path = std::move(path);
   const std::string& name = geometry_.path;
   registerDrivers();
+  quietHdf5();
   const OgrErrors errors;
   if (GDALGetCacheMax64() > kCacheBytes) GDALSetCacheMax64(kCacheBytes);
   Dataset& raster = *dataset_;

@@ -9,12 +9,14 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "gis/error.hpp"
 #include "gis/model/depth.hpp"
 #include "gis/size/size_raster.hpp"
 #include "tests/gis/grid_samples.hpp"
+#include "tests/support/netcdf_rasters.hpp"
 
 namespace coastmesh {
 namespace {
@@ -183,6 +185,18 @@ TEST(RasterBand, GoesRoundTheEarthForDepthsAndSizes) {
   EXPECT_NEAR(sizeAt(field, seam), 1.2, 0.01);
   EXPECT_NEAR(sizeAt(field, inside), 1.0, 0.02);
   EXPECT_EQ(west_of_first, -1.4F);
+}
+
+// HDF5 has a setting for each thread of whether it prints errors, which netCDF takes for answers.
+TEST(RasterBand, NothingIsPrintedByThreadsThatReadNetcdf) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "z.nc";
+  const std::vector<double> places{1.0, 2.0, 3.0};
+  testing::writeNetcdfRaster(path, {"lat", "degrees_north", places}, {"lon", "degrees_east", places},
+                             [](double row, double column) { return row + column; });
+  ::testing::internal::CaptureStderr();
+  for (int k = 0; k < 2; ++k) std::thread([&] { EXPECT_EQ(RasterBand(path).read({0, 0, 3, 3}).size(), 9U); }).join();
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
 // A grid of 200 rows whose text ends after 120: the missing rows are refused at once.
