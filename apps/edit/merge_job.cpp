@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <iterator>
 #include <utility>
 
 #include "apps/job/places.hpp"
+#include "apps/remesh/triangle_figures.hpp"
 #include "apps/report/remesh_texts.hpp"
 #include "apps/report/report_sections.hpp"
 #include "core/run_control.hpp"
@@ -86,16 +88,23 @@ std::vector<std::string> warningsOf(const InsertedMesh& inserted, const DepthOpt
   return all;
 }
 
-std::string textOf(const InsertedMesh& inserted, const Grid& grid) {
+using TextOfFinished = std::function<std::string(const Grid& finished)>;
+
+// `may_change`: repairs or a further mesh may change what lies between both. The loop has to live as long.
+TextOfFinished textOf(const InsertedMesh& inserted, const Grid& grid, bool may_change, const ItemLoop& loop) {
   const MergedMesh& result = inserted.result;
   std::string text = "'" + inserted.name + "': " + inserted.elements + " in place of " +
                      grouped(result.merged.covered) + ", joined along " + grouped(result.merged.joined) +
                      forCount(result.merged.joined, " edge", " edges") + "\n";
   if (result.merged.united > 0) text += "nodes that both have: " + grouped(result.merged.united) + "\n";
-  if (result.band)
-    text += "between both: " + figuresText(result.band->inside, grid) + "in place of " + grouped(result.replaced) +
-            " around " + (result.merged.gap > 0 ? "the gap" : "the seam") + "\n";
-  return text;
+  if (!result.band) return [text](const Grid&) { return text; };
+  const LastingFigures between(result.band->inside, may_change, grid, loop,
+                               [&](std::size_t t) { return result.triangles[t].mesh == kNone; });
+  const std::string place =
+      "in place of " + grouped(result.replaced) + " around " + (result.merged.gap > 0 ? "the gap" : "the seam") + "\n";
+  return [text, between, place](const Grid& finished) {
+    return text + "between both: " + figuresText(between.in(finished), finished) + place;
+  };
 }
 
 // Sources after one more mesh, number `mesh`, was put in.
@@ -120,13 +129,16 @@ std::vector<MergeSource> ownSources(std::size_t count) {
 
 EditedMesh runMergeJob(Grid& grid, const std::string& name, const std::vector<MeshToInsert>& inserted,
                        const MergeJob& job, const Warn& warn, const JobControl& control) {
+  const RefineOptions& bounds = job.merge.mesh.refine;
+  RepairedTriangles repaired;
   const auto merge = [&](const RunControl& of_edit, const ItemLoop& loop) {
     MeshEdit edit;
     auto& nodes = edit.sources.merged_nodes;
     auto& triangles = edit.sources.merged_triangles;
     nodes = ownSources(grid.nodes.size());
     triangles = ownSources(grid.triangles.size());
-    std::string text;
+    std::vector<TextOfFinished> texts;
+    const bool may_change = inserted.size() > 1 || job.finish.mayEdit();
     const auto share = [&](std::size_t i) { return static_cast<double>(i) / static_cast<double>(inserted.size()); };
     for (std::uint32_t i = 0; i < inserted.size(); ++i) {
       const RunControl of_one = stageControl(of_edit, {share(i), share(i + 1)});
@@ -134,15 +146,22 @@ EditedMesh runMergeJob(Grid& grid, const std::string& name, const std::vector<Me
       nodes = composed(nodes, done.result.nodes, i + 1);
       triangles = composed(triangles, done.result.triangles, i + 1);
       std::ranges::move(warningsOf(done, job.merge.depth), std::back_inserter(edit.warnings));
-      text += textOf(done, grid);
+      texts.push_back(textOf(done, grid, may_change, loop));
       edit.sources.elements_before.push_back(std::move(done.element_numbers));
     }
-    edit.text = [text](const Grid& finished) {
+    const BeforeRepairs before(grid, job.finish.mayEdit(), loop);
+    edit.text = [texts, before, &bounds, &repaired](const Grid& finished) {
+      std::string text;
+      for (const TextOfFinished& textOfOne : texts) text += textOfOne(finished);
+      repaired = before.repairedIn(finished, bounds.min_angle_deg, bounds.max_angle_deg);
+      text += repairedText(repaired, finished);
       return text + grouped(finished.nodes.size()) + " nodes, " + elementCount(finished, grouped) + "\n";
     };
     return edit;
   };
-  return editMesh("merge", grid, merge, job.finish, control);
+  EditedMesh edited = editMesh("merge", grid, merge, job.finish, control);
+  if (repaired.below > 0) edited.warnings.push_back(repairedWarning(repaired));
+  return edited;
 }
 
 }  // namespace coastmesh

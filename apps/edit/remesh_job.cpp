@@ -1,14 +1,19 @@
 #include "apps/edit/remesh_job.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <iterator>
 #include <utility>
+#include <vector>
 
 #include "apps/edit/edit_part.hpp"
 #include "apps/job/places.hpp"
 #include "apps/remesh/remesh_grid.hpp"
+#include "apps/remesh/triangle_figures.hpp"
 #include "apps/report/remesh_texts.hpp"
 #include "apps/report/report_sections.hpp"
+#include "gis/elements/quads.hpp"
 #include "gis/for_count.hpp"
 
 namespace coastmesh {
@@ -31,7 +36,8 @@ std::vector<std::string> warningsOf(const RemeshReport& report, const DepthOptio
   return all;
 }
 
-std::string textOf(const RemeshReport& report, const DepthOptions& depth, const Grid& grid) {
+std::string textOf(const RemeshReport& report, const TriangleFigures& inside, const TriangleFigures& outside,
+                   const DepthOptions& depth, const Grid& grid) {
   const ReplaceReport& replaced = report.replaced;
   const std::size_t quads_replaced = report.quads_before - report.quads;
   std::string text =
@@ -43,8 +49,8 @@ std::string textOf(const RemeshReport& report, const DepthOptions& depth, const 
       "replaced by " + grouped(replaced.triangles_added) + ", " + grouped(replaced.nodes_removed) + " of " +
       grouped(replaced.nodes_before) + " nodes by " + grouped(replaced.nodes_added) +
       (report.patches > 1 ? ", in " + grouped(report.patches) + " parts without a common edge" : "") + "\n";
-  text += "new: " + figuresText(report.inside, grid);
-  if (report.outside.triangles > 0) text += "unchanged: " + figuresText(report.outside, grid);
+  text += "new: " + figuresText(inside, grid);
+  if (outside.triangles > 0) text += "unchanged: " + figuresText(outside, grid);
   if (replaced.boundary_nodes + replaced.line_nodes > 0)
     text += "nodes added to boundaries: " + grouped(replaced.boundary_nodes) +
             ", to lines: " + grouped(replaced.line_nodes) + "\n";
@@ -71,18 +77,35 @@ std::string textOf(const RemeshReport& report, const DepthOptions& depth, const 
 }  // namespace
 
 EditedMesh runRemeshJob(Grid& grid, const std::string& name, const RemeshJob& job, const JobControl& control) {
+  const RefineOptions& bounds = job.remesh.mesh.refine;
+  RepairedTriangles repaired;
   const auto remesh = [&](const RunControl& of_edit, const ItemLoop& loop) {
     MeshEdit edit;
     RemeshReport report =
         remeshGrid(grid, requireTriangles(job.region, grid, name, RemeshJob::kPurpose, edit.warnings, loop), job.remesh,
                    of_edit, loop);
     std::ranges::move(warningsOf(report, job.remesh.depth, grid), std::back_inserter(edit.warnings));
-    edit.text = [text = textOf(report, job.remesh.depth, grid)](const Grid&) { return text; };
     edit.sources.nodes = std::move(report.replaced.nodes);
     edit.sources.triangles = std::move(report.replaced.triangles);
+    const std::vector<std::uint32_t>& sources = edit.sources.triangles;
+    const std::vector<std::uint32_t> other_half = otherHalves(grid);
+    const bool may_change = job.finish.mayEdit();
+    const LastingFigures inside(report.inside, may_change, grid, loop,
+                                [&](std::size_t t) { return sources[t] == kNone; });
+    const LastingFigures outside(report.outside, may_change, grid, loop, [&](std::size_t t) {
+      return sources[t] != kNone && (other_half.empty() || other_half[t] == kNone);
+    });
+    const BeforeRepairs before(grid, may_change, loop);
+    edit.text = [report = std::move(report), inside, outside, before, &job, &bounds, &repaired](const Grid& finished) {
+      repaired = before.repairedIn(finished, bounds.min_angle_deg, bounds.max_angle_deg);
+      return textOf(report, inside.in(finished), outside.in(finished), job.remesh.depth, finished) +
+             repairedText(repaired, finished);
+    };
     return edit;
   };
-  return editMesh("remesh", grid, remesh, job.finish, control);
+  EditedMesh edited = editMesh("remesh", grid, remesh, job.finish, control);
+  if (repaired.below > 0) edited.warnings.push_back(repairedWarning(repaired));
+  return edited;
 }
 
 }  // namespace coastmesh

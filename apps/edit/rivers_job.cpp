@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include "apps/job/available_memory.hpp"
 #include "apps/job/places.hpp"
+#include "apps/remesh/triangle_figures.hpp"
 #include "apps/report/remesh_texts.hpp"
 #include "apps/report/report_sections.hpp"
 #include "apps/report/rivers_texts.hpp"
@@ -162,6 +164,8 @@ MergedMesh putIn(Grid& grid, const std::string& name, Grid&& rivers, const Merge
 
 EditedMesh runRiversJob(Grid& grid, const std::string& name, const std::vector<std::string>& lines,
                         const RiversJob& job, const Warn& warn, const JobControl& control) {
+  const RefineOptions& bounds = job.merge.mesh.refine;
+  RepairedTriangles repaired;
   const auto add = [&](const RunControl& of_edit, const ItemLoop& loop) {
     RiverOptions options = job.rivers;
     options.junctions = job.merge.mesh.refine;
@@ -180,19 +184,26 @@ EditedMesh runRiversJob(Grid& grid, const std::string& name, const std::vector<s
     const MergedMesh merged = putIn(grid, name, std::move(laid.grid), job.merge, of_edit, loop);
     std::ranges::move(mergeWarnings(merged, job.merge.depth), std::back_inserter(edit.warnings));
     edit.warnings.push_back(unconnectedRiversText(grid, merged.triangles));
-    std::string text = riversText(laid.report, grid);
+    const std::string text = riversText(laid.report, grid);
+    std::optional<LastingFigures> beside;
     if (merged.band)
-      text += "beside them: " + figuresText(merged.band->inside, grid) + "in place of " +
-              grouped(merged.replaced + merged.merged.covered) + "\n";
+      beside.emplace(merged.band->inside, job.finish.mayEdit(), grid, loop,
+                     [&](std::size_t t) { return merged.triangles[t].mesh == kNone; });
+    const std::string place = "in place of " + grouped(merged.replaced + merged.merged.covered) + "\n";
     edit.sources.nodes = numbersBefore(merged.nodes);
     edit.sources.triangles = numbersBefore(merged.triangles);
-    edit.text = [text](const Grid& finished) {
-      return text + grouped(finished.nodes.size()) + " nodes, " + elementCount(finished, grouped) + "\n" +
-             riverBoundariesText(finished);
+    const BeforeRepairs before(grid, job.finish.mayEdit(), loop);
+    edit.text = [text, beside, place, before, &bounds, &repaired](const Grid& finished) {
+      repaired = before.repairedIn(finished, bounds.min_angle_deg, bounds.max_angle_deg);
+      return text + (beside ? "beside them: " + figuresText(beside->in(finished), finished) + place : "") +
+             repairedText(repaired, finished) + grouped(finished.nodes.size()) + " nodes, " +
+             elementCount(finished, grouped) + "\n" + riverBoundariesText(finished);
     };
     return edit;
   };
-  return editMesh("rivers", grid, add, job.finish, control);
+  EditedMesh edited = editMesh("rivers", grid, add, job.finish, control);
+  if (repaired.below > 0) edited.warnings.push_back(repairedWarning(repaired));
+  return edited;
 }
 
 }  // namespace coastmesh

@@ -127,7 +127,8 @@ struct DepthRange {
   bool meets(const DepthBand& band) const { return to_m >= band.from_m && from_m < band.to_m; }
 };
 
-// A band has an effect if it meets the range of depths in a triangle.
+// Bands that do not meet the range of depths in any triangle. Pixels outside the water, which may lie in them, can make
+// sizes beside them smaller all the same.
 void addIdleBands(const MeshJob& job, const Grid& grid, std::vector<std::string>& warnings) {
   std::vector<DepthBand> idle = job.sizes.depth.bands;
   for (const auto& triangle : grid.triangles) {
@@ -139,8 +140,8 @@ void addIdleBands(const MeshJob& job, const Grid& grid, std::vector<std::string>
   }
   for (const DepthBand& band : idle) {
     std::ostringstream text;
-    text << "--depth-band " << band.from_m << ',' << band.to_m << ',' << band.size_m
-         << " has no effect: no depth of the mesh lies in it";
+    text << "no depth of the mesh lies in --depth-band " << band.from_m << ',' << band.to_m << ',' << band.size_m
+         << ": at most it has an effect beside pixels outside the water";
     warnings.push_back(text.str());
   }
 }

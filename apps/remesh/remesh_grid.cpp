@@ -11,12 +11,10 @@
 #include "apps/job/places.hpp"
 #include "apps/remesh/mesh_patch.hpp"
 #include "apps/remesh/shore_near.hpp"
-#include "core/quality.hpp"
 #include "gis/elements/quads.hpp"
 #include "gis/error.hpp"
 #include "gis/grid/ground_orientation.hpp"
 #include "gis/grid/linked_grid.hpp"
-#include "gis/grid/local_plane.hpp"
 #include "gis/remesh/grow_part.hpp"
 #include "gis/remesh/remesh_patch.hpp"
 
@@ -147,25 +145,6 @@ MeshedPart meshGrowing(const Grid& grid, const LinkedGrid& linked, std::vector<s
   return best ? std::move(*best) : std::move(last);
 }
 
-// Figures of the triangles for which `isWanted(t)`.
-template <typename IsWanted>
-TriangleFigures figuresOf(const Grid& grid, const ItemLoop& loop, const IsWanted& isWanted) {
-  TriangleFigures all;
-  for (const TriangleFigures& some :
-       overStretches(loop, grid.triangles.size(), [&](std::size_t first, std::size_t last) {
-         TriangleFigures figures;
-         for (std::size_t t = first; t < last; ++t) {
-           if (!isWanted(t)) continue;
-           const auto [a, b, c] = localPlane(grid, grid.triangles[t]);
-           figures.add({1, leastAngleDeg(a, b, c), std::min({distance(a, b), distance(b, c), distance(c, a)}),
-                        std::max({distance(a, b), distance(b, c), distance(c, a)})});
-         }
-         return figures;
-       }))
-    all.add(some);
-  return all;
-}
-
 // Sets the depths of new nodes from rasters.
 DepthReport setNewDepths(Grid& grid, const ReplaceReport& replaced, const DepthOptions& options,
                          const RunControl& control, const ItemLoop& loop) {
@@ -195,13 +174,6 @@ DepthReport setNewDepths(Grid& grid, const ReplaceReport& replaced, const DepthO
 }
 
 }  // namespace
-
-void TriangleFigures::add(const TriangleFigures& other) {
-  triangles += other.triangles;
-  min_angle_deg = std::min(min_angle_deg, other.min_angle_deg);
-  shortest_m = std::min(shortest_m, other.shortest_m);
-  longest_m = std::max(longest_m, other.longest_m);
-}
 
 RemeshReport remeshGrid(Grid& grid, std::vector<std::uint8_t> taken, const RemeshOptions& options,
                         const RunControl& control, const ItemLoop& loop) {

@@ -2,12 +2,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <vector>
 
 #include "apps/job/mesh_job_result.hpp"
 #include "apps/remesh/remesh_options.hpp"
+#include "apps/remesh/triangle_figures.hpp"
 #include "core/item_loop.hpp"
 #include "core/run_control.hpp"
 #include "gis/cut/tidy_cut.hpp"
@@ -16,16 +16,6 @@
 #include "gis/remesh/replace_patches.hpp"
 
 namespace coastmesh {
-
-// Angles and edges of some triangles of a grid.
-struct TriangleFigures {
-  std::size_t triangles = 0;
-  double min_angle_deg = 180.0;
-  double shortest_m = std::numeric_limits<double>::infinity();  // in a plane: in its units
-  double longest_m = 0.0;
-
-  void add(const TriangleFigures& other);
-};
 
 struct RemeshReport {
   ReplaceReport replaced;

@@ -39,6 +39,18 @@ std::vector<std::string> newNodeWarnings(const RemeshReport& report, const Depth
   return all;
 }
 
+std::string repairedText(const RepairedTriangles& repaired, const Grid& grid) {
+  return repaired.figures.triangles == 0 ? "" : "changed by repairs: " + figuresText(repaired.figures, grid);
+}
+
+std::string repairedWarning(const RepairedTriangles& repaired) {
+  if (repaired.below == 0) return {};
+  return grouped(repaired.below) +
+         forCount(repaired.below, " triangle that repairs changed misses", " triangles that repairs changed miss") +
+         " the bounds on angles; the smallest angle is " + amount("%.1f", repaired.worst.min_angle_deg) +
+         " degrees, at " + pointText(repaired.worst.place);
+}
+
 std::string lostWaterText(const MergeReport& merged) {
   constexpr double kMuch = 0.05;  // of the area replaced
   double replaced = 0.0;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "apps/remesh/remesh_grid.hpp"
+#include "apps/remesh/triangle_figures.hpp"
 #include "gis/grid/grid.hpp"
 #include "gis/merge/merge_grids.hpp"
 #include "gis/model/depth.hpp"
@@ -18,6 +19,12 @@ std::string figuresText(const TriangleFigures& figures, const Grid& grid);
 
 // Warnings of new triangles that miss the bounds on angles, and of new nodes' depths.
 std::vector<std::string> newNodeWarnings(const RemeshReport& report, const DepthOptions& depth);
+
+// "changed by repairs: " and their figures; empty if there are none.
+std::string repairedText(const RepairedTriangles& repaired, const Grid& grid);
+
+// A warning of those that miss the bounds on angles; empty if there are none.
+std::string repairedWarning(const RepairedTriangles& repaired);
 
 // A warning of water that is lost between two meshes; empty if it is next to nothing of what was replaced.
 std::string lostWaterText(const MergeReport& merged);

@@ -75,7 +75,8 @@ std::string factsOf(const Json& option) {
   const std::string value = defaultOf(option);
   if (!value.empty()) text += (text.empty() ? "default " : "; default ") + value;
   if (option.value("required", false)) text += text.empty() ? "required" : "; required";
-  if (option.value("multiple", false)) text += text.empty() ? "may be repeated" : "; may be repeated";
+  const bool is_said = option["help"].get<std::string>().find("can be repeated") != std::string::npos;
+  if (option.value("multiple", false) && !is_said) text += text.empty() ? "may be repeated" : "; may be repeated";
   return text;
 }
 
@@ -240,6 +241,21 @@ std::string verbsOf(const Json& usage) {
   return verbs;
 }
 
+// The values of an option that takes only certain words, separated by spaces; empty for other options.
+std::string wordsOf(const Json& usage, const Json& option) {
+  if (option["type"] == "choice") return joined(option["choices"], " ");
+  std::string words = option.value("unit", "");
+  if (words.find('|') != std::string::npos) {
+    std::ranges::replace(words, '|', ' ');
+    return words;
+  }
+  if (option["name"] != "--format") return {};
+  Json names = Json::array();
+  for (const Json& format : usage["formats"])
+    if (format["writable"]) names.push_back(format["name"]);
+  return joined(names, " ");
+}
+
 std::string bash(const Json& usage) {
   std::string text =
       "# bash completion for coastmesh, made by `coastmesh --usage-as bash`\n_coastmesh() {\n"
@@ -257,9 +273,8 @@ std::string bash(const Json& usage) {
         names += " " + name.get<std::string>();
         pattern += (pattern.empty() ? "" : "|") + name.get<std::string>();
       }
-      if (option["type"] == "choice") {
-        const std::string choices = joined(option["choices"], " ");
-        cases += glued({"        ", pattern, ") words='", choices, "' ;;\n"});
+      if (const std::string words = wordsOf(usage, option); !words.empty()) {
+        cases += glued({"        ", pattern, ") words='", words, "' ;;\n"});
       } else if (option["type"] == "number" || option["type"] == "integer") {
         valued += (valued.empty() ? "" : "|") + pattern;
       }
@@ -302,9 +317,8 @@ std::string zsh(const Json& usage) {
         std::string spec = (option.value("multiple", false) ? "*" : "") + name.get<std::string>();
         const bool opposite = name.get<std::string>().starts_with("--no-");
         spec += "[" + zshHelp((opposite ? "not: " : "") + option["help"].get<std::string>()) + "]";
-        if (option["type"] == "choice") {
-          const std::string choices = joined(option["choices"], " ");
-          spec += ":value:(" + choices + ")";
+        if (const std::string words = wordsOf(usage, option); !words.empty()) {
+          spec += ":value:(" + words + ")";
         } else if (option["type"] == "file") {
           spec += ":file:_files";
         } else if (option["type"] != "flag") {
@@ -331,9 +345,8 @@ std::string fish(const Json& usage) {
         const std::string word = name;
         line += word.starts_with("--") ? " -l " + word.substr(2) : " -s " + word.substr(1);
       }
-      if (option["type"] == "choice") {
-        const std::string choices = joined(option["choices"], " ");
-        line += " -x -a " + singleQuoted(choices);
+      if (const std::string words = wordsOf(usage, option); !words.empty()) {
+        line += " -x -a " + singleQuoted(words);
       } else if (option["type"] == "file") {
         line += " -r -F";
       } else if (option["type"] != "flag") {

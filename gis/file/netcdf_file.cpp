@@ -10,6 +10,7 @@
 #include "gis/error.hpp"
 #include "gis/file/netcdf_header.hpp"
 #include "gis/file/single_precision.hpp"
+#include "gis/quiet_hdf5.hpp"
 
 namespace coastmesh {
 
@@ -84,6 +85,7 @@ void NetcdfWriter::close(const ItemLoop& loop) {
 
 NetcdfReader::NetcdfReader(std::string path) : path_(std::move(path)) {
   if (!headerFitsFile(path_)) fail("the file is damaged or cut off: its header claims more than there is");
+  quietHdf5();
   check(nc_open(path_.c_str(), NC_NOWRITE, &id_));
 }
 

@@ -199,20 +199,48 @@ constexpr std::array kAllParts{
     GridPart::Ibtypes,   GridPart::Weirs,         GridPart::BareWeirs, GridPart::PartIslands, GridPart::BoundaryNames,
     GridPart::Partition, GridPart::NodePartition, GridPart::NodeFields};
 
-// Length in the grid's CRS over length on the ground, for a sample of edges. REQUIRES: a projected CRS in metres.
-double meanScale(const Grid& grid) {
-  constexpr std::size_t kEdges = 1000;
-  std::vector<std::vector<Point>> edges;
-  const std::size_t step = std::max<std::size_t>(1, grid.triangles.size() / kEdges);
-  for (std::size_t t = 0; t < grid.triangles.size(); t += step)
-    edges.push_back({grid.nodes[grid.triangles[t][0]], grid.nodes[grid.triangles[t][1]]});
-  double in_plane = 0.0, on_ground = 0.0;
-  const std::vector<double> lengths = chainLengths(edges, grid.crs);
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    in_plane += distance(edges[i][0], edges[i][1]);
-    on_ground += lengths[i];
+// Lengths in the grid's CRS over lengths on the ground.
+struct Scales {
+  double mean = 1.0, least = 1.0, most = 1.0;  // the last two over all places and directions
+  double angle_deg = 0.0;                      // by which angles differ at most
+};
+
+// The least and the largest scale, over all directions, of the linear map that gives a triangle these sides, from one
+// with sides of those lengths on the ground: singular values, from the traces and determinants of both Gram matrices.
+std::array<double, 2> scalesOf(const Point& a, const Point& b, const std::array<double, 3>& on_ground) {
+  const auto& [u, v, w] = on_ground;
+  const double uv = 0.5 * (u * u + v * v - w * w);
+  const double ground = u * u * v * v - uv * uv, plane = cross(a, b) * cross(a, b);
+  const double sum = (squaredLength(a) * v * v - 2.0 * dot(a, b) * uv + squaredLength(b) * u * u) / ground;
+  const double root = std::sqrt(std::max(0.0, 0.25 * sum * sum - plane / ground));
+  return {std::sqrt(std::max(0.0, 0.5 * sum - root)), std::sqrt(0.5 * sum + root)};
+}
+
+// For a sample of triangles. REQUIRES: a projected CRS in metres.
+Scales scalesIn(const Grid& grid) {
+  constexpr std::size_t kTriangles = 1000;
+  std::vector<std::vector<Point>> sides;
+  const std::size_t step = std::max<std::size_t>(1, grid.triangles.size() / kTriangles);
+  for (std::size_t t = 0; t < grid.triangles.size(); t += step) {
+    const auto& [a, b, c] = grid.triangles[t];
+    for (const auto& [from, to] : {NodePair{a, b}, NodePair{a, c}, NodePair{b, c}})
+      sides.push_back({grid.nodes[from], grid.nodes[to]});
   }
-  return on_ground > 0.0 ? in_plane / on_ground : 1.0;
+  const std::vector<double> lengths = chainLengths(sides, grid.crs);
+  double in_plane = 0.0, on_ground = 0.0;
+  Scales scales;
+  for (std::size_t i = 0; i < sides.size(); i += 3) {
+    const Point a = sides[i][1] - sides[i][0], b = sides[i + 1][1] - sides[i + 1][0];
+    in_plane += std::sqrt(squaredLength(a));
+    on_ground += lengths[i];
+    const auto [least, most] = scalesOf(a, b, {lengths[i], lengths[i + 1], lengths[i + 2]});
+    if (!std::isfinite(least + most) || !(least > 0.0)) continue;  // a flat triangle has no shape
+    scales.least = i == 0 ? least : std::min(scales.least, least);
+    scales.most = i == 0 ? most : std::max(scales.most, most);
+    scales.angle_deg = std::max(scales.angle_deg, toDegrees(2.0 * std::asin((most - least) / (most + least))));
+  }
+  if (on_ground > 0.0) scales.mean = in_plane / on_ground;
+  return scales;
 }
 
 }  // namespace
@@ -248,11 +276,22 @@ std::string metreWarning(const Grid& grid, const std::string& path) {
            ", as the input has them, and depths in metres, but models read all of them as metres: reproject the input "
            "to a CRS in metres (ogr2ogr -t_srs), and mesh that";
   constexpr double kTrue = 0.02;  // UTM and national grids are true to a few thousandths
-  const double scale = meanScale(grid);
-  if (std::abs(scale - 1.0) <= kTrue) return {};
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", scale);
-  return "lengths in '" + path + "' are " + text + " times those on the ground, since " + nameOf(crs) +
+  constexpr double kWorthAWordDeg = 3.0;
+  const Scales scales = scalesIn(grid);
+  if (std::abs(scales.mean - 1.0) <= kTrue && scales.most <= 1.0 + kTrue && scales.least >= 1.0 - kTrue) return {};
+  char text[96];
+  if (scales.most <= (1.0 + kTrue) * scales.least)
+    std::snprintf(text, sizeof text, "%.3g times those on the ground", scales.mean);
+  else
+    std::snprintf(text, sizeof text, "%.3g to %.3g times those on the ground, by place and direction", scales.least,
+                  scales.most);
+  std::string angles;
+  if (scales.angle_deg > kWorthAWordDeg) {
+    char degrees[64];
+    std::snprintf(degrees, sizeof degrees, ", and angles differ by up to %.2g degrees", scales.angle_deg);
+    angles = degrees;
+  }
+  return "lengths in '" + path + "' are " + text + angles + ", since " + nameOf(crs) +
          ", as the input has it, is not true to scale here, but models take them for metres: reproject the input to a "
          "CRS of the region, such as UTM (ogr2ogr -t_srs), and mesh that";
 }

@@ -16,6 +16,7 @@
 #include "gis/crs/length_unit.hpp"
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
+#include "gis/quiet_hdf5.hpp"
 #include "gis/raster/raster_axes.hpp"
 #include "gis/raster/raster_mosaic.hpp"
 
@@ -99,6 +100,7 @@ RasterBand::RasterBand(std::string path, BandValues kind) : kind_(kind), dataset
   geometry_.path = std::move(path);
   const std::string& name = geometry_.path;
   registerDrivers();
+  quietHdf5();
   const OgrErrors errors;
   if (GDALGetCacheMax64() > kCacheBytes) GDALSetCacheMax64(kCacheBytes);
   Dataset& raster = *dataset_;
@@ -134,22 +136,28 @@ RasterBand::RasterBand(std::string path, BandValues kind) : kind_(kind), dataset
   geometry_.columns = raster.dataset->GetRasterXSize();
   geometry_.rows = raster.dataset->GetRasterYSize();
   readPlaces(errors.text());
-  const std::array<double, 6>& to_place = geometry_.to_place;
+  readPeriod();
   int& block_columns = geometry_.block_columns;
   int& block_rows = geometry_.block_rows;
   raster.band->GetBlockSize(&block_columns, &block_rows);
   geometry_.in_order = raster.rows_in_order;
-  geometry_.mosaic = mosaicOf(*raster.dataset);
+  geometry_.mosaic = mosaicOf(*raster.dataset, geometry_.columns);
   geometry_.is_exact = geometry_.mosaic || !isVirtual(*raster.dataset);
   raster.is_read.assign(geometry_.mosaic ? geometry_.mosaic->files.size() : 1, 0);
   const auto side = static_cast<std::int64_t>(std::sqrt(static_cast<double>(kTilePixels)));
   tile_columns_ = block_columns * std::max<std::int64_t>(1, side / block_columns);
   tile_rows_ = block_rows * std::max<std::int64_t>(1, kTilePixels / tile_columns_ / block_rows);
-  if (geometry_.crs.geographic && to_place[1] != 0.0) {
-    geometry_.period = 360.0 / std::abs(to_place[1]);
-    geometry_.wraps = std::abs(geometry_.columns - geometry_.period) < 0.5;
-    if (geometry_.wraps) geometry_.period = geometry_.columns;
-  }
+}
+
+// Determines whether the columns go around the Earth.
+void RasterBand::readPeriod() {
+  const double width = std::abs(geometry_.to_place[1]);
+  if (!geometry_.crs.geographic || width == 0.0) return;
+  constexpr double kRepeated = 0.25;  // columns
+  geometry_.period = 360.0 / width;
+  if (!geometry_.uneven_columns && std::abs(geometry_.columns - 1 - geometry_.period) < kRepeated) --geometry_.columns;
+  geometry_.wraps = std::abs(geometry_.columns - geometry_.period) < 0.5;
+  if (geometry_.wraps) geometry_.period = geometry_.columns;
 }
 
 // Determines where the pixels lie. `told` are GDAL's messages when it opened the file.

@@ -26,6 +26,7 @@ struct RasterWindow {
 // The geometry of a raster, without its values.
 struct RasterGeometry {
   std::string path;
+  // Where the last column repeats the first, a turn further east, it does not count: centres at -180 and 180.
   int columns = 0, rows = 0;
   int block_columns = 1, block_rows = 1;       // of the file: read as a whole
   bool in_order = false;                       // rows must be read in order, from the first (text formats)
@@ -109,6 +110,7 @@ class RasterBand {
 
   void bringToMetres();
   void readPlaces(const std::string& told);
+  void readPeriod();
   void readInto(const RasterWindow& window, double* values, std::int64_t stride) const;
 
   RasterGeometry geometry_;

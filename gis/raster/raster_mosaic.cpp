@@ -101,7 +101,7 @@ std::vector<std::string> netcdfFilesOf(GDALDataset& dataset) {
   return files;
 }
 
-std::shared_ptr<const RasterMosaic> mosaicOf(GDALDataset& dataset) {
+std::shared_ptr<const RasterMosaic> mosaicOf(GDALDataset& dataset, int columns) {
   if (!isVirtual(dataset)) return nullptr;
   char** const text = dataset.GetMetadata("xml:VRT");
   if (text == nullptr || text[0] == nullptr) return nullptr;
@@ -118,7 +118,7 @@ std::shared_ptr<const RasterMosaic> mosaicOf(GDALDataset& dataset) {
     if (!source) return nullptr;
     placed.push_back(std::move(*source));
   }
-  const PixelRect all{0, 0, dataset.GetRasterXSize(), dataset.GetRasterYSize()};
+  const PixelRect all{0, 0, columns, dataset.GetRasterYSize()};
   for (Placed& each : placed) each.at = each.at.in(all);
   std::erase_if(placed, [](const Placed& each) { return each.at.isEmpty(); });
   auto mosaic = std::make_shared<RasterMosaic>();

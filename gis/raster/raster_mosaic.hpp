@@ -68,7 +68,7 @@ struct RasterMosaic {
 bool isVirtual(GDALDataset& dataset);
 // The netCDF files of a VRT, by extension, and the netCDF subdatasets that it names; empty for other rasters.
 std::vector<std::string> netcdfFilesOf(GDALDataset& dataset);
-// The mosaic of the first band; null if the raster is not one, or does not describe it.
-std::shared_ptr<const RasterMosaic> mosaicOf(GDALDataset& dataset);
+// The mosaic of the first `columns` of the first band; null if the raster is not one, or does not describe it.
+std::shared_ptr<const RasterMosaic> mosaicOf(GDALDataset& dataset, int columns);
 
 }  // namespace coastmesh

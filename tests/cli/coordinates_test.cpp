@@ -564,6 +564,22 @@ TEST_F(Coordinates, NotTrueToScaleAreWarnedOfForModels) {
   EXPECT_EQ(errorsAt(1e5, "a.2dm").find("times those"), std::string::npos);
 }
 
+// An equal-area cylinder at 60 degrees: parallels are 1.73 times as long, meridians 0.58 times.
+TEST_F(Coordinates, ThatDistortShapesAreWarnedOfByDirection) {
+  const std::string lake =
+      write("lake.geojson",
+            R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::6933"}},)"
+            R"("features":[{"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":)"
+            R"([[[980000,6345000],[990000,6345000],[990000,6350000],[980000,6350000],[980000,6345000]]]}}]})");
+  const ProgramRun run = runProgram({"mesh", lake, "--size", "500", "-o", file("a.2dm")});
+  EXPECT_EQ(run.code, 0) << run.errors;
+  EXPECT_NE(run.errors.find("a.2dm' are 0.57"), std::string::npos) << run.errors;
+  EXPECT_NE(run.errors.find(" to 1.7"), std::string::npos) << run.errors;
+  EXPECT_NE(run.errors.find(" times those on the ground, by place and direction, and angles differ by up to 6"),
+            std::string::npos)
+      << run.errors;
+}
+
 // GDAL calls it an error that WKT 1 cannot express Equal Earth, and then writes it as WKT 2.
 TEST_F(Coordinates, InEqualEarthGoIntoGeoPackages) {
   const std::string lake =

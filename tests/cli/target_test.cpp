@@ -159,7 +159,7 @@ std::size_t sharperThan(double degrees, const Fort14& grid) {
 
 // A star without a corner below 60 degrees, so that every smaller angle is the mesh's own. Its mesh meets 42 degrees
 // until a repair moves a node.
-TEST_F(Target, WhatRepairsMakeOfTheBoundsIsWhatTheExitCodeSays) {
+std::string starPoly() {
   const std::vector<std::array<int, 2>> ring{{1000, 0},  {866, 281},   {809, 588},   {526, 724},   {309, 951},
                                              {0, 758},   {-309, 951},  {-486, 670},  {-809, 588},  {-839, 273},
                                              {-1000, 0}, {-722, -235}, {-809, -588}, {-442, -608}, {-309, -951},
@@ -170,7 +170,11 @@ TEST_F(Target, WhatRepairsMakeOfTheBoundsIsWhatTheExitCodeSays) {
   star << ring.size() << " 0\n";
   for (std::size_t i = 0; i < ring.size(); ++i)
     star << i + 1 << ' ' << i + 1 << ' ' << (i + 1) % ring.size() + 1 << '\n';
-  const std::string input = write("star.poly", star.str() + "0\n");
+  return star.str() + "0\n";
+}
+
+TEST_F(Target, WhatRepairsMakeOfTheBoundsIsWhatTheExitCodeSays) {
+  const std::string input = write("star.poly", starPoly());
   const auto mesh = [&](const std::string& out, std::vector<std::string> more) {
     more.insert(more.begin(),
                 {"mesh", input, "--min-angle", "42", "-o", file(out), "--overwrite", "--report", file("r.json")});
@@ -187,6 +191,36 @@ TEST_F(Target, WhatRepairsMakeOfTheBoundsIsWhatTheExitCodeSays) {
   };
   EXPECT_EQ(mesh("plain.14", {}), 0u);
   EXPECT_GT(mesh("mended.14", {"--target", "dflowfm"}), 0u);
+}
+
+// All triangles are in one of the lines, with the smallest angle of what is written.
+TEST_F(Target, FiguresOfAPartMeshedAnewAreThoseAfterRepairs) {
+  const std::string input = write("star.poly", starPoly());
+  ASSERT_EQ(runProgram({"mesh", input, "--min-angle", "42", "-o", file("whole.nc"), "--quiet"}).code, 0);
+  std::size_t warned = 0;
+  for (const std::string box : {"-1000,-1000,-500,1000", "500,-1000,1000,1000", "-1000,-1000,1000,-500"}) {
+    const ProgramRun run = runProgram({"remesh", file("whole.nc"), "--bbox=" + box, "--size", "300", "--min-angle",
+                                       "42", "--target", "dflowfm", "-o", file("part.14"), "--overwrite"});
+    ASSERT_EQ(run.code, 0) << run.errors;
+    std::size_t triangles = 0;
+    double least = 180.0, least_repaired = 180.0;
+    std::istringstream lines(run.output);
+    for (std::string line; std::getline(lines, line);) {
+      const std::size_t at = line.find("angles from ");
+      if (at == std::string::npos) continue;
+      triangles += std::stoul(line.substr(line.find(": ") + 2));
+      const double angle = std::stod(line.substr(at + 12));
+      least = std::min(least, angle);
+      if (line.starts_with("changed by repairs: ")) least_repaired = angle;
+    }
+    const Json info = Json::parse(runProgram({"info", file("part.14"), "--json"}).output);
+    EXPECT_EQ(info["triangles"], triangles) << run.output;
+    EXPECT_NEAR(info["min_angle_deg"].get<double>(), least, 0.051) << run.output;
+    const bool is_warned = run.errors.find("the bounds on angles; the smallest angle is ") != std::string::npos;
+    EXPECT_EQ(is_warned, least_repaired < 41.99) << run.output << run.errors;
+    warned += is_warned;
+  }
+  EXPECT_GT(warned, 0U);
 }
 
 // A degree of longitude is a sixth of one of latitude there.

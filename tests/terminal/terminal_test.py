@@ -123,6 +123,7 @@ class ManualTest(unittest.TestCase):
                 self.assertGreater(section, 0, option["section"])
                 at = page.find("\n" + option["label"], max(at, section))
                 self.assertGreater(at, 0, option["label"])
+            self.assertNotRegex(page, r"repeated[^\n]*repeated")
         if not shutil.which("groff"):
             self.skipTest("there is no groff to look for faults")
         for name in os.listdir(os.path.join(USAGE, "man")):
@@ -145,6 +146,8 @@ _coastmesh; printf '%s\\n' "${{COMPREPLY[@]}}" """
         self.assertEqual(self.bash("coastmesh", "mes"), ["mesh"])
         self.assertIn("--min-angle", self.bash("coastmesh", "mesh", "--mi"))
         self.assertEqual(self.bash("coastmesh", "mesh", "--algorithm", "re"), ["relocate"])
+        self.assertEqual(self.bash("coastmesh", "mesh", "--target", "adcirc", "--target", "te"), ["telemac"])
+        self.assertEqual(self.bash("coastmesh", "convert", "--format", "gmsh"), ["gmsh", "gmsh22"])
         self.assertNotIn("--min-angle", self.bash("coastmesh", "info", "--"))
         self.assertIn(USAGE, self.bash("coastmesh", "info", USAGE[:-1]))
 
@@ -161,6 +164,8 @@ _coastmesh; printf '%s\\n' "${{COMPREPLY[@]}}" """
         self.assertEqual(complete("coastmesh mes"), ["mesh"])
         self.assertIn("--min-angle", complete("coastmesh mesh --mi"))
         self.assertIn("relocate", complete("coastmesh mesh --algorithm re"))
+        self.assertEqual(complete("coastmesh mesh --target adcirc --target te"), ["telemac"])
+        self.assertEqual(complete("coastmesh convert --format gmsh"), ["gmsh", "gmsh22"])
         self.assertNotIn("--min-angle", complete("coastmesh info --"))
 
     def test_zsh(self):
@@ -176,6 +181,10 @@ zpty -r -m shell line '*relocate*'; print -r -- "$line"
 """
         run = subprocess.run(["zsh", "-f", "-c", script], capture_output=True, text=True, timeout=60, check=False)
         self.assertIn("relocate", run.stdout, run.stderr)
+        with open(os.path.join(USAGE, "zsh", "_coastmesh"), encoding="utf-8") as file:
+            text = file.read()
+        self.assertIn(":value:(adcirc schism ", text)
+        self.assertRegex(text, r"--format\[[^\]]*\]:value:\([a-z0-9_ ]*gmsh22[ )]")
 
 
 if __name__ == "__main__":

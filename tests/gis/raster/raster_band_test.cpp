@@ -9,12 +9,15 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "gis/error.hpp"
 #include "gis/model/depth.hpp"
+#include "gis/raster/raster_mosaic.hpp"
 #include "gis/size/size_raster.hpp"
 #include "tests/gis/grid_samples.hpp"
+#include "tests/support/netcdf_rasters.hpp"
 
 namespace coastmesh {
 namespace {
@@ -183,6 +186,91 @@ TEST(RasterBand, GoesRoundTheEarthForDepthsAndSizes) {
   EXPECT_NEAR(sizeAt(field, seam), 1.2, 0.01);
   EXPECT_NEAR(sizeAt(field, inside), 1.0, 0.02);
   EXPECT_EQ(west_of_first, -1.4F);
+}
+
+// Values that are linear in the longitude around 180, and steep enough for each pixel to keep its own size. The centres
+// of pixels are at -180 and 180: the last column repeats the first.
+class RepeatedColumn : public ::testing::Test {
+ protected:
+  static constexpr int kColumns = 37, kRows = 19;
+  static double valueAt(double lon) { return -2.5 - 0.012 * std::remainder(lon - 180.0, 360.0); }
+
+  // Columns `first` to `last` of them.
+  std::string write(const std::string& name, int first, int last) const {
+    GDALAllRegister();
+    GDALDataset* const dataset = GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
+        (folder_ / name).c_str(), last - first, kRows, 1, GDT_Float64, nullptr);
+    double transform[6] = {-185.0 + 10.0 * first, 10.0, 0.0, 95.0, 0.0, -10.0};
+    dataset->SetGeoTransform(transform);
+    OGRSpatialReference srs;
+    srs.SetFromUserInput("EPSG:4326");
+    dataset->SetSpatialRef(&srs);
+    std::vector<double> row;
+    for (int column = first; column < last; ++column) row.push_back(valueAt(-180.0 + 10.0 * column));
+    for (int r = 0; r < kRows; ++r)
+      EXPECT_EQ(dataset->GetRasterBand(1)->RasterIO(GF_Write, 0, r, last - first, 1, row.data(), last - first, 1,
+                                                    GDT_Float64, 0, 0, nullptr),
+                CE_None);
+    GDALClose(dataset);
+    return folder_ / name;
+  }
+
+  // The plane holds on both sides of 180, for depths and for sizes.
+  void expectPlane(const std::string& path) const {
+    std::vector<Point> places;
+    for (const double lon : {171.0, 176.0, 179.0, 180.0, -180.0, -179.0, -176.0, -171.0, 182.0, -182.0})
+      places.push_back({lon, 5.0});
+    const std::vector<double> depths = depthsAt(path, wgs84(), places);
+    const RasterField west = fieldOf(path, wgs84(), Box::of({-180.0, -40.0}, {-100.0, 40.0}), valuesAsSizes());
+    const RasterField east = fieldOf(path, wgs84(), Box::of({100.0, -40.0}, {180.0, 40.0}), valuesAsSizes());
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const double value = valueAt(places[i].x);
+      EXPECT_NEAR(depths[i], value, 1e-6) << places[i].x;
+      if (std::abs(places[i].x) > 180.0) continue;
+      EXPECT_NEAR(sizeAt(places[i].x < 0.0 ? west : east, places[i]), -value, 1e-3) << places[i].x;
+    }
+  }
+
+  const TemporaryFolder folder_;
+};
+
+TEST_F(RepeatedColumn, CountsOnce) {
+  const std::string path = write("world.tif", 0, kColumns);
+  EXPECT_TRUE(readRasterGeometry(path).wraps);
+  EXPECT_EQ(readRasterGeometry(path).columns, kColumns - 1);
+  expectPlane(path);
+}
+
+TEST_F(RepeatedColumn, CountsOnceInAMosaic) {
+  write("west.tif", 0, 20);
+  write("east.tif", 20, kColumns);
+  const std::string path = folder_ / "world.vrt";
+  const auto source = [](const std::string& name, int first, int columns) {
+    const std::string size = " xSize=\"" + std::to_string(columns) + "\" ySize=\"19\"/>";
+    return "<SimpleSource><SourceFilename relativeToVRT=\"1\">" + name +
+           "</SourceFilename><SourceBand>1</SourceBand><SrcRect xOff=\"0\" yOff=\"0\"" + size + "<DstRect xOff=\"" +
+           std::to_string(first) + "\" yOff=\"0\"" + size + "</SimpleSource>";
+  };
+  std::ofstream(path) << "<VRTDataset rasterXSize=\"37\" rasterYSize=\"19\"><SRS>EPSG:4326</SRS>"
+                         "<GeoTransform>-185, 10, 0, 95, 0, -10</GeoTransform><VRTRasterBand dataType=\"Float64\" "
+                         "band=\"1\">"
+                      << source("west.tif", 0, 20) << source("east.tif", 20, 17) << "</VRTRasterBand></VRTDataset>";
+  const RasterGeometry geometry = readRasterGeometry(path);
+  ASSERT_TRUE(geometry.mosaic);
+  EXPECT_EQ(geometry.mosaic->cuts.columns, (std::vector{0, 20, kColumns - 1}));
+  expectPlane(path);
+}
+
+// HDF5 has a setting for each thread of whether it prints errors, which netCDF takes for answers.
+TEST(RasterBand, NothingIsPrintedByThreadsThatReadNetcdf) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "z.nc";
+  const std::vector<double> places{1.0, 2.0, 3.0};
+  testing::writeNetcdfRaster(path, {"lat", "degrees_north", places}, {"lon", "degrees_east", places},
+                             [](double row, double column) { return row + column; });
+  ::testing::internal::CaptureStderr();
+  for (int k = 0; k < 2; ++k) std::thread([&] { EXPECT_EQ(RasterBand(path).read({0, 0, 3, 3}).size(), 9U); }).join();
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
 // A grid of 200 rows whose text ends after 120: the missing rows are refused at once.
