@@ -3,6 +3,7 @@
 #include <cpl_vsi.h>
 
 #include <algorithm>
+#include <exception>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -12,7 +13,7 @@
 #include "gis/coast/feature_names.hpp"
 #include "gis/crs/known_code.hpp"
 #include "gis/lower_case.hpp"
-#include "gis/read/geojson_member.hpp"
+#include "gis/read/file_bytes.hpp"
 
 namespace coastmesh {
 
@@ -34,6 +35,33 @@ bool mayHaveCrs(const std::string& path) {
     if (bytes.find("\"crs\"") != std::string::npos) return true;
   }
   return false;
+}
+
+// Ends the parsing of a file.
+struct FoundCrs : std::exception {
+  explicit FoundCrs(Json found) : crs(std::move(found)) {}
+
+  Json crs;
+};
+
+// The member of the file's outermost object. nullopt if there is none, or the file is not one JSON text.
+std::optional<Json> crsMember(const std::string& path) {
+  if (!mayHaveCrs(path)) return std::nullopt;
+  bool is_crs = false;
+  const auto keep = [&](int depth, Json::parse_event_t event, Json& parsed) {
+    using Event = Json::parse_event_t;
+    if (event == Event::key && depth == 1) is_crs = parsed == "crs";
+    if (is_crs && depth == 1 && (event == Event::value || event == Event::object_end))
+      throw FoundCrs(std::move(parsed));
+    return is_crs || depth == 0;
+  };
+  FileBytes file(path, static_cast<std::uintmax_t>(1) << 18);
+  try {
+    [[maybe_unused]] const Json rest = Json::parse(ByteIterator(&file), ByteIterator(nullptr), keep, false);
+  } catch (FoundCrs& found) {
+    return std::move(found.crs);
+  }
+  return std::nullopt;
 }
 
 // Links, which OGR reports itself if it cannot follow them, are not looked at.
@@ -69,13 +97,10 @@ std::string inWords(const Json& crs) {
 
 void requireKnownCrs(const OpenSource& source) {
   if (source.dataset->GetDriverName() != std::string_view("GeoJSON")) return;
-  const std::string path = source.dataset->GetDescription();
-  const std::optional<std::string> member = mayHaveCrs(path) ? geojsonMember(path, "crs") : std::nullopt;
-  if (!member) return;
-  const Json crs = Json::parse(*member);
-  if (isKnown(crs)) return;
+  const std::optional<Json> crs = crsMember(source.dataset->GetDescription());
+  if (!crs || isKnown(*crs)) return;
   throw InputError(sourceInWords(source.name) + ": its member crs names a CRS that PROJ does not know, " +
-                   inWords(crs) +
+                   inWords(*crs) +
                    ": correct it, or remove the member if the coordinates are longitudes and latitudes on WGS 84");
 }
 

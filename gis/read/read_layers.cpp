@@ -19,7 +19,6 @@
 #include "gis/read/bare_geojson.hpp"
 #include "gis/read/cleaned_file.hpp"
 #include "gis/read/geojson_crs.hpp"
-#include "gis/read/geojson_member.hpp"
 #include "gis/read/near_box.hpp"
 #include "gis/read/ogr_geometry.hpp"
 #include "gis/read/open_source.hpp"
@@ -200,14 +199,10 @@ class LayerReader {
     }
   }
 
-  // True if it has a single feature without attributes.
-  bool isLone() const {
-    return raw_.use == FeatureUse::Area && raw_.columns.empty() && count_ == 1 && raw_.features.size() == 1;
-  }
-
-  // `bare`: it is a geometry, no row of a table, which keeps its number.
-  RawLayer finish(bool bare) {
-    if (bare && isLone()) takeBareApart();
+  // `filtered`: other features may have been left out.
+  RawLayer finish(bool filtered) {
+    if (raw_.use == FeatureUse::Area && !filtered && raw_.columns.empty() && count_ == 1 && raw_.features.size() == 1)
+      takeBareApart();
     return std::move(raw_);
   }
 
@@ -260,11 +255,11 @@ class LayerReader {
                    "; polygons or lines are needed");
 }
 
-std::vector<RawLayer> finishAll(std::vector<LayerReader>& readers, bool bare, const std::string& source,
+std::vector<RawLayer> finishAll(std::vector<LayerReader>& readers, bool filtered, const std::string& source,
                                 std::uint64_t points) {
   std::vector<RawLayer> raw;
   for (LayerReader& reader : readers) {
-    RawLayer finished = reader.finish(bare);
+    RawLayer finished = reader.finish(filtered);
     if (!finished.empty()) raw.push_back(std::move(finished));
   }
   if (raw.empty()) refuseEmpty(source, points);
@@ -299,7 +294,7 @@ std::vector<RawLayer> readLayers(const Source& given, const ReadFilter& filter, 
     feature.use = given.use;
     readers.emplace_back(wgs84(), feature.source, given.use);
     readers.front().add(std::move(*bare), std::move(feature), report);
-    return finishAll(readers, true, given.path, report.skipped_points - points_before);
+    return finishAll(readers, false, given.path, report.skipped_points - points_before);
   }
 
   OgrErrors errors;
@@ -352,11 +347,7 @@ std::vector<RawLayer> readLayers(const Source& given, const ReadFilter& filter, 
     throw InputError(sourceInWords(source.name) + ": --where \"" + filter.where +
                      "\" holds for no feature with a geometry in it" +
                      (of_osm ? "; " + std::string(kHowToReadOsmCoasts) : ""));
-  // A stream, or in an archive: files are read by `readBareGeojson`.
-  const bool bare = filter.where.empty() && not_read == 0 && readers.size() == 1 && readers.front().isLone() &&
-                    source.dataset->GetDriverName() == std::string_view("GeoJSON") &&
-                    isBareGeometry(source.dataset->GetDescription());
-  return finishAll(readers, bare, source.name, report.skipped_points - points_before);
+  return finishAll(readers, !filter.where.empty() || not_read > 0, source.name, report.skipped_points - points_before);
 }
 
 }  // namespace coastmesh

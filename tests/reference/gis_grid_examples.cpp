@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "gis/check/check_target.hpp"
+#include "gis/check/target_defect.hpp"
 #include "gis/error.hpp"
 #include "gis/fields/field_source.hpp"
 #include "gis/format/grid_format.hpp"
@@ -240,6 +241,18 @@ TEST_F(GisGridExamples, CheckTarget) {
   //! [gis/check/check_target.hpp]
   EXPECT_NE(std::ranges::find(found, toString(TargetDefectKind::Clockwise)), found.end());
   EXPECT_TRUE(checkTarget(squares(), Target::Adcirc).empty());
+}
+
+// gis/check/target_defect.hpp: What a model refuses, by kind and place.
+TEST_F(GisGridExamples, TargetDefect) {
+  //! [gis/check/target_defect.hpp]
+  Grid grid = squares();
+  grid.boundaries.clear();
+  std::size_t bare = 0;  // edges of the mesh that are in no boundary
+  for (const TargetDefect& defect : checkTarget(grid, Target::Schism))
+    if (defect.kind == TargetDefectKind::NoBoundary) ++bare;
+  //! [gis/check/target_defect.hpp]
+  EXPECT_GT(bare, 0u);
 }
 
 // gis/model/depth.hpp: Depths at the nodes, from rasters.

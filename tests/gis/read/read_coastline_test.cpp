@@ -149,32 +149,6 @@ TEST_F(ReadCoastline, ARowStaysOneFeature) {
   EXPECT_EQ(left.features[0].fid, 8);
 }
 
-// Nor is one of a table without other columns, or a feature of GeoJSON.
-TEST_F(ReadCoastline, ARowWithoutAttributesKeepsItsNumber) {
-  const std::string table =
-      layer("rows.gpkg", "GPKG", "EPSG:4326", {"MULTIPOLYGON(((0 0,1 0,1 1,0 0)),((5 5,6 5,6 6,5 5)))"});
-  {
-    const std::unique_ptr<GDALDataset> dataset(GDALDataset::Open(table.c_str(), GDAL_OF_VECTOR | GDAL_OF_UPDATE));
-    ASSERT_EQ(dataset->GetLayer(0)->DeleteField(0), OGRERR_NONE);
-    dataset->ExecuteSQL("UPDATE coast SET fid = 7", nullptr, nullptr);
-  }
-  const std::string geometry =
-      R"({"type":"MultiPolygon","coordinates":[[[[0,0],[1,0],[1,1],[0,0]]],[[[5,5],[6,5],[6,6],[5,5]]]]})";
-  const std::string feature = R"({"type":"Feature","id":7,"properties":null,"geometry":)" + geometry + "}";
-  const std::string collection = R"({"type":"FeatureCollection","features":[)" + feature + "]}";
-  for (const std::string& source :
-       {table, write("feature.geojson", feature), write("collection.geojson", collection)}) {
-    const Coastline coastline = read(source);
-    ASSERT_EQ(coastline.features.size(), 1u) << source;
-    EXPECT_EQ(coastline.features[0].fid, 7) << source;
-    EXPECT_EQ(coastline.features[0].polygons.size(), 2u) << source;
-  }
-  write("bare.geojson", geometry);
-  const std::string pack = "cd '" + path("") + "' && tar czf bare.tgz bare.geojson";
-  ASSERT_EQ(std::system(pack.c_str()), 0);
-  EXPECT_EQ(read(path("bare.tgz")).features.size(), 2u);
-}
-
 TEST_F(ReadCoastline, SkipsAndCountsWhatIsNoShore) {
   const Coastline coastline = read(geojson("mixed.geojson", {"null", kSquare, R"({"type":"Point","coordinates":[3,3]})",
                                                              R"({"type":"MultiPoint","coordinates":[[3,3],[4,4]]})",
