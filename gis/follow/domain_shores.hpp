@@ -46,6 +46,7 @@ inline ShoreGraph takeGraph(Domain& domain) {
 inline Domain domainOf(ShoreGraph&& graph, Domain&& before) {
   Domain made;
   made.projection = before.projection;
+  made.coast = std::move(before.coast);
   made.frame = std::move(before.frame);
   made.resolution = before.resolution;
   made.lines = std::move(before.lines);
