@@ -297,7 +297,10 @@ void JobInput::readPolyFile(const std::string& path) {
   requireReadyGraph("'" + path + "'");
   if (sourcesOf(options_).size() > 1)
     throw OptionError("'" + path + "' defines the domain itself; leave out --constraints, --weirs and --regions");
-  takePlaneGraph(readPoly(path), path);
+  PolyExtras ignored;
+  takePlaneGraph(readPoly(path, &ignored), path);
+  if (const std::string text = textOf(ignored); !text.empty())
+    report_.warnings.push_back("'" + path + "': ignored: " + text);
 }
 
 // An ellipsoid or sphere needs a place on Earth and a fitted plane. Without these, uses the plane if `where_known`, and

@@ -170,7 +170,7 @@ StagedFiles::StagedFiles(std::string path, OutputFiles files, bool overwrite)
   std::string name = stagingPattern(path_);
   keepSpareDescriptor();
   if (::mkdtemp(name.data()) == nullptr) failToWrite(target, std::strerror(errno));
-  staging_folder_ = name;
+  staging_folder_ = std::move(name);  // without an allocation that may fail
 }
 
 StagedFiles::~StagedFiles() {

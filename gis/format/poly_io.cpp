@@ -1,11 +1,14 @@
 #include "gis/format/poly_io.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <limits>
 
+#include "gis/coast/segment_tags.hpp"
 #include "gis/error.hpp"
 #include "gis/file/text_reader.hpp"
 #include "gis/file/text_writer.hpp"
+#include "gis/for_count.hpp"
 #include "gis/grid/hole_points.hpp"
 
 namespace coastmesh {
@@ -47,13 +50,15 @@ IdMap readVertices(TextReader& file, const VertexHeader& header, Pslg& pslg) {
   return IdMap(std::move(ids), file, "vertex");
 }
 
-IdMap readNodeFile(const std::string& poly_path, Pslg& pslg) {
+IdMap readNodeFile(const std::string& poly_path, Pslg& pslg, std::uint64_t& attributes) {
   const std::string path = std::filesystem::path(poly_path).replace_extension(".node").string();
   if (!std::filesystem::exists(path)) {
     throw InputError("'" + poly_path + "' says that its vertices are in '" + path + "', which does not exist");
   }
   TextReader file(path, kComment);
-  return readVertices(file, readVertexHeader(file), pslg);
+  const VertexHeader header = readVertexHeader(file);
+  attributes = header.attributes;
+  return readVertices(file, header, pslg);
 }
 
 VertexId readEnd(TextReader& file, const IdMap& vertices) {
@@ -84,26 +89,48 @@ void readSegments(TextReader& file, const IdMap& vertices, Pslg& pslg) {
   }
 }
 
-void readHoles(TextReader& file, Pslg& pslg) {
-  if (!file.nextLine()) return;  // Triangle requires the count, other programs omit it
+// False at the end of the file.
+bool readHoles(TextReader& file, Pslg& pslg) {
+  if (!file.nextLine()) return false;  // Triangle requires the count, other programs omit it
   const std::uint64_t count = file.count();
   for (std::uint64_t i = 0; i < count; ++i) {
     file.needLine();
     file.integer();
     pslg.holes.push_back(readPlace(file));
   }
+  return true;
 }
+
+bool isOfUser(std::int32_t marker) { return marker != 0 && marker != 1 && !isOpenTag(marker) && !isLineTag(marker); }
 
 }  // namespace
 
-Pslg readPoly(const std::string& path) {
+Pslg readPoly(const std::string& path, PolyExtras* ignored) {
   Pslg pslg;
   TextReader file(path, kComment);
   const VertexHeader header = readVertexHeader(file);
-  const IdMap vertices = header.count == 0 ? readNodeFile(path, pslg) : readVertices(file, header, pslg);
+  std::uint64_t attributes = header.attributes;
+  const IdMap vertices = header.count == 0 ? readNodeFile(path, pslg, attributes) : readVertices(file, header, pslg);
   readSegments(file, vertices, pslg);
-  readHoles(file, pslg);
+  const bool goes_on = readHoles(file, pslg);
+  if (ignored == nullptr) return pslg;
+  ignored->attributes = attributes > 0;
+  ignored->markers = std::ranges::any_of(pslg.segments, isOfUser, &Segment::tag);
+  ignored->regions = goes_on && file.nextLine() ? file.count() : 0;
   return pslg;
+}
+
+std::string textOf(const PolyExtras& extras) {
+  std::string text;
+  const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
+  if (extras.regions > 0)
+    add(std::to_string(extras.regions) +
+        forCount(extras.regions, " region with its attribute and limit of areas",
+                 " regions with their attributes and limits of areas") +
+        " (--size-max limits sizes)");
+  if (extras.attributes) add("attributes of points");
+  if (extras.markers) add("markers of segments, which name no types of boundaries here");
+  return text;
 }
 
 void writePoly(const Pslg& pslg, const std::string& path) {

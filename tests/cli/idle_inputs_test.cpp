@@ -190,5 +190,26 @@ TEST_F(IdleInputs, OfSeveralFilesTheIdleOnesAreNamed) {
   EXPECT_THAT(run.errors, ::testing::Not(HasSubstr("wet.geojson")));
 }
 
+// What Triangle's files can say besides points, segments and holes is not meshed.
+TEST_F(IdleInputs, OfAPlaneGraphAreNamedOnce) {
+  const auto warnings = [&](const std::string& attribute, const std::string& marker, const std::string& regions) {
+    const std::string end = attribute + "\n";
+    const std::string path = write("a.poly", "4 2 " + std::string(attribute.empty() ? "0" : "1") + " 0\n1 0 0" + end +
+                                                 "2 90 0" + end + "3 90 90" + end + "4 0 90" + end + "4 1\n1 1 2 " +
+                                                 marker + "\n2 2 3 1\n3 3 4 0\n4 4 1 1\n0\n" + regions);
+    const ProgramRun run = runProgram({"mesh", path, "-o", file("a.nc"), "--report", file("a.json"), "--overwrite"});
+    EXPECT_EQ(run.code, 0) << run.errors;
+    if (!run.errors.empty()) {
+      EXPECT_THAT(readText(file("a.json")), HasSubstr("a.poly': ignored: "));
+    }
+    return run.errors;
+  };
+  EXPECT_EQ(warnings("", "1", ""), "");
+  EXPECT_EQ(warnings("", "1", "0\n"), "");
+  EXPECT_THAT(warnings("", "1", "1\n1 10 10 4 50\n"), HasSubstr("a.poly': ignored: 1 region with its attribute"));
+  EXPECT_THAT(warnings(" 7", "1", ""), HasSubstr("a.poly': ignored: attributes of points\n"));
+  EXPECT_THAT(warnings(" 7", "3", ""), HasSubstr("ignored: attributes of points, markers of segments"));
+}
+
 }  // namespace
 }  // namespace coastmesh::test

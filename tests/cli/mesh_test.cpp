@@ -57,9 +57,10 @@ TEST_F(MeshRun, FormatIsTakenWhereTheEndingDoesNotTell) {
 TEST_F(MeshRun, ReportHasItsKeys) {
   const Json json = report();
   EXPECT_EQ(keysOf(json),
-            (std::set<std::string>{"coastmesh", "input", "clean", "refine", "mesh", "depth", "boundaries", "lines",
-                                   "step", "repairs", "partition", "output_warnings", "warnings", "time_s", "parallel",
-                                   "cluster", "checkpoint", "peak_memory_mib", "threads"}));
+            (std::set<std::string>{"coastmesh", "input",      "clean",           "refine",          "mesh",
+                                   "depth",     "attributes", "boundaries",      "lines",           "step",
+                                   "repairs",   "partition",  "output_warnings", "warnings",        "time_s",
+                                   "parallel",  "cluster",    "checkpoint",      "peak_memory_mib", "threads"}));
   EXPECT_EQ(keysOf(json["parallel"]),
             (std::set<std::string>{"work_s", "critical_path_s", "speedup", "meshing", "stages"}));
   EXPECT_EQ(keysOf(json["parallel"]["speedup"]), (std::set<std::string>{"2", "8", "64"}));

@@ -32,7 +32,8 @@ RUNS = {
     "lake": ("mesh_report", 0, "mesh data/lake_superior.geojson -o lake.nc"),
     "plane": ("mesh_report", 1, "mesh made/comb.poly -o comb.node --min-angle 44"),
     "lakes": ("mesh_report", 0, "mesh data/samples/finnish_lakes.geojson -o lakes.gpkg"),
-    "sea": ("mesh_report", 0, SEA + "--size-min 4000 --coast follow --target adcirc --open-deeper 200 --time-step 120 "
+    "sea": ("mesh_report", 0, SEA + "--attribute manning=made/sea_bed.asc --size-min 4000 --coast follow --target adcirc "
+            "--open-deeper 200 --time-step 120 "
             "--partition 4 -o sea.nc -o sea.14 -o partmesh.txt"),
     "short": ("mesh_report", 1, SEA + "--size-min 9000 --time-step 900 -o short.nc"),
     "no depths": ("mesh_report", 1, "mesh data/lake_superior.geojson --bathymetry elsewhere.asc --min-angle 44 -o dry.nc"),
