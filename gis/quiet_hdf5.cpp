@@ -16,9 +16,9 @@ Function* hdf5Function(const char* name) {
 
 bool turnOffPrinting() {
   // If the library is not made for threads, there is one setting for all of them, which is netCDF's to change.
-  auto* const tell = hdf5Function<int(unsigned*)>("H5is_library_threadsafe");
+  auto* const ask = hdf5Function<int(unsigned*)>("H5is_library_threadsafe");
   unsigned is_threadsafe = 0;  // HDF5's type for it has one byte or four
-  if (tell == nullptr || tell(&is_threadsafe) < 0 || is_threadsafe == 0) return false;
+  if (ask == nullptr || ask(&is_threadsafe) < 0 || is_threadsafe == 0) return false;
   auto* const set = hdf5Function<int(std::int64_t stack, void* print, void* data)>("H5Eset_auto2");
   constexpr std::int64_t kOfThisThread = 0;
   return set != nullptr && set(kOfThisThread, nullptr, nullptr) >= 0;

@@ -118,9 +118,8 @@ void useElementNumbers(const Grid& grid, std::vector<DefectRow>& rows) {
 
 // Where triangles meet without being connected: overlaps and, `with_nodes`, repeated and hanging nodes, which
 // `checkTarget` reports for models. Nodes of weirs are exempt: both sides may coincide.
-std::vector<DefectRow> meetingRows(const Grid& grid, bool with_nodes, const ItemLoop& loop) {
+std::vector<DefectRow> meetingRows(const Grid& grid, const TriMesh& mesh, bool with_nodes, const ItemLoop& loop) {
   std::vector<DefectRow> rows;
-  const TriMesh mesh = linkGrid(grid, loop).mesh;
   const Elements elements(grid);
   for (const auto& [t, other] : triangleOverlaps(grid, mesh, loop))
     rows.push_back({std::string(toString(TargetDefectKind::Overlap)),
@@ -146,12 +145,11 @@ std::vector<DefectRow> meetingRows(const Grid& grid, bool with_nodes, const Item
 
 // What any reader of the file may stumble over: boundaries that are not those of the mesh, and nodes without triangles.
 // Only models' formats with segments of nodes list all of the boundary.
-std::vector<DefectRow> fileRows(const Grid& grid, const std::string& path, const ItemLoop& loop) {
+std::vector<DefectRow> fileRows(const Grid& grid, const TriMesh& mesh, const std::string& path, const ItemLoop& loop) {
   std::vector<DefectRow> rows;
   const GridFormat* const format = gridFormatOf(path);
   const bool lists_all = format != nullptr && (format->name == "adcirc" || format->name == "schism");
   if (!grid.boundaries.empty()) {
-    const TriMesh mesh = linkGrid(grid, loop).mesh;
     for (const TargetDefect& defect : checkSegments(grid, mesh, boundaryEdges(mesh, loop), std::nullopt, loop))
       if (lists_all || defect.kind != TargetDefectKind::NoBoundary) rows.push_back(rowOf(defect, {}));
   }
@@ -260,10 +258,11 @@ int runCheck(const CheckUsage& usage, Run& run) {
                                 : checkGridAgainst(grid, JobInput(input, loop), options, loop);
     for (const GridDefect& defect : check.defects) rows.push_back(rowOf(defect));
     for (DefectRow& row : bentRows(grid)) rows.push_back(std::move(row));
-    for (DefectRow& row : meetingRows(grid, targets.empty(), loop)) rows.push_back(std::move(row));
+    const TriMesh mesh = linkGrid(grid, loop).mesh;
+    for (DefectRow& row : meetingRows(grid, mesh, targets.empty(), loop)) rows.push_back(std::move(row));
     for (DefectRow& row : targetRows(grid, targets, usage, loop)) rows.push_back(std::move(row));
     if (targets.empty())
-      for (DefectRow& row : fileRows(grid, usage.mesh.path, loop)) rows.push_back(std::move(row));
+      for (DefectRow& row : fileRows(grid, mesh, usage.mesh.path, loop)) rows.push_back(std::move(row));
     if (!targets.empty())
       for (const ApartWater& water : apartWaters(grid, loop)) rows.push_back(rowOf(water, grid));
     if (targets.empty() && usage.target_check.time_step_s > 0.0)

@@ -165,6 +165,8 @@ FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunContr
     std::ranges::move(again.repairs, std::back_inserter(report.repairs.repairs));
     report.repairs.left = std::move(again.left);
   }
+  // Nodes that the last repairs moved between water and land.
+  if (depth.has_land) report.depth.lowered += lowerToMinimum(grid, depth);
   // Of the nodes that there are in the end.
   if (!grid.triangles.empty())
     report.fields = setFields(grid, options.fields, options.depth.method, options.depth.fill, control, loop);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <utility>
 
 #include "core/bulk_list.hpp"
@@ -115,10 +114,7 @@ Projection fitAroundIslands(const Grid& part, const std::vector<std::vector<Vert
   std::vector<Point> within;
   for (std::size_t v = 0; v < part.nodes.size(); v += 1 + part.nodes.size() / kMostWithin)
     within.push_back(part.nodes[v]);
-  const Coastline outline = areaWithin(part.crs, std::move(rings), std::move(within), "the mesh");
-  std::vector<std::size_t> all(outline.features.size());
-  std::iota(all.begin(), all.end(), 0);
-  return Projection::fitted(outline, all, kind);
+  return fittedWithin(part.crs, std::move(rings), std::move(within), "the mesh", kind);
 }
 
 }  // namespace

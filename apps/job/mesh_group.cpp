@@ -383,7 +383,6 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
                             job.mesh.refine.max_angle_deg <= kNotObtuseDeg};
     const ShoreGuides guides{projected(sizes.layers->passages, domain.projection),
                              projected(sizes.layers->barriers, domain.projection)};
-    constexpr double kNotedIsland = 2.0;  // elements
     const std::vector<IslandRing> islands = follow.of_land ? std::vector<IslandRing>() : islandRings(domain.pslg);
     CleanReport coarser, followed;
     FollowStart start;
@@ -399,9 +398,7 @@ std::unique_ptr<SizeFunction> sizeStage(const GroupTask& task, Domain& domain, G
     std::ranges::move(coarser.warnings, std::back_inserter(result.warnings));
     result.idle = std::move(coarser.idle);
     result.waters = std::move(coarser.waters);
-    labelSegments(domain.pslg);
-    const ScaleTable scales(domain.projection, boxAround(domain.pslg.points, loop));
-    noteIslands(lostIslands(islands, domain.pslg, *sized.function, scales, kNotedIsland, loop), domain, result.waters);
+    noteLostIslands(islands, domain, *sized.function, result.waters, loop);
     result.waters.area_m2 = area_m2;
     for (std::size_t kind = 0; kind < kEditKinds; ++kind) result.edits[kind] += coarser.counts[kind];
     if (job.keep_edits) std::ranges::move(coarser.edits, std::back_inserter(result.edit_places));

@@ -88,10 +88,9 @@ void declareMeshOptions(OptionTable& table, MeshUsage& usage) {
   table.section(Section::Domain);
   table.number(
       {"--flood-height", "Height of the flood plain"}, usage.flood_height_m, "M",
-      {0.0, std::numeric_limits<double>::infinity()},
+      {0.0, std::numeric_limits<double>::infinity(), true},
       "mesh also the land that --bathymetry has lower than this above the still water and that is connected with "
-      "the water through such land",
-      &usage.flood_given);
+      "the water through such land");
   table.section(Section::Triangles);
   table.integer(
       {"--max-vertices", "Maximum number of vertices"}, refine.max_vertices, "N", 3,
@@ -121,11 +120,9 @@ void requireGlobe(const InputOptions& input, const SizeOptions& sizes) {
 
 // To be called after sizes are settled.
 void settleFlood(const MeshUsage& usage, MeshJob& job) {
-  if (!usage.flood_given) return;
+  if (!std::isfinite(usage.flood_height_m)) return;
   if (job.finish.depth.files.empty())
     throw OptionError("--flood-height needs the heights of the land: give a raster with --bathymetry");
-  if (!(usage.flood_height_m > 0.0))
-    throw OptionError("--flood-height 0 is not above the still water, whose height --water-level sets");
   job.input.flood = {usage.flood_height_m, job.finish.depth, std::min(job.sizes.shore_m, job.sizes.size_m)};
   job.finish.depth.has_land = true;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 
 #include "apps/job/mesh_job.hpp"
@@ -17,8 +18,7 @@ struct MeshUsage {
   std::string quality = "shape";
   bool coarsen_given = false;
   bool max_angle_given = false;
-  double flood_height_m = 0.0;
-  bool flood_given = false;
+  double flood_height_m = std::numeric_limits<double>::infinity();  // no flood plain
   bool cut = true;
   std::uint64_t threads = 0;
 };

@@ -7,7 +7,7 @@
 namespace coastmesh {
 
 // Flood plains are features of use Area, made by the program, whose inside is meshed besides the water, also where a
-// frame has land. The coast within them stays as a line, if both of its sides are meshed.
+// frame has land. The coast within them stays as a line if both of its sides are meshed and it does not follow sizes.
 inline constexpr std::string_view kFloodPlainSource = "the flood plain";
 inline constexpr std::string_view kFloodedCoast = "coast";  // the name of that line
 

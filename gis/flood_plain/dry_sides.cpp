@@ -4,9 +4,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/metric.hpp"
 #include "gis/crs/geodesy.hpp"
 #include "gis/grid/boundary_kinds.hpp"
+#include "gis/grid/grid_edit.hpp"
 
 namespace coastmesh {
 
@@ -81,7 +81,7 @@ DrySides closeDrySides(Grid& grid, bool to_the_coast, const ItemLoop& loop) {
   DrySides dry;
   dry.edges = closed.size();
   if (closed.empty()) return dry;
-  dry.place = midpoint(lines.front().front(), lines.front().back());
+  dry.place = meanPlace(grid.crs, lines.front());
   for (const double length : chainLengths(lines, grid.crs)) dry.length_m += length;
   std::ranges::sort(closed);
   grid.boundaries = cutLoops(grid, loops, [&](std::uint32_t from, std::uint32_t to) {

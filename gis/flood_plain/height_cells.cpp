@@ -105,9 +105,11 @@ double longestSide(const CellLattice& lattice, const Crs& crs) {
 // Sets the lattice of a box for pixels of this shape. Returns how many pixels a cell is wide and high.
 std::size_t layCells(const Box& box, const PixelShape& pixel, CellLattice& lattice) {
   const double across = (box.xmax - box.xmin) / pixel.width, down = (box.ymax - box.ymin) / pixel.height;
-  std::size_t factor = 1;
   const auto cells = [&](double f) { return (across / f + 2.0 * kAround + 1.0) * (down / f + 2.0 * kAround + 1.0); };
-  while (cells(static_cast<double>(factor)) > kMostCells) ++factor;
+  // From a number that is hardly too small; pixels may be tiny.
+  constexpr double kMostPixels = 1e9;  // in a cell, along an axis
+  auto factor = static_cast<std::size_t>(std::clamp(std::sqrt(across / kMostCells * down), 1.0, kMostPixels));
+  while (cells(static_cast<double>(factor)) > kMostCells && static_cast<double>(factor) < kMostPixels) ++factor;
   const auto f = static_cast<double>(factor);
   lattice.width = f * pixel.width;
   lattice.height = f * pixel.height;

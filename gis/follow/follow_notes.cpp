@@ -122,8 +122,12 @@ std::string warningOf(const ShortSegments& segments, const Projection& projectio
          "; other sizes or another frame may avoid that";
 }
 
-void noteIslands(const std::vector<LostIsland>& lost, const Domain& domain, FollowedWaters& waters) {
-  for (const LostIsland& island : lost) {
+void noteLostIslands(const std::vector<IslandRing>& before, const Domain& domain, const SizeFunction& size,
+                     FollowedWaters& waters, const ItemLoop& loop) {
+  constexpr double kNoted = 2.0;  // elements, as `noteWaters` says
+  if (before.empty()) return;
+  const ScaleTable scales(domain.projection, boxAround(domain.pslg.points, loop));
+  for (const LostIsland& island : lostIslands(before, domain.pslg, size, scales, kNoted, loop)) {
     waters.islands.add({island.area_m2, areaInWords(island.area_m2, domain.projection.isIdentity()),
                         " at " + placeText(island.place, domain.projection)});
   }

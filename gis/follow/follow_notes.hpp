@@ -53,8 +53,9 @@ struct ShortSegments {
 
 std::string warningOf(const ShortSegments& segments, const Projection& projection);
 
-// Notes the islands that are gone, in the domain's plane, if that is of water.
-void noteIslands(const std::vector<LostIsland>& lost, const Domain& domain, FollowedWaters& waters);
+// Notes the islands, of those before, that are gone from the domain's water.
+void noteLostIslands(const std::vector<IslandRing>& before, const Domain& domain, const SizeFunction& size,
+                     FollowedWaters& waters, const ItemLoop& loop = inOrder);
 
 // Adds sentences on guides to the report, and the largest changes of the water, with their places in the input's CRS.
 // Sentences on these are left to `noteWaters`, as they are for all groups of features.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/bulk_list.hpp"
+#include "core/sphere/sphere_place.hpp"
 #include "gis/error.hpp"
 #include "gis/geometry/box.hpp"
 #include "gis/grid/one_turn.hpp"
@@ -44,7 +45,8 @@ SphereVector middleOf(const Grid& grid) {
 
 }  // namespace
 
-NestPlane::NestPlane(const SphereVector& middle, double radius_m) : middle_(middle), diameter_m_(2.0 * radius_m) {
+NestPlane::NestPlane(const SphereVector& middle, double radius_m)
+    : middle_(middle), surface_(Surface::sphere(radius_m)) {
   // Any direction that is not that of the middle.
   const SphereVector up = std::abs(middle[2]) < 0.9 ? SphereVector{0.0, 0.0, 1.0} : SphereVector{1.0, 0.0, 0.0};
   east_ = unit(cross(up, middle_));
@@ -65,17 +67,17 @@ std::optional<NestPlane> NestPlane::around(const Grid& grid, const Grid& inserte
 
 Point NestPlane::forward(const Point& lon_lat) const {
   const SphereVector place = onSphere(asLonLat(lon_lat));
-  // The opposite place itself would be at infinity.
-  constexpr double kLeast = 1e-12;
-  const double scale = diameter_m_ / std::max(kLeast, 1.0 + dot(place, middle_));
-  return {scale * dot(place, east_), scale * dot(place, north_)};
+  const Point plane = planeOf({dot(place, east_), dot(place, north_), dot(place, middle_)}, surface_);
+  // The opposite place itself is at infinity, in no direction.
+  constexpr double kFarthest = 1e6;  // radii
+  if (std::hypot(plane.x, plane.y) <= kFarthest * surface_.radius()) return plane;
+  return {kFarthest * surface_.radius(), 0.0};
 }
 
 Point NestPlane::inverse(const Point& plane) const {
-  const double x = plane.x / diameter_m_, y = plane.y / diameter_m_, squared = x * x + y * y;
+  const auto [east, north, up] = placeOnSphere(plane, surface_);
   SphereVector place;
-  for (std::size_t k = 0; k < 3; ++k)
-    place[k] = (2.0 * x * east_[k] + 2.0 * y * north_[k] + (1.0 - squared) * middle_[k]) / (1.0 + squared);
+  for (std::size_t k = 0; k < 3; ++k) place[k] = east * east_[k] + north * north_[k] + up * middle_[k];
   const LonLat at = placeOf(place);
   return {at.lon, at.lat};
 }
@@ -88,8 +90,8 @@ Grid NestPlane::flat(const Grid& grid, const ItemLoop& loop) const {
 }
 
 bool NestPlane::isFar(const Point& plane) const {
-  static const double kFar = std::tan(0.5 * kFarDeg / kDegrees);
-  return std::hypot(plane.x, plane.y) > kFar * diameter_m_;
+  static const double kFar = 2.0 * std::tan(0.5 * kFarDeg / kDegrees);  // radii
+  return std::hypot(plane.x, plane.y) > kFar * surface_.radius();
 }
 
 void matchTurn(Grid& inserted, const Grid& grid) {

@@ -4,6 +4,7 @@
 
 #include "core/item_loop.hpp"
 #include "core/point.hpp"
+#include "core/surface.hpp"
 #include "gis/grid/grid.hpp"
 #include "gis/grid/on_sphere.hpp"
 
@@ -29,7 +30,7 @@ class NestPlane {
   NestPlane(const SphereVector& middle, double radius_m);
 
   SphereVector middle_, east_, north_;
-  double diameter_m_;
+  Surface surface_;  // its origin is the middle
 };
 
 // Moves the longitudes of the inserted mesh by whole turns into the turn that the grid's are in. Those that are in it

@@ -179,13 +179,19 @@ DepthReport setDepths(Grid& grid, const DepthOptions& options, const RunControl&
   const auto dry = static_cast<std::size_t>(std::ranges::count_if(grid.z, [](double z) { return z > 0.0; }));
   if (2 * dry > grid.nodes.size() && known > 0 && !options.has_land)
     report.warnings.push_back(dryWarning(grid.z, dry, options));
+  report.lowered = lowerToMinimum(grid, options);
+  measure(grid, report);
+  return report;
+}
+
+std::size_t lowerToMinimum(Grid& grid, const DepthOptions& options) {
+  std::size_t lowered = 0;
   for (double& z : grid.z) {
     if (!(z > 0.0 - options.min_depth_m) || (options.has_land && z >= 0.0)) continue;
     z = 0.0 - options.min_depth_m;
-    ++report.lowered;
+    ++lowered;
   }
-  measure(grid, report);
-  return report;
+  return lowered;
 }
 
 }  // namespace coastmesh

@@ -59,6 +59,9 @@ struct DepthReport {
 // True if some z is known and not 0: formats that need a depth at every node have 0 if there is none.
 bool hasDepths(const Grid& grid);
 
+// Lowers nodes that are shallower than the minimum depth, but for land if there is any. Returns how many.
+std::size_t lowerToMinimum(Grid& grid, const DepthOptions& options);
+
 // Sets the grid's z from rasters in any CRS, to six decimals, read block by block, with constant memory. A raster
 // without a CRS is assumed to be in the grid's. Throws InputError, Cancelled.
 DepthReport setDepths(Grid& grid, const DepthOptions& options, const RunControl& control = {},

@@ -1,5 +1,6 @@
 #include "gis/projection/area_outline.hpp"
 
+#include <numeric>
 #include <utility>
 
 #include "core/metric.hpp"
@@ -38,6 +39,14 @@ Coastline areaWithin(const Crs& crs, std::vector<Ring> rings, std::vector<Point>
   outline.features.push_back(std::move(area));
   if (!land.polygons.empty()) outline.features.push_back(std::move(land));
   return outline;
+}
+
+Projection fittedWithin(const Crs& crs, std::vector<Ring> rings, std::vector<Point> within, const std::string& source,
+                        SurfaceKind kind) {
+  const Coastline outline = areaWithin(crs, std::move(rings), std::move(within), source);
+  std::vector<std::size_t> all(outline.features.size());
+  std::iota(all.begin(), all.end(), 0);
+  return Projection::fitted(outline, all, kind);
 }
 
 }  // namespace coastmesh

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "gis/coast/coastline.hpp"
+#include "gis/projection/projection.hpp"
 
 namespace coastmesh {
 
@@ -12,5 +13,9 @@ namespace coastmesh {
 // such as an ocean, is what is around its lands. `within` are places all over it, without which an area round a cap of
 // the globe could not be told from the cap. `source` names it in errors. REQUIRES: at least one ring.
 Coastline areaWithin(const Crs& crs, std::vector<Ring> rings, std::vector<Point> within, const std::string& source);
+
+// The projection fitted to such an area.
+Projection fittedWithin(const Crs& crs, std::vector<Ring> rings, std::vector<Point> within, const std::string& source,
+                        SurfaceKind kind);
 
 }  // namespace coastmesh

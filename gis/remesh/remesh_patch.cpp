@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <span>
 #include <string>
 #include <utility>
@@ -178,10 +177,8 @@ class PatchMaker {
     std::vector<Point> within;
     for (std::size_t i = 0; i < triangles.size(); i += 1 + triangles.size() / kMostWithin)
       within.push_back(grid_.nodes[grid_.triangles[triangles[i]][0]]);
-    const Coastline outline = areaWithin(grid_.crs, std::move(rings), std::move(within), "the part to be meshed anew");
-    std::vector<std::size_t> all(outline.features.size());
-    std::iota(all.begin(), all.end(), 0);
-    return Projection::fitted(outline, all, SurfaceKind::Auto);
+    return fittedWithin(grid_.crs, std::move(rings), std::move(within), "the part to be meshed anew",
+                        SurfaceKind::Auto);
   }
 
   void project(const std::vector<Kept>& kept, RemeshPatch& patch) const {

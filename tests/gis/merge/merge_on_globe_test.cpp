@@ -150,6 +150,16 @@ TEST(NestPlane, InverseIsInverse) {
   EXPECT_TRUE(plane->isFar(plane->forward({170.0, -70.0})));
 }
 
+// In no direction from the middle, and still not close to it.
+TEST(NestPlane, TheOppositePlaceIsFar) {
+  Grid pole;
+  pole.crs = wgs84();
+  pole.nodes = {{0.0, 90.0}};
+  const std::optional<NestPlane> plane = NestPlane::around(globe(), pole);
+  ASSERT_TRUE(plane.has_value());
+  for (const double south : {-90.0, -89.9999999, -89.0}) EXPECT_TRUE(plane->isFar(plane->forward({20.0, south})));
+}
+
 TEST(NestPlane, IsForMeshesWhoseLongitudesJump) {
   const Grid disk = diskAround({20.0, 40.0}, 4, 2.0);
   EXPECT_FALSE(NestPlane::around(disk, disk).has_value());
