@@ -8,7 +8,6 @@
 #include "apps/cli/mesh_file.hpp"
 #include "apps/cli/run_outputs.hpp"
 #include "apps/job/check_grid.hpp"
-#include "apps/job/places.hpp"
 #include "apps/process/exit_codes.hpp"
 #include "apps/report/report_sections.hpp"
 #include "apps/report/vector_output.hpp"
@@ -28,6 +27,7 @@
 #include "gis/grid/one_turn.hpp"
 #include "gis/model/apart_waters.hpp"
 #include "gis/model/impossible_depths.hpp"
+#include "gis/places.hpp"
 #include "parallel/recorder.hpp"
 #include "parallel/workers.hpp"
 

@@ -10,7 +10,7 @@
 #include "apps/cli/cleaned_output.hpp"
 #include "apps/cli/commands.hpp"
 #include "apps/cli/run_outputs.hpp"
-#include "apps/job/job_input.hpp"
+#include "apps/input/job_input.hpp"
 #include "apps/job/stopwatch.hpp"
 #include "apps/process/exit_codes.hpp"
 #include "apps/report/report_sections.hpp"

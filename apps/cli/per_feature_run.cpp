@@ -18,7 +18,7 @@
 #include "apps/cli/partition_outputs.hpp"
 #include "apps/cli/run_outputs.hpp"
 #include "apps/cli/shard_file.hpp"
-#include "apps/job/available_memory.hpp"
+#include "apps/input/read_input.hpp"
 #include "apps/job/deal_groups.hpp"
 #include "apps/job/idle_inputs.hpp"
 #include "apps/job/memory_share.hpp"
@@ -33,6 +33,7 @@
 #include "gis/for_count.hpp"
 #include "gis/format/grid_io.hpp"
 #include "gis/geometry/box.hpp"
+#include "parallel/available_memory.hpp"
 #include "parallel/workers.hpp"
 
 namespace coastmesh {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "apps/job/group_exchange.hpp"
-#include "apps/job/mesh_group.hpp"
+#include "apps/job/group_task.hpp"
 #include "apps/usage/option_table.hpp"
 
 namespace coastmesh {

@@ -6,7 +6,6 @@
 #include <iterator>
 #include <utility>
 
-#include "apps/job/places.hpp"
 #include "apps/remesh/triangle_figures.hpp"
 #include "apps/report/remesh_texts.hpp"
 #include "apps/report/report_sections.hpp"
@@ -17,6 +16,7 @@
 #include "gis/for_count.hpp"
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/merge/match_crs.hpp"
+#include "gis/places.hpp"
 
 namespace coastmesh {
 

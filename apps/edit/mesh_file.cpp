@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <vector>
 
-#include "apps/job/places.hpp"
 #include "core/box_halves.hpp"
 #include "gis/crs/geodesy.hpp"
 #include "gis/error.hpp"
 #include "gis/for_count.hpp"
 #include "gis/format/grid_io.hpp"
 #include "gis/grid/ground_orientation.hpp"
+#include "gis/places.hpp"
 
 namespace coastmesh {
 

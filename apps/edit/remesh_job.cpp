@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "apps/edit/edit_part.hpp"
-#include "apps/job/places.hpp"
 #include "apps/remesh/remesh_grid.hpp"
 #include "apps/remesh/triangle_figures.hpp"
 #include "apps/report/remesh_texts.hpp"
 #include "apps/report/report_sections.hpp"
 #include "gis/elements/quads.hpp"
 #include "gis/for_count.hpp"
+#include "gis/places.hpp"
 
 namespace coastmesh {
 

@@ -6,8 +6,6 @@
 #include <optional>
 #include <utility>
 
-#include "apps/job/available_memory.hpp"
-#include "apps/job/places.hpp"
 #include "apps/remesh/triangle_figures.hpp"
 #include "apps/report/remesh_texts.hpp"
 #include "apps/report/report_sections.hpp"
@@ -18,7 +16,9 @@
 #include "gis/for_count.hpp"
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/model/fill_depths.hpp"
+#include "gis/places.hpp"
 #include "gis/rivers/mesh_triangles.hpp"
+#include "parallel/available_memory.hpp"
 
 namespace coastmesh {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/job/job_input.hpp"
+#include "apps/input/job_input.hpp"
 #include "core/refine/check.hpp"
 #include "gis/grid/grid.hpp"
 

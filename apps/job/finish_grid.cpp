@@ -9,12 +9,12 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/job/mesh_area.hpp"
-#include "apps/job/places.hpp"
 #include "core/quality.hpp"
 #include "core/run_control.hpp"
 #include "gis/follow/water_notes.hpp"
 #include "gis/for_count.hpp"
 #include "gis/grid/local_plane.hpp"
+#include "gis/places.hpp"
 
 namespace coastmesh {
 

@@ -10,11 +10,11 @@
 #include "core/sphere/close_sphere.hpp"
 #include "core/union_find.hpp"
 #include "gis/coast/coastline.hpp"
-#include "gis/coast/feature_names.hpp"
 #include "gis/elements/quads.hpp"
 #include "gis/error.hpp"
 #include "gis/grid/grid_lines.hpp"
 #include "gis/grid/loop_role.hpp"
+#include "gis/places.hpp"
 #include "gis/projection/area_outline.hpp"
 
 namespace coastmesh {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "apps/job/mesh_group.hpp"
+#include "apps/job/group_task.hpp"
 
 namespace coastmesh {
 

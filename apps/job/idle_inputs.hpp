@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/job/job_input.hpp"
+#include "apps/input/job_input.hpp"
 #include "apps/job/mesh_job_options.hpp"
 #include "apps/job/mesh_job_result.hpp"
 #include "gis/coast/coastline.hpp"

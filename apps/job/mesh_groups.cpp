@@ -10,13 +10,14 @@
 #include <numeric>
 #include <utility>
 
-#include "apps/job/available_memory.hpp"
 #include "apps/job/deal_groups.hpp"
 #include "apps/job/group_bytes.hpp"
 #include "apps/job/memory_share.hpp"
+#include "apps/job/mesh_group.hpp"
 #include "gis/error.hpp"
 #include "gis/for_count.hpp"
 #include "gis/grid/grid_edit.hpp"
+#include "parallel/available_memory.hpp"
 #include "parallel/free_memory.hpp"
 #include "parallel/recorder.hpp"
 #include "parallel/workers.hpp"

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "apps/job/job_input.hpp"
-#include "apps/job/mesh_group.hpp"
+#include "apps/input/job_input.hpp"
+#include "apps/job/group_task.hpp"
 #include "apps/job/mesh_job_options.hpp"
 #include "apps/job/mesh_job_result.hpp"
 

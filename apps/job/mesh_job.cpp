@@ -5,14 +5,14 @@
 #include <iterator>
 #include <utility>
 
-#include "apps/job/available_memory.hpp"
+#include "apps/input/largest_group.hpp"
+#include "apps/input/read_input.hpp"
 #include "apps/job/deal_groups.hpp"
 #include "apps/job/grid_pieces.hpp"
+#include "apps/job/group_sizes.hpp"
 #include "apps/job/idle_inputs.hpp"
 #include "apps/job/mesh_area.hpp"
-#include "apps/job/mesh_group.hpp"
 #include "apps/job/mesh_groups.hpp"
-#include "apps/job/places.hpp"
 #include "apps/job/raster_helpers.hpp"
 #include "apps/job/stopwatch.hpp"
 #include "core/quality.hpp"
@@ -24,7 +24,9 @@
 #include "gis/grid/local_plane.hpp"
 #include "gis/model/assign_boundaries.hpp"
 #include "gis/model/shore_for_sizes.hpp"
+#include "gis/places.hpp"
 #include "gis/size/size_choice.hpp"
+#include "parallel/available_memory.hpp"
 #include "parallel/free_memory.hpp"
 #include "parallel/recorder.hpp"
 #include "parallel/workers.hpp"

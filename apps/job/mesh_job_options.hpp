@@ -5,9 +5,9 @@
 #include <optional>
 #include <string_view>
 
+#include "apps/input/job_input.hpp"
 #include "apps/job/finish_grid.hpp"
 #include "apps/job/group_exchange.hpp"
-#include "apps/job/job_input.hpp"
 #include "gis/size/size_source.hpp"
 #include "parallel/mesh_regions.hpp"
 #include "parallel/workers.hpp"

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/input/job_input.hpp"
 #include "apps/job/finish_grid.hpp"
-#include "apps/job/job_input.hpp"
 #include "apps/job/step_outcome.hpp"
 #include "core/quality.hpp"
 #include "core/refine/refine_options.hpp"

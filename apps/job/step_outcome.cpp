@@ -10,13 +10,13 @@
 #include <string>
 #include <utility>
 
-#include "apps/job/places.hpp"
 #include "gis/crs/geodesy.hpp"
 #include "gis/for_count.hpp"
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/grid_lines.hpp"
 #include "gis/grid/ground_orientation.hpp"
+#include "gis/places.hpp"
 
 namespace coastmesh {
 

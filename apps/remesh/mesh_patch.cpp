@@ -8,16 +8,16 @@
 #include <string>
 #include <utility>
 
-#include "apps/job/available_memory.hpp"
 #include "apps/job/judge_mesh.hpp"
-#include "apps/job/places.hpp"
 #include "apps/remesh/shore_near.hpp"
 #include "core/refine/check.hpp"
 #include "core/size/estimate_vertices.hpp"
 #include "core/triangulate/delaunay.hpp"
 #include "gis/error.hpp"
+#include "gis/places.hpp"
 #include "gis/projection/smooth_table.hpp"
 #include "gis/size/node_sizes.hpp"
+#include "parallel/available_memory.hpp"
 
 namespace coastmesh {
 

@@ -8,13 +8,13 @@
 #include <string>
 #include <utility>
 
-#include "apps/job/places.hpp"
 #include "apps/remesh/mesh_patch.hpp"
 #include "apps/remesh/shore_near.hpp"
 #include "gis/elements/quads.hpp"
 #include "gis/error.hpp"
 #include "gis/grid/ground_orientation.hpp"
 #include "gis/grid/linked_grid.hpp"
+#include "gis/places.hpp"
 #include "gis/remesh/grow_part.hpp"
 #include "gis/remesh/remesh_patch.hpp"
 

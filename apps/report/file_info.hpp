@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/job/job_input.hpp"
+#include "apps/input/job_input.hpp"
 #include "core/quality.hpp"
 #include "gis/grid/grid.hpp"
 #include "gis/model/time_step.hpp"

@@ -5,12 +5,12 @@
 #include <cstdio>
 #include <numeric>
 
-#include "apps/job/places.hpp"
 #include "apps/report/partition_report.hpp"
 #include "apps/report/report_sections.hpp"
 #include "apps/report/step_sections.hpp"
 #include "gis/for_count.hpp"
 #include "gis/grid/grid_lines.hpp"
+#include "gis/places.hpp"
 #include "parallel/deal.hpp"
 
 namespace coastmesh {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/job/places.hpp"
+#include "gis/places.hpp"
 
 namespace coastmesh {
 

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <cstdint>
 
-#include "apps/job/places.hpp"
 #include "apps/report/report_sections.hpp"
 #include "core/metric.hpp"
 #include "gis/for_count.hpp"
 #include "gis/grid/local_plane.hpp"
+#include "gis/places.hpp"
 
 namespace coastmesh {
 

@@ -5,11 +5,11 @@
 #include <map>
 #include <utility>
 
-#include "apps/job/places.hpp"
 #include "apps/report/remesh_texts.hpp"
 #include "apps/report/report_sections.hpp"
 #include "core/union_find.hpp"
 #include "gis/for_count.hpp"
+#include "gis/places.hpp"
 
 namespace coastmesh {
 

@@ -5,11 +5,11 @@
 #include <iterator>
 #include <limits>
 
-#include "apps/job/places.hpp"
 #include "apps/report/mesh_report.hpp"
 #include "apps/usage/finish_usage.hpp"
 #include "apps/usage/input_usage.hpp"
 #include "gis/model/target.hpp"
+#include "gis/places.hpp"
 
 namespace coastmesh {
 

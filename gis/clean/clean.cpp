@@ -14,6 +14,7 @@
 #include "gis/coast/snap_distance.hpp"
 #include "gis/error.hpp"
 #include "gis/geometry/chain_index.hpp"
+#include "gis/places.hpp"
 
 namespace coastmesh {
 

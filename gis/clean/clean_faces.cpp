@@ -14,6 +14,7 @@
 #include "gis/coast/segment_tags.hpp"
 #include "gis/geometry/face_locator.hpp"
 #include "gis/geometry/planar_map.hpp"
+#include "gis/places.hpp"
 
 namespace coastmesh {
 

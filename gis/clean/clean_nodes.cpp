@@ -16,6 +16,7 @@
 #include "gis/geometry/crossing.hpp"
 #include "gis/geometry/edge_runs.hpp"
 #include "gis/geometry/point_grid.hpp"
+#include "gis/places.hpp"
 
 namespace coastmesh {
 

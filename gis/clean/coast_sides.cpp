@@ -11,6 +11,7 @@
 #include "gis/error.hpp"
 #include "gis/for_count.hpp"
 #include "gis/geometry/box.hpp"
+#include "gis/places.hpp"
 
 namespace coastmesh {
 

@@ -12,6 +12,7 @@
 #include "gis/coast/turned_rings.hpp"
 #include "gis/error.hpp"
 #include "gis/for_count.hpp"
+#include "gis/places.hpp"
 
 namespace coastmesh {
 

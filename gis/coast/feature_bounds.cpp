@@ -17,6 +17,16 @@ Box boundsOf(const Feature& feature) {
   return box;
 }
 
+std::size_t pointsOf(const Feature& feature) {
+  std::size_t count = 0;
+  for (const Polygon& polygon : feature.polygons) {
+    count += polygon.outer.size();
+    for (const Ring& hole : polygon.holes) count += hole.size();
+  }
+  for (const auto& line : feature.lines) count += line.size();
+  return count;
+}
+
 Box boundsOfFrames(const Coastline& coastline) {
   Box bounds;
   for (const Feature& feature : coastline.features)

@@ -1,8 +1,6 @@
 #include "gis/coast/feature_names.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 
 #include "gis/lower_case.hpp"
 
@@ -34,19 +32,6 @@ std::string featuresInWords(const Coastline& coastline, const std::vector<std::s
   std::string names = featureInWords(coastline.features[members.front()]);
   if (members.size() > 1) names += " and " + std::to_string(members.size() - 1) + " meshed with it";
   return names;
-}
-
-std::string placeInWords(const Point& place) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.10g, %.10g", place.x, place.y);
-  return text;
-}
-
-std::string roughPlaceInWords(const Point& place) {
-  const auto digits = [](double x) { return std::abs(x) < 1e4 ? 6 : 9; };
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*g, %.*g", digits(place.x), place.x, digits(place.y), place.y);
-  return text;
 }
 
 std::string regionNameOf(const Feature& feature) {

@@ -17,12 +17,6 @@ std::string_view nameOf(const std::vector<std::pair<std::string, std::string>>& 
 // True if `nameOf` may use the attribute: its name contains "name".
 bool isNameAttribute(std::string_view attribute);
 
-// A place in the format of notes and errors: "-87.5, 41.25".
-std::string placeInWords(const Point& place);
-
-// The same with fewer digits, where some metres, or a unit of a plane, are precise enough.
-std::string roughPlaceInWords(const Point& place);
-
 // "'lakes.gpkg'": a file, or a layer of it, as a whole.
 std::string sourceInWords(const std::string& source);
 

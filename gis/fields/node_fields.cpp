@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "gis/coast/feature_names.hpp"
 #include "gis/error.hpp"
 #include "gis/fields/field_names.hpp"
+#include "gis/places.hpp"
 
 namespace coastmesh {
 

@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <utility>
 
-#include "gis/coast/feature_names.hpp"
 #include "gis/coast/flood_plains.hpp"
 #include "gis/coast/nest_rings.hpp"
 #include "gis/coast/segment_tags.hpp"
@@ -14,6 +13,7 @@
 #include "gis/flood_plain/height_cells.hpp"
 #include "gis/follow/water_notes.hpp"
 #include "gis/for_count.hpp"
+#include "gis/places.hpp"
 
 namespace coastmesh {
 

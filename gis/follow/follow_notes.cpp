@@ -8,6 +8,7 @@
 #include "gis/coast/segment_tags.hpp"
 #include "gis/follow/water_notes.hpp"
 #include "gis/for_count.hpp"
+#include "gis/places.hpp"
 
 namespace coastmesh {
 

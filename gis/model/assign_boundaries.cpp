@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "core/metric.hpp"
-#include "gis/coast/feature_names.hpp"
 #include "gis/crs/geodesy.hpp"
 #include "gis/error.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/loop_role.hpp"
+#include "gis/places.hpp"
 
 namespace coastmesh {
 namespace {

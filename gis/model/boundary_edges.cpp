@@ -10,6 +10,7 @@
 #include "gis/coast/feature_names.hpp"
 #include "gis/crs/geodesy.hpp"
 #include "gis/error.hpp"
+#include "gis/places.hpp"
 
 namespace coastmesh {
 namespace {

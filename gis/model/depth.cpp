@@ -7,10 +7,10 @@
 #include <numeric>
 #include <optional>
 
-#include "gis/coast/feature_names.hpp"
 #include "gis/for_count.hpp"
 #include "gis/model/fill_depths.hpp"
 #include "gis/model/impossible_depths.hpp"
+#include "gis/places.hpp"
 #include "gis/rounded_depth.hpp"
 #include "gis/sample/raster_values.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "gis/coast/feature_names.hpp"
+#include "gis/places.hpp"
 
 namespace coastmesh {
 

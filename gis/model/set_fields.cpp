@@ -6,11 +6,11 @@
 #include <optional>
 #include <utility>
 
-#include "gis/coast/feature_names.hpp"
 #include "gis/fields/field_names.hpp"
 #include "gis/fields/node_fields.hpp"
 #include "gis/for_count.hpp"
 #include "gis/model/fill_depths.hpp"
+#include "gis/places.hpp"
 #include "gis/sample/raster_values.hpp"
 
 namespace coastmesh {

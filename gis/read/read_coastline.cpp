@@ -15,6 +15,7 @@
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
 #include "gis/for_count.hpp"
+#include "gis/places.hpp"
 #include "gis/read/read_layers.hpp"
 
 namespace coastmesh {

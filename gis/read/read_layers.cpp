@@ -16,6 +16,7 @@
 #include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
 #include "gis/mesh_layers.hpp"
+#include "gis/places.hpp"
 #include "gis/read/bare_geojson.hpp"
 #include "gis/read/cleaned_file.hpp"
 #include "gis/read/geojson_crs.hpp"

@@ -11,6 +11,7 @@
 #include "gis/coast/feature_names.hpp"
 #include "gis/elements/quads.hpp"
 #include "gis/error.hpp"
+#include "gis/places.hpp"
 #include "gis/rivers/mesh_water.hpp"
 #include "gis/rivers/river_connection.hpp"
 #include "gis/rivers/river_course.hpp"

@@ -10,11 +10,11 @@
 #include "core/metric.hpp"
 #include "core/quality.hpp"
 #include "core/triangulate/delaunay.hpp"
-#include "gis/coast/feature_names.hpp"
 #include "gis/elements/quads.hpp"
 #include "gis/error.hpp"
 #include "gis/grid/boundary_kinds.hpp"
 #include "gis/grid/grid_edit.hpp"
+#include "gis/places.hpp"
 #include "gis/rivers/fill_junction.hpp"
 
 namespace coastmesh {

@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <string_view>
 
-#include "gis/coast/feature_names.hpp"
 #include "gis/error.hpp"
 #include "gis/file/text_reader.hpp"
+#include "gis/places.hpp"
 
 namespace coastmesh {
 

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "apps/input/job_input.hpp"
 #include "apps/job/finish_grid.hpp"
 #include "apps/job/group_exchange.hpp"
-#include "apps/job/job_input.hpp"
 #include "apps/job/mesh_group.hpp"
 #include "apps/job/mesh_job.hpp"
 #include "apps/job/mesh_job_options.hpp"
@@ -225,9 +225,24 @@ TEST_F(JobExamples, MeshJobResult) {
   EXPECT_EQ(digest, meshedLake().digest);
 }
 
-// apps/job/job_input.hpp: What to read, and the domains in the plane made from it.
+// apps/input/input_options.hpp: What to read, and what of it is the domain.
+TEST_F(JobExamples, InputOptions) {
+  //! [apps/input/input_options.hpp]
+  InputOptions options;
+  options.files = {"land.geojson"};
+  options.frame.side = DomainSide::Outside;  // the water between these polygons and the box
+  options.frame.box = Box{-4.0, 50.0, -2.0, 51.0};
+  options.constraints = {"piers.geojson"};
+  const std::vector<Source> sources = sourcesOf(options);
+  //! [apps/input/input_options.hpp]
+  requireOneFrame(options);
+  ASSERT_EQ(sources.size(), 2u);
+  EXPECT_EQ(sources[1].use, FeatureUse::Constraint);
+}
+
+// apps/input/job_input.hpp: The features read, in groups, and the domains in the plane made from them.
 TEST_F(JobExamples, JobInput) {
-  //! [apps/job/job_input.hpp]
+  //! [apps/input/job_input.hpp]
   InputOptions options;
   options.files = {"lake.geojson"};
   options.simplify_m = 50.0;
@@ -235,7 +250,7 @@ TEST_F(JobExamples, JobInput) {
   CleanReport report;
   const Domain domain = input.domain(0, report);
   const std::optional<double> area_m2 = input.area(0);
-  //! [apps/job/job_input.hpp]
+  //! [apps/input/job_input.hpp]
   EXPECT_EQ(input.groups(), 1u);
   EXPECT_GE(domain.pslg.points.size(), 8u);
   ASSERT_TRUE(area_m2.has_value());

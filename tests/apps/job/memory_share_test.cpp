@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/job/mesh_group.hpp"
+#include "apps/job/group_task.hpp"
 #include "apps/job/mesh_job.hpp"
 #include "gis/error.hpp"
 

@@ -1,12 +1,23 @@
-#include "apps/job/places.hpp"
+#include "gis/places.hpp"
 
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
-#include "gis/coast/feature_names.hpp"
-
 namespace coastmesh {
+
+std::string placeInWords(const Point& place) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.10g, %.10g", place.x, place.y);
+  return text;
+}
+
+std::string roughPlaceInWords(const Point& place) {
+  const auto digits = [](double x) { return std::abs(x) < 1e4 ? 6 : 9; };
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*g, %.*g", digits(place.x), place.x, digits(place.y), place.y);
+  return text;
+}
 
 std::string pointText(const Point& point) { return "(" + placeInWords(point) + ")"; }
 

@@ -1,8 +1,8 @@
-#include "apps/job/working_plane.hpp"
+#include "apps/input/working_plane.hpp"
 
-#include "apps/job/places.hpp"
 #include "core/metric.hpp"
 #include "gis/error.hpp"
+#include "gis/places.hpp"
 #include "gis/projection/distortion.hpp"
 
 namespace coastmesh {

@@ -1,4 +1,4 @@
-#include "apps/job/available_memory.hpp"
+#include "parallel/available_memory.hpp"
 
 #include <sys/resource.h>
 #include <unistd.h>

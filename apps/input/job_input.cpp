@@ -1,180 +1,32 @@
-#include "apps/job/job_input.hpp"
+#include "apps/input/job_input.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <filesystem>
-#include <functional>
-#include <limits>
-#include <numeric>
 
-#include "apps/job/places.hpp"
-#include "apps/job/working_plane.hpp"
+#include "apps/input/read_input.hpp"
+#include "apps/input/working_plane.hpp"
 #include "core/metric.hpp"
 #include "core/triangulate/delaunay.hpp"
 #include "gis/clean/geodesic_area.hpp"
 #include "gis/clean/whole_turns.hpp"
 #include "gis/coast/feature_bounds.hpp"
 #include "gis/coast/feature_names.hpp"
-#include "gis/coast/flood_plains.hpp"
 #include "gis/coast/group_features.hpp"
 #include "gis/coast/guests.hpp"
 #include "gis/crs/geodesy.hpp"
-#include "gis/crs/handedness.hpp"
 #include "gis/error.hpp"
 #include "gis/flood_plain/flood_plain.hpp"
 #include "gis/for_count.hpp"
-#include "gis/format/grid_io.hpp"
 #include "gis/format/poly_io.hpp"
-#include "gis/read/open_source.hpp"
-#include "gis/read/raw_layer.hpp"
 
 namespace coastmesh {
-
-namespace {
-
-bool isPolyFile(const std::string& path) { return std::filesystem::path(path).extension() == ".poly"; }
-
-std::string nameOfUnframed(DomainSide side) {
-  return side == DomainSide::Ocean ? "ocean" : side == DomainSide::Land ? "land" : "globe";
-}
-
-void requireOneFrame(const InputOptions& options) {
-  const DomainSide side = options.frame.side;
-  if ((side == DomainSide::Ocean || side == DomainSide::Land || side == DomainSide::Globe) &&
-      (options.frame.box || !options.clip.empty() || options.frame.water_at))
-    throw OptionError("--domain " + nameOfUnframed(side) + " has no frame: leave out --bbox, --clip and --water-at");
-  if (side == DomainSide::Globe) {
-    if (options.surface.kind == SurfaceKind::Plane)
-      throw OptionError("--domain globe uses no plane: leave out --surface plane");
-    if (options.crs != "auto") throw OptionError("--domain globe uses no plane: leave out --crs");
-  }
-  if (options.frame.box && !options.clip.empty())
-    throw OptionError("--bbox and --clip both bound the domain: give one of them");
-  if (options.flood.height_m && (side == DomainSide::Ocean || side == DomainSide::Land || side == DomainSide::Globe))
-    throw OptionError("--flood-height is not for --domain " + nameOfUnframed(side) +
-                      ": it needs a part of the water, such as --domain outside with --bbox");
-  if (options.frame.side == DomainSide::Outside && !options.frame.box && options.clip.empty() &&
-      !options.frame.water_at)
-    throw OptionError(
-        "--domain outside: the water needs a limit: give --bbox W,S,E,N or --clip FILE, or --domain ocean for all "
-        "water on Earth");
-}
-
-std::vector<Source> sourcesOf(const InputOptions& options) {
-  std::vector<Source> sources;
-  const auto add = [&sources](const std::vector<std::string>& files, FeatureUse use) {
-    for (const std::string& file : files) sources.push_back({file, use});
-  };
-  add(options.files, FeatureUse::Area);
-  if (!options.clip.empty()) add({options.clip}, FeatureUse::Frame);
-  add(options.constraints, FeatureUse::Constraint);
-  add(options.weirs, FeatureUse::Weir);
-  add(options.regions, FeatureUse::Region);
-  return sources;
-}
-
-// GeoJSON always declares longitudes and latitudes. If coordinates to be taken as a plane are out of their range, drops
-// the CRS, with a warning: neither the input nor the mesh has a place on Earth.
-void forgetImpossibleCrs(Coastline& coastline, ReadReport& report) {
-  if (!coastline.crs.geographic) return;
-  const Feature* odd = nullptr;
-  const auto look = [&](const Feature& feature, const std::vector<Point>& chain) {
-    const auto isOdd = [](const Point& p) { return !isOnEarth(asLonLat(p)); };
-    if (odd == nullptr && std::ranges::any_of(chain, isOdd)) odd = &feature;
-  };
-  for (const Feature& feature : coastline.features) {
-    for (const Polygon& polygon : feature.polygons) {
-      look(feature, polygon.outer);
-      for (const Ring& hole : polygon.holes) look(feature, hole);
-    }
-    for (const auto& line : feature.lines) look(feature, line);
-  }
-  if (odd == nullptr) return;
-  report.warnings.push_back(featureInWords(*odd) + ": has coordinates that are not longitudes and latitudes of " +
-                            nameOf(coastline.crs) + ": all are taken as metres in a plane");
-  coastline.crs = {};
-}
-
-bool isMesh(const std::string& path) {
-  try {
-    return !readGrid(path).triangles.empty();
-  } catch (const InputError&) {
-    return false;
-  }
-}
-
-SnapDistance snapDistanceOf(const InputOptions& options, const Crs& crs) {
-  const bool in_plane = options.crs == "plane" || crs.isPlane();
-  return {in_plane && !options.snap_in_plane ? 0.0 : options.snap_m, in_plane};
-}
-
-}  // namespace
-
-bool isPlaneGraph(const InputOptions& options) {
-  return options.pslg || (!options.files.empty() && isPolyFile(options.files.front()));
-}
-
-Coastline readInput(const InputOptions& options, ReadReport& report, BoundaryRules& boundaries, bool by_frame) {
-  Coastline coastline;
-  ReadFilter filter = options.filter;
-  // A box is in the CRS of the first file. With `plane`, whether that is right shows in all coordinates.
-  if (by_frame && options.files.size() == 1 && options.boundary_column.empty() && options.crs != "plane")
-    filter.near = options.frame.box;
-  filter.unsaid_in_plane = options.crs == "plane";
-  try {
-    coastline = readCoastline(
-        sourcesOf(options), filter, report,
-        [&](const std::vector<RawLayer>& layers) { boundaries.addInput(layers, options.boundary_column); },
-        [&](const Crs& crs) { return snapDistanceOf(options, crs); });
-  } catch (const NotVectorError& error) {
-    if (!isMesh(error.file)) throw;
-    throw InputError(sourceInWords(error.file) +
-                     ": a mesh, not a coastline; convert, check, info and plot read meshes");
-  }
-  if (!options.boundary_column.empty() && !options.may_lack_column)
-    boundaries.requireInputColumn(options.boundary_column);
-  if (options.crs == "plane") forgetImpossibleCrs(coastline, report);
-  return coastline;
-}
-
-std::size_t pointsOf(const Feature& feature) {
-  std::size_t count = 0;
-  for (const Polygon& polygon : feature.polygons) {
-    count += polygon.outer.size();
-    for (const Ring& hole : polygon.holes) count += hole.size();
-  }
-  for (const auto& line : feature.lines) count += line.size();
-  return count;
-}
-
-void requireUnmirrored(const Coastline& coastline, const InputOptions& options) {
-  if (coastline.crs.isPlane() || options.crs == "plane" || coastline.features.empty()) return;
-  const Feature& first = coastline.features.front();
-  const std::vector<Point>& points = !first.polygons.empty() ? first.polygons.front().outer
-                                     : !first.lines.empty()  ? first.lines.front()
-                                                             : first.points;
-  if (points.empty()) return;
-  const bool mirrored = mirrorsGround(coastline.crs, points.front());
-  bool working_mirrored = false;
-  if (options.crs != "auto") {
-    const Crs working = parseWorkingCrs(options.crs);
-    working_mirrored = mirrorsGround(working, Projection::to(coastline.crs, working).forward(points.front()));
-  }
-  if (mirrored == working_mirrored) return;
-  if (working_mirrored)
-    throw OptionError("--crs: " + options.crs + " mirrors the ground, and the mesh would be clockwise in the input's " +
-                      nameOf(coastline.crs) + ": give " + unmirrored(parseWorkingCrs(options.crs)));
-  throw InputError("the input's CRS " + nameOf(coastline.crs) +
-                   " mirrors the ground: a mesh that is counter-clockwise on the ground would be clockwise in its "
-                   "coordinates, which programs reject; bring the data to " +
-                   unmirrored(coastline.crs) + " (ogr2ogr -t_srs)");
-}
 
 JobInput::JobInput(const InputOptions& options, const ItemLoop& loop) : options_(options) {
   if (options_.pslg) {
     const std::string name = "the plane graph given";
-    requireReadyGraph(name);
+    requireReadyGraph(options_, name);
+    requireSurface();
     if (!sourcesOf(options_).empty())
       throw OptionError(name + " defines the domain itself; leave out files, --constraints, --weirs and --regions");
     takePlaneGraph(*options_.pslg, name);
@@ -272,29 +124,9 @@ void JobInput::bendEdges() {
                           " by more than --edge-tolerance");
 }
 
-// Throws OptionError for options that do not apply to a ready plane graph, which is used as it is.
-void JobInput::requireReadyGraph(const std::string& name) {
-  if (options_.frame.side != DomainSide::Auto || options_.frame.box || options_.frame.water_at ||
-      !options_.clip.empty())
-    throw OptionError(name + " defines the domain itself; leave out --domain, --bbox, --clip and --water-at");
-  if (!options_.filter.layers.empty() || !options_.filter.where.empty())
-    throw OptionError(name + " has neither layers nor attributes; leave out --layer and --where");
-  if (!options_.boundary_column.empty()) throw OptionError(name + " has no columns; leave out --boundary-column");
-  if (options_.pinches == Pinches::Open || options_.dissolve || options_.simplify_m > 0.0 ||
-      options_.min_island_area_m2 > 0.0 || options_.snap_in_plane) {
-    throw OptionError(name +
-                      " is a ready plane graph and is not cleaned; leave out --pinches open, --dissolve, --simplify, "
-                      "--min-island-area and --snap");
-  }
-  if (options_.crs != "auto" && options_.crs != "plane")
-    throw OptionError(name + " has plane coordinates already; leave out --crs, or give --crs plane");
-  if (options_.flood.height_m) throw OptionError(name + " has no land that is known; leave out --flood-height");
-  if (options_.edges != EdgeLine::Plane) throw OptionError(name + " has straight edges in a plane; leave out --edges");
-  requireSurface();
-}
-
 void JobInput::readPolyFile(const std::string& path) {
-  requireReadyGraph("'" + path + "'");
+  requireReadyGraph(options_, "'" + path + "'");
+  requireSurface();
   if (sourcesOf(options_).size() > 1)
     throw OptionError("'" + path + "' defines the domain itself; leave out --constraints, --weirs and --regions");
   PolyExtras ignored;
@@ -434,6 +266,17 @@ Domain JobInput::domain(std::size_t group, CleanReport& report, const ItemLoop& 
   return cleanFeatures(coastline_, groups_[group], projectionOf(group), clean, report, loop);
 }
 
+std::optional<Domain> JobInput::domainIfAny(std::size_t group, const ItemLoop& loop) const {
+  CleanReport ignored;
+  try {
+    return domain(group, ignored, loop);
+  } catch (const InputError&) {
+    return std::nullopt;
+  } catch (const BadPslg&) {
+    return std::nullopt;
+  }
+}
+
 std::optional<double> JobInput::area(std::size_t group) const {
   if (poly_) return std::nullopt;
   return geodesicArea(coastline_, groups_[group]);
@@ -444,78 +287,16 @@ std::optional<double> JobInput::area(const Domain& domain, const ItemLoop& loop)
   return geodesicArea(domain, coastline_.crs, loop);
 }
 
-namespace {
-
-// Returns nullopt for a group of which nothing can be meshed.
-std::optional<Domain> domainOf(const JobInput& input, std::size_t group, const ItemLoop& loop) {
-  CleanReport ignored;
-  try {
-    return input.domain(group, ignored, loop);
-  } catch (const InputError&) {
-    return std::nullopt;
-  } catch (const BadPslg&) {
-    return std::nullopt;
-  }
-}
-
-// The area of each group's polygons, whatever frames and regions are in it. Its domain has at most this area, unless
-// parts of a polygon were cut off.
-std::vector<double> polygonAreas(const JobInput& input, const ItemLoop& loop) {
-  const std::vector<Feature>& features = input.coastline().features;
-  std::vector<double> areas(input.groups());
-  forEachByStretches(loop, areas.size(), [&](std::size_t g) {
-    std::vector<std::size_t> own;
-    std::ranges::copy_if(input.members(g), std::back_inserter(own), [&](std::size_t member) {
-      return features[member].use == FeatureUse::Area || features[member].use == FeatureUse::Land;
-    });
-    areas[g] = geodesicArea(input.coastline(), own);
-  });
-  return areas;
-}
-
-bool isClipped(const JobInput& input, std::size_t group) {
-  return std::ranges::any_of(input.members(group), [&](std::size_t member) {
-    const Feature& feature = input.coastline().features[member];
-    return feature.clipped || isFloodPlain(feature);
-  });
-}
-
-}  // namespace
-
 // The land is found beside the waters as they are cleaned without it.
 void JobInput::addFloodPlain(const ItemLoop& loop) {
   if (!options_.flood.height_m) return;
   std::vector<Domain> waters;
   for (std::size_t g = 0; g < groups_.size(); ++g)
-    if (std::optional<Domain> domain = domainOf(*this, g, loop)) waters.push_back(std::move(*domain));
+    if (std::optional<Domain> domain = domainIfAny(g, loop)) waters.push_back(std::move(*domain));
   FloodPlain plain = floodPlainOf(coastline_, waters, options_.flood, loop);
   std::ranges::move(plain.features, std::back_inserter(coastline_.features));
   std::ranges::move(plain.notes, std::back_inserter(report_.notes));
   groups_ = groupFeatures(coastline_, reach(), loop);
-}
-
-std::optional<LargestGroup> largestGroup(const JobInput& input, const ItemLoop& loop) {
-  const std::vector<double> areas = polygonAreas(input, loop);
-  std::vector<double> bounds = areas;
-  for (std::size_t g = 0; g < bounds.size(); ++g)
-    if (isClipped(input, g)) bounds[g] = std::numeric_limits<double>::infinity();
-  std::vector<std::size_t> order(bounds.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, std::ranges::greater(), [&](std::size_t g) { return bounds[g]; });
-  std::optional<LargestGroup> largest;
-  double most = 0.0;
-  for (const std::size_t g : order) {
-    if (largest && bounds[g] <= most) break;
-    std::optional<Domain> domain = domainOf(input, g, loop);
-    if (!domain) continue;
-    const double area = input.area(*domain, loop).value_or(0.0);
-    if (largest && !(area > most)) continue;
-    most = area;
-    largest = {g, std::move(*domain), 1.0};
-  }
-  const double all = std::accumulate(areas.begin(), areas.end(), 0.0);
-  if (largest && all > 0.0) largest->share = areas[largest->group] / all;
-  return largest;
 }
 
 }  // namespace coastmesh

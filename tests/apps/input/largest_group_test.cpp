@@ -1,9 +1,11 @@
 // The largest group is that with the most area in the frame, whatever lies beyond it.
+#include "apps/input/largest_group.hpp"
+
 #include <gtest/gtest.h>
 
 #include <memory>
 
-#include "apps/job/job_input.hpp"
+#include "apps/input/job_input.hpp"
 #include "tests/support/gis_shapes.hpp"
 
 namespace coastmesh {
