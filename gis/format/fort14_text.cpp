@@ -136,6 +136,13 @@ void writeGr3Values(TextWriter& file, const Grid& grid, std::span<const double> 
 
 namespace {
 
+// The first line is the title even if it is blank; then, and if it stands for none, returns an empty text.
+std::string readTitle(ListReader& file) {
+  TextReader& text = file.text();
+  return text.nextPhysicalLine() && text.hasWord() && text.line() != kNoTitle ? std::string(text.line())
+                                                                              : std::string();
+}
+
 // The first number of a line, which may be followed by a comment. Nullopt at the end of the file.
 std::optional<std::uint64_t> countLine(ListReader& file) {
   if (!file.nextStatement()) return std::nullopt;
@@ -263,13 +270,33 @@ void readLandSegments(ListReader& file, std::uint64_t count, const NodeNumbers& 
 
 }  // namespace
 
+std::vector<double> readGr3Values(const std::string& path, const Grid& grid) {
+  ListReader file(path);
+  readTitle(file);
+  const std::size_t own_elements = Elements(grid).size();
+  file.needStatement();
+  if (const std::uint64_t elements = file.count(), nodes = file.count();
+      elements != own_elements || nodes != grid.nodes.size())
+    throw InputError("'" + path + "' has " + std::to_string(elements) + forCount(elements, " element", " elements") +
+                     " and " + std::to_string(nodes) + " nodes, but the mesh beside it has " +
+                     std::to_string(own_elements) + " and " + std::to_string(grid.nodes.size()) +
+                     ": give it another name if it belongs to another mesh");
+  std::vector<double> values;
+  values.reserve(grid.nodes.size());
+  while (values.size() < grid.nodes.size()) {
+    file.needStatement();
+    file.integer();
+    file.number(), file.number();
+    values.push_back(file.number());
+  }
+  return values;
+}
+
 Grid readFort14(const std::string& path, Crs crs, std::vector<std::int64_t>* ids) {
   ListReader file(path);
   Grid grid;
   grid.crs = std::move(crs);
-  // The first line is the title even if it is blank.
-  TextReader& text = file.text();
-  if (text.nextPhysicalLine() && text.hasWord() && text.line() != kNoTitle) grid.title = std::string(text.line());
+  grid.title = readTitle(file);
   file.needStatement();
   const std::uint64_t elements = file.count(), nodes = file.count();
   const NodeNumbers numbers = readNodes(file, nodes, grid, ids);

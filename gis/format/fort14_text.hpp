@@ -24,6 +24,10 @@ void writeFort14(TextWriter& file, const Grid& grid, std::span<const Point> plac
 // every value is known.
 void writeGr3Values(TextWriter& file, const Grid& grid, std::span<const double> values, const ItemLoop& loop);
 
+// Reads what `writeGr3Values` writes for this grid, by the order of the nodes. As for SCHISM the file may end after its
+// nodes. Throws InputError, also if its first line has other numbers of elements and nodes.
+std::vector<double> readGr3Values(const std::string& path, const Grid& grid);
+
 // Reads either, with coordinates in `crs`. Segments are not required to run along the boundary; `notes` report counts,
 // numbers and sums that are not as the programs require. `ids`, if not null, gets the numbers that nodes have in the
 // file. Throws InputError.

@@ -31,16 +31,9 @@ void readFields(const std::string& path, Grid& grid) {
   for (const char* const word : kFrictions) {
     const std::string beside = pathOfField(path, word);
     if (!std::filesystem::exists(beside)) continue;
-    const Grid values = readFort14(beside, grid.crs);
-    if (values.nodes.size() != grid.nodes.size() || values.triangles.size() != grid.triangles.size())
-      throw InputError("'" + beside + "' has " + std::to_string(values.nodes.size()) + " nodes and " +
-                       std::to_string(values.triangles.size()) + " triangles, but '" + path + "' beside it has " +
-                       std::to_string(grid.nodes.size()) + " and " + std::to_string(grid.triangles.size()) +
-                       ": give it another name if it belongs to another mesh");
     const FieldName& known = *findFieldName(word);
     NodeField& field = grid.node_fields.emplace_back(NodeField{std::string(known.name), std::string(known.unit)});
-    field.values.assign(grid.nodes.size(), 0.0);
-    for (std::size_t i = 0; i < values.z.size(); ++i) field.values[i] = 0.0 - values.z[i];
+    field.values = readGr3Values(beside, grid);
   }
 }
 

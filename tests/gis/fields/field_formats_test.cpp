@@ -176,6 +176,25 @@ TEST_F(FieldFormats, SchismsFilesOfAMeshOfAnotherNameHaveThat) {
   EXPECT_THROW(readGrid(path), InputError);
 }
 
+TEST_F(FieldFormats, SchismsValuesMayEndAfterTheNodes) {
+  const std::string path = write(twoTriangles(), "hgrid.gr3");
+  const std::string manning = folder_ / "manning.gr3";
+  writeText(manning, "\n2 4\n1 0 0 0.02\n2 100 0 0\n3 100 100 -0.5\n4 0 100 0.025");
+  EXPECT_THAT(readGrid(path).node_fields[0].values, ElementsAre(0.02, 0.0, -0.5, 0.025));
+  const auto refusal = [&](const std::string& text) -> std::string {
+    writeText(manning, text);
+    try {
+      readGrid(path);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_THAT(refusal("t\n1 4\n"), HasSubstr("has 1 element and 4 nodes, but the mesh beside it has 2 and 4"));
+  EXPECT_THAT(refusal("t\n2 4\n1 0 0 1\n2 0 0 1\n3 0 0 x\n"), HasSubstr("line 5"));
+  EXPECT_THAT(refusal("t\n2 4\n1 0 0 1\n2 0 0 1\n3 0 0 1\n"), HasSubstr("ends too early"));
+}
+
 // The records of a SELAFIN file, each with its length before and after it.
 std::vector<std::string> recordsOf(const std::string& bytes) {
   const auto lengthAt = [&](std::size_t at) {
