@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -17,7 +18,9 @@
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/model/fill_depths.hpp"
 #include "gis/places.hpp"
+#include "gis/rivers/measure_rivers.hpp"
 #include "gis/rivers/mesh_triangles.hpp"
+#include "gis/rivers/river_banks.hpp"
 #include "parallel/available_memory.hpp"
 
 namespace coastmesh {
@@ -27,10 +30,23 @@ namespace {
 constexpr double kBytesPerQuad = 1500.0;  // of the whole program
 
 std::vector<RiverLine> readLines(const std::vector<std::string>& paths, const Crs& crs, const RiversJob& job) {
+  constexpr double kFromBanks = std::numeric_limits<double>::quiet_NaN();
+  const std::optional<double> usual_m = job.width_m || job.banks.empty() ? job.width_m : kFromBanks;
   std::vector<RiverLine> lines;
   for (const std::string& path : paths)
-    std::ranges::move(readRiverLines(path, crs, job.columns, job.width_m), std::back_inserter(lines));
+    std::ranges::move(readRiverLines(path, crs, job.columns, usual_m), std::back_inserter(lines));
   return lines;
+}
+
+// Lines as wide as the water between the banks; the result says in words how much of them is.
+std::string takeWidths(std::vector<RiverLine>& lines, const std::vector<std::string>& files, const Grid& grid,
+                       std::vector<std::string>& warnings, const ItemLoop& loop) {
+  if (files.empty()) return {};
+  RiverBanks banks;
+  for (const std::string& file : files) readRiverBanks(file, grid.crs, banks, warnings);
+  MeasuredRivers measured = measureRivers(std::move(lines), banks, grid.crs, loop);
+  lines = std::move(measured.lines);
+  return measuredRiversText(measured, grid);
 }
 
 // Rasters give depths to new nodes only.
@@ -171,20 +187,22 @@ EditedMesh runRiversJob(Grid& grid, const std::string& name, const std::vector<s
     options.junctions = job.merge.mesh.refine;
     options.most_quads = std::min(options.most_quads, availableMemory() / kBytesPerQuad);
     requireDepths(grid, name, job.merge.depth);
-    const std::vector<RiverLine> read = readLines(lines, grid.crs, job);
+    std::vector<RiverLine> read = readLines(lines, grid.crs, job);
     requireOnePlane(read, grid, name);
+    MeshEdit edit;
+    const std::string widths = takeWidths(read, job.banks, grid, edit.warnings, loop);
     LaidRivers laid = layRivers(read, grid, options, of_edit, loop);
     const std::vector<std::string> lost = lostRiverTexts(laid.report, grid);
     if (laid.grid.triangles.empty()) throw InputError("no river can be added to '" + name + "': " + joined(lost));
     for (const std::string& text : lost) warn(text);
-    MeshEdit edit;
-    edit.warnings = {narrowedRiversText(laid.report), junctionTrianglesText(laid.report),
-                     setRiverDepths(laid, grid, job.merge.depth, of_edit, loop)};
+    edit.warnings.push_back(narrowedRiversText(laid.report));
+    edit.warnings.push_back(junctionTrianglesText(laid.report));
+    edit.warnings.push_back(setRiverDepths(laid, grid, job.merge.depth, of_edit, loop));
     setRiverFields(laid.grid, grid, loop);
     const MergedMesh merged = putIn(grid, name, std::move(laid.grid), job.merge, of_edit, loop);
     std::ranges::move(mergeWarnings(merged, job.merge.depth), std::back_inserter(edit.warnings));
     edit.warnings.push_back(unconnectedRiversText(grid, merged.triangles));
-    const std::string text = riversText(laid.report, grid);
+    const std::string text = riversText(laid.report, grid) + widths;
     std::optional<LastingFigures> beside;
     if (merged.band)
       beside.emplace(merged.band->inside, job.finish.mayEdit(), grid, loop,

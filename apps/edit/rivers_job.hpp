@@ -18,8 +18,9 @@ namespace coastmesh {
 // How rivers are added to a mesh.
 struct RiversJob {
   RiverColumns columns;
-  std::optional<double> width_m;  // of lines without one
-  RiverOptions rivers;            // bounds at junctions are those of `merge`
+  std::optional<double> width_m;   // of lines without one
+  std::vector<std::string> banks;  // files of polygons of rivers' water, which give widths
+  RiverOptions rivers;             // bounds at junctions are those of `merge`
   MergeOptions merge;
   FinishOptions finish;  // targets
 };

@@ -103,6 +103,7 @@ MeshResult runEdit(OptionTable& options, const EditArguments& given, const std::
   });
   std::ranges::move(edited.warnings, std::back_inserter(warnings));
   inWords.apply(warnings);
+  for (GridFeature& feature : result.grid.features) feature.source = given.texts.named(feature.source);
   result.summary = inWords(edited.summary);
   result.report = editReport(edited, warnings);
   result.complete = edited.complete();

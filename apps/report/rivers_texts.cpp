@@ -86,6 +86,18 @@ std::string riversText(const RiverReport& report, const Grid& grid) {
   return text;
 }
 
+std::string measuredRiversText(const MeasuredRivers& measured, const Grid& mesh) {
+  std::string text =
+      "widths from banks along " + lengthText(measured.measured_m, mesh) + " of " + lengthText(measured.length_m, mesh);
+  if (measured.measured_m > 0.0)
+    text += ", from " + lengthText(measured.least_width_m, mesh) + " to " + lengthText(measured.most_width_m, mesh);
+  if (measured.without > 0)
+    text += "; " + grouped(measured.without) +
+            forCount(measured.without, " line that is outside them keeps its own",
+                     " lines that are outside them keep their own");
+  return text + "\n";
+}
+
 std::string narrowedRiversText(const RiverReport& report) {
   if (report.narrowed == 0) return {};
   return grouped(report.narrowed) +

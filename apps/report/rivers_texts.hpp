@@ -6,6 +6,7 @@
 #include "gis/grid/grid.hpp"
 #include "gis/merge/merge_grids.hpp"
 #include "gis/rivers/lay_rivers.hpp"
+#include "gis/rivers/measure_rivers.hpp"
 
 namespace coastmesh {
 
@@ -14,6 +15,9 @@ std::vector<std::string> lostRiverTexts(const RiverReport& report, const Grid& m
 
 // The summary: lines that end with a line break.
 std::string riversText(const RiverReport& report, const Grid& mesh);
+
+// A line on widths that were measured between banks.
+std::string measuredRiversText(const MeasuredRivers& measured, const Grid& mesh);
 
 // The river boundaries of a mesh, a line each, by their numbers in files; empty if there are none.
 std::string riverBoundariesText(const Grid& grid);

@@ -20,6 +20,11 @@ void declareRiversOptions(OptionTable& table, RiversUsage& usage) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   table.number({"--width", "Usual width"}, usage.width_m, "M", {0.0, kInfinity, true},
                "width of lines that have none in that column");
+  table.texts(
+      {"--banks", "Banks"}, usage.job.banks, kVectorFile, false,
+      "polygons of the rivers' water: where lines run in them, rivers are as wide as these, and in their middle; "
+      "elsewhere they have the width of their column, or of --width, or that where they leave the polygons; can "
+      "be repeated");
   table.section(Section::Domain);
   RiverOptions& rivers = usage.job.rivers;
   table.choice(

@@ -22,6 +22,7 @@
 #include "gis/rivers/river_plane.hpp"
 #include "gis/rivers/river_room.hpp"
 #include "gis/rivers/river_rows.hpp"
+#include "gis/rivers/river_widths.hpp"
 
 namespace coastmesh {
 
@@ -121,11 +122,14 @@ class RiverLayer {
  private:
   PlaneRiver inPlane(const RiverLine& line) const {
     PlaneRiver river;
-    for (const Point& p : line.points) {
+    for (std::size_t i = 0; i < line.points.size(); ++i) {
+      const Point& p = line.points[i];
       const Point place = plane_.forward(p);
       if (!std::isfinite(place.x) || !std::isfinite(place.y))
         throw InputError(nameOf(line) + " has a place, (" + placeInWords(p) + "), that cannot be projected");
-      if (river.points.empty() || !(river.points.back() == place)) river.points.push_back(place);
+      if (!river.points.empty() && river.points.back() == place) continue;
+      river.points.push_back(place);
+      if (!line.widths_m.empty()) river.widths.push_back(line.widths_m[i] * plane_.scaleAt(place));
     }
     if (river.points.size() < 2)
       throw InputError(nameOf(line) + " has a line of no length at (" + placeInWords(line.points.front()) +
@@ -146,9 +150,10 @@ class RiverLayer {
   }
 
   void followCourses() {
+    const RiverWidths widths(rivers_);
     for (const RiverReach& reach : network_.reaches) {
       control_.checkpoint(0.0);
-      courses_.emplace_back(reach, rivers_);
+      courses_.emplace_back(reach, widths);
       const RiverCourse& course = courses_.back();
       const Point middle = course.sectionAt(0.5 * course.length()).place;
       const double scale = plane_.scaleAt(middle);

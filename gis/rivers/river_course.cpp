@@ -20,8 +20,6 @@ constexpr std::size_t kArm = 2;
 // The least radius of the centre line in a bend, as a share of the width: the inner bank turns at half the width less.
 constexpr double kLeastBend = 0.8;
 constexpr int kMostSweeps = 4000;
-// How fast widths grow along the river where features of different widths meet.
-constexpr double kWidening = 0.2;
 // How fast the longest row grows along the river.
 constexpr double kRowGrowth = 0.5;
 constexpr std::size_t kMostPoints = 4'000'000;
@@ -35,17 +33,17 @@ double radiusThrough(const Point& a, const Point& b, const Point& c) {
 
 }  // namespace
 
-RiverCourse::RiverCourse(const RiverReach& reach, std::span<const PlaneRiver> rivers) {
-  sample(reach, rivers);
+RiverCourse::RiverCourse(const RiverReach& reach, const RiverWidths& widths) {
+  sample(reach, widths);
   smooth();
   measure();
 }
 
-void RiverCourse::sample(const RiverReach& reach, std::span<const PlaneRiver> rivers) {
+void RiverCourse::sample(const RiverReach& reach, const RiverWidths& widths) {
   double length = 0.0, least = kInfinity;
   for (std::size_t i = 0; i + 1 < reach.points.size(); ++i) {
     length += distance(reach.points[i], reach.points[i + 1]);
-    least = std::min(least, rivers[reach.line_of[i]].width);
+    least = std::min(least, widths.usualOf(reach.line_of[i]));
   }
   const double wanted = std::ceil(length / (kStep * least));
   const auto count = static_cast<std::size_t>(std::clamp(wanted, 4.0, static_cast<double>(kMostPoints)));
@@ -63,7 +61,8 @@ void RiverCourse::sample(const RiverReach& reach, std::span<const PlaneRiver> ri
     const double share = std::clamp((along - before) / edge_length, 0.0, 1.0);
     points_.push_back(reach.points[edge] + share * (reach.points[edge + 1] - reach.points[edge]));
     line_.push_back(reach.line_of[edge]);
-    width_.push_back(rivers[line_.back()].width);
+    width_.push_back(widths.at(line_.back(), points_.back()));
+    slope_.push_back(widths.slopeOf(line_.back()));
   }
   points_.front() = reach.points.front();
   points_.back() = reach.points.back();
@@ -125,7 +124,7 @@ void RiverCourse::limitRows(std::vector<double> room) {
 }
 
 void RiverCourse::limitWidening() {
-  const auto room = [&](std::size_t i) { return kWidening * (along_[i + 1] - along_[i]); };
+  const auto room = [&](std::size_t i) { return slope_[i] * (along_[i + 1] - along_[i]); };
   for (std::size_t i = 0; i + 1 < width_.size(); ++i) width_[i + 1] = std::min(width_[i + 1], width_[i] + room(i));
   for (std::size_t i = width_.size() - 1; i-- > 0;) width_[i] = std::min(width_[i], width_[i + 1] + room(i));
   double sum = 0.0;

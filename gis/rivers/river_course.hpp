@@ -6,6 +6,7 @@
 
 #include "core/point.hpp"
 #include "gis/rivers/river_network.hpp"
+#include "gis/rivers/river_widths.hpp"
 
 namespace coastmesh {
 
@@ -35,7 +36,7 @@ struct RiverSection {
 // The course of a reach: its centre line without turns that are too sharp for its width, and widths without jumps.
 class RiverCourse {
  public:
-  RiverCourse(const RiverReach& reach, std::span<const PlaneRiver> rivers);
+  RiverCourse(const RiverReach& reach, const RiverWidths& widths);
 
   double length() const { return along_.back(); }
   double meanWidth() const { return mean_width_; }
@@ -56,7 +57,7 @@ class RiverCourse {
 
  private:
   void limitWidening();
-  void sample(const RiverReach& reach, std::span<const PlaneRiver> rivers);
+  void sample(const RiverReach& reach, const RiverWidths& widths);
   void smooth();
   void measure();
   double radiusAt(std::size_t i) const;
@@ -66,7 +67,8 @@ class RiverCourse {
   std::vector<Point> points_;
   std::vector<double> along_;  // distance from the start, for each point
   std::vector<double> width_;
-  std::vector<double> room_;  // empty: no limit
+  std::vector<double> slope_;  // how fast the width may change from each point to the next
+  std::vector<double> room_;   // empty: no limit
   std::vector<std::uint32_t> line_;
   double mean_width_ = 0.0, max_width_ = 0.0, moved_ = 0.0;
   Point moved_place_;

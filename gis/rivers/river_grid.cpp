@@ -30,10 +30,7 @@ class GridMaker {
   RiverGrid make(const Crs& crs, bool sizes, const ItemLoop& loop) {
     Grid& grid = made_.grid;
     grid.crs = crs;
-    for (const RiverLine& line : lines_) {
-      GridFeature& feature = grid.features.emplace_back(GridFeature{line.fid, line.source, {}});
-      if (!line.name.empty()) feature.attributes.emplace_back("name", line.name);
-    }
+    addFeatures();
     for (std::uint32_t reach = 0; reach < parts_.rows.size(); ++reach) addRows(reach);
     std::vector<JunctionOutline> outlines;
     for (const RiverJunction& junction : parts_.junctions) outlines.push_back(outlineOf(junction));
@@ -51,6 +48,18 @@ class GridMaker {
  private:
   std::uint32_t nodeOf(std::uint32_t reach, std::size_t row, std::size_t i) const {
     return first_node_[reach] + static_cast<std::uint32_t>(row * (parts_.rows[reach].cells + 1) + i);
+  }
+
+  // Parts of a line follow one another.
+  void addFeatures() {
+    for (const RiverLine& line : lines_) {
+      std::vector<GridFeature>& features = made_.grid.features;
+      if (features.empty() || features.back().fid != line.fid || features.back().source != line.source) {
+        features.push_back({line.fid, line.source, {}});
+        if (!line.name.empty()) features.back().attributes.emplace_back("name", line.name);
+      }
+      feature_of_.push_back(static_cast<std::uint32_t>(features.size() - 1));
+    }
   }
 
   void addPlace(const Point& place) {
@@ -72,7 +81,7 @@ class GridMaker {
         const std::array corners{nodeOf(reach, row, i), nodeOf(reach, row + 1, i), nodeOf(reach, row + 1, i + 1),
                                  nodeOf(reach, row, i + 1)};
         addElement(made_.grid, corners);
-        made_.grid.feature_of.resize(made_.grid.triangles.size(), rows.sections[row].line);
+        made_.grid.feature_of.resize(made_.grid.triangles.size(), feature_of_[rows.sections[row].line]);
       }
     }
     if (rows.sections.empty()) return;
@@ -130,7 +139,7 @@ class GridMaker {
     const std::uint32_t line = parts_.rows[junction.branches.front().reach].sections.front().line;
     for (const auto& corners : mesh.triangles) {
       addElement(made_.grid, std::array{nodes[corners[0]], nodes[corners[1]], nodes[corners[2]]});
-      made_.grid.feature_of.push_back(line);
+      made_.grid.feature_of.push_back(feature_of_[line]);
       judge(mesh.points[corners[0]], mesh.points[corners[1]], mesh.points[corners[2]]);
     }
   }
@@ -167,6 +176,7 @@ class GridMaker {
   const std::vector<RiverLine>& lines_;
   const RiverPlane& plane_;
   const RefineOptions& options_;
+  std::vector<std::uint32_t> feature_of_;  // by line
   std::vector<std::uint32_t> first_node_;  // of each reach
   std::vector<Point> places_;              // of nodes, in the plane
   RiverGrid made_;

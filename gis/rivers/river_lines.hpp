@@ -14,7 +14,8 @@ namespace coastmesh {
 // The centre line of a river, or of a part of one.
 struct RiverLine {
   std::vector<Point> points;                                  // in the CRS of the mesh; longitudes do not jump
-  double width_m = 0.0;                                       // above 0
+  double width_m = 0.0;                                       // above 0; NaN: not given
+  std::vector<double> widths_m{};                             // at the points; empty: the same everywhere
   double depth_m = std::numeric_limits<double>::quiet_NaN();  // of its bed, below the zero of depths; NaN: not given
   std::string name;                                           // empty: none
   std::string source;                                         // the file, or "file|layer"
@@ -32,9 +33,10 @@ struct RiverColumns {
 };
 
 // Reads the lines of what `openSource` opens: all vector layers, or the one that `path` names. Coordinates are brought
-// to `crs`; a source without a CRS is taken to be in it. `usual_width_m`: of lines without a width. Features without a
-// shape are left out. Throws InputError: unreadable, damaged; a feature that is no line, has no width, or a depth or a
-// width that is no number; no line at all; no column of depths or names, if it is not the usual one.
+// to `crs`; a source without a CRS is taken to be in it. `usual_width_m`: of lines without a width; NaN leaves them
+// without. Features without a shape are left out. Throws InputError: unreadable, damaged; a feature that is no line,
+// has no width, or a depth or a width that is no number; no line at all; no column of depths or names, if it is not the
+// usual one.
 std::vector<RiverLine> readRiverLines(const std::string& path, const Crs& crs, const RiverColumns& columns,
                                       const std::optional<double>& usual_width_m);
 

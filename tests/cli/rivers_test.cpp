@@ -151,6 +151,52 @@ TEST_F(Rivers, OptionsSayHowTheRowsAre) {
   EXPECT_GT(quadsWith({"--width-column", "depth"}), 20.0 * usual);
 }
 
+// The depths of the nodes of a file in gr3, by their places.
+struct DepthAt {
+  double x, y, depth;
+};
+std::vector<DepthAt> depthsOf(const std::string& text) {
+  std::istringstream lines(text);
+  std::string line;
+  std::size_t elements = 0, nodes = 0, number = 0;
+  std::getline(lines, line);
+  lines >> elements >> nodes;
+  std::vector<DepthAt> all(nodes);
+  for (DepthAt& node : all) lines >> number >> node.x >> node.y >> node.depth;
+  return all;
+}
+
+TEST_F(Rivers, AreAsWideAsTheWaterBetweenTheirBanks) {
+  const std::string line = write("main.csv", "WKT,name\n\"LINESTRING (9800 5020, 20000 5020)\",Main\n");
+  // Two tiles, from 200 m to 400 m wide.
+  const std::string banks =
+      write("banks.csv",
+            "WKT,n\n\"POLYGON ((10000 4900, 15000 4850, 15000 5150, 10000 5100, 10000 4900))\",1\n"
+            "\"POLYGON ((15000 4850, 20000 4800, 20000 5200, 15000 5150, 15000 4850))\",2\n");
+  const ProgramRun without = runProgram({"rivers", sea(), line, "-o", file("x.nc")});
+  EXPECT_EQ(without.code, 3);
+  EXPECT_THAT(without.errors, HasSubstr("has no attribute 'width'"));
+  const ProgramRun run = runProgram({"rivers", sea(), line, "--banks", banks, "-o", file("x.gr3")});
+  ASSERT_EQ(run.code, 0) << run.errors;
+  EXPECT_THAT(run.output, HasSubstr("widths from banks along 9,9"));
+  EXPECT_THAT(run.output, HasSubstr(" of 10,200, from 20"));
+  double south = 5000.0, north = 5000.0;
+  for (const DepthAt& node : depthsOf(readText(file("x.gr3")))) {
+    if (node.x < 10200.0) continue;  // beside the sea
+    EXPECT_LE(std::abs(node.y - 5000.0), 100.0 + 0.01 * (node.x - 10000.0) + 4.0) << node.x;
+    south = std::min(south, node.y), north = std::max(north, node.y);
+  }
+  EXPECT_NEAR(south, 4800.0, 6.0);
+  EXPECT_NEAR(north, 5200.0, 6.0);
+
+  const ProgramRun apart = runProgram(
+      {"rivers", sea(), line, "--banks",
+       write("away.csv", "WKT,n\n\"POLYGON ((0 20000, 9000 20000, 9000 21000, 0 20000))\",1\n"), "-o", file("y.nc")});
+  EXPECT_EQ(apart.code, 3);
+  EXPECT_THAT(apart.errors, HasSubstr("'Main' has no width, and no part of it is between banks"));
+  EXPECT_FALSE(std::filesystem::exists(file("y.nc")));
+}
+
 TEST_F(Rivers, InTheWaterOfTheMeshWithExtentAll) {
   const std::string inside = lines("channel.csv", {"\"LINESTRING (2000 5000, 8000 5000)\",200,12,Channel"});
   const ProgramRun outside = runProgram({"rivers", sea(), inside, "-o", file("x.nc")});
@@ -165,21 +211,6 @@ TEST_F(Rivers, InTheWaterOfTheMeshWithExtentAll) {
   EXPECT_GE(info["quadrilaterals"]["count"], 2 * 19);
   EXPECT_FALSE(info["boundaries"].contains("river"));
   EXPECT_EQ(info["z"][0], -12.0);
-}
-
-// The depths of the nodes of a file in gr3, by their places.
-struct DepthAt {
-  double x, y, depth;
-};
-std::vector<DepthAt> depthsOf(const std::string& text) {
-  std::istringstream lines(text);
-  std::string line;
-  std::size_t elements = 0, nodes = 0, number = 0;
-  std::getline(lines, line);
-  lines >> elements >> nodes;
-  std::vector<DepthAt> all(nodes);
-  for (DepthAt& node : all) lines >> number >> node.x >> node.y >> node.depth;
-  return all;
 }
 
 TEST_F(Rivers, DigNothingBesideThem) {

@@ -98,6 +98,10 @@ def write_inputs(folder):
         feature("LineString", [[-87.481, 41.613], [-87.47, 41.6175], [-87.46, 41.619]],
                 {"width": 60, "breadth": 40, "depth": 3, "bed": 2, "name": "a", "other": "b"}),
         feature("LineString", [[-87.4768, 41.601], [-87.46, 41.598]], {"width": 60, "breadth": 40})))
+    # The water of the first, 100 m wide.
+    put("banks.geojson", collection(feature("Polygon", [
+        [[-87.4813, 41.6125], [-87.4697, 41.6170], [-87.46, 41.6185], [-87.46, 41.6195], [-87.4703, 41.6180],
+         [-87.4807, 41.6135], [-87.4813, 41.6125]]])))
     put("line.geojson", collection(feature("LineString", [[-87.495, 41.613], [-87.482, 41.614]])))
     put("region.geojson", collection(square(-87.496, 41.611, 0.004, {"name": "bay"})))
     put("points.geojson", collection(feature("Point", [-87.48, 41.611], {"size": 30.0})))
@@ -295,7 +299,7 @@ def cases():
               "--width-column": Case("breadth"), "--depth-column": Case("bed", input="deep.nc"), 
               "--name-column": Case("other", extra=["--output", "out.gpkg"], because="a .nc has no names"),
               "--width": Case("50", extra=["--width-column", "none"], because="lines have widths of their own"),
-              "--extent": Case("all"), "--elements": Case("4"), "--max-cell-width": Case("20"), "--aspect": Case("1.5"),
+              "--banks": Case("banks.geojson"), "--extent": Case("all"), "--elements": Case("4"), "--max-cell-width": Case("20"), "--aspect": Case("1.5"),
               "--min-angle": Case("15"), "--max-angle": Case("90"), "--grade": Case("0.02"), "--target": Case("mpas"),
               "--numbers": Case("numbers.csv"), "--assume-crs": Case("EPSG:4326", input="bare.2dm")}
     for name in ("--bathymetry", "--depth-method", "--depth-sign", "--water-level", "--min-depth"):

@@ -176,6 +176,23 @@ class CommandsTest(EditTest):
             both, _ = self.caught(coastmesh.merge, files[0], files[1:1 + count], grade=0.3)
             self.assert_same(both, expected)
 
+    def test_banks(self):
+        """Widths of rivers from polygons, as files and as shapes."""
+        path = self.path("banks.geojson")
+        (x0, y0), (x1, y1) = RIVERS[0][0][0], RIVERS[0][0][-1]
+        banks = {"type": "Feature", "properties": {}, "geometry": {"type": "Polygon", "coordinates": [
+            [[x0, y0 - 0.01], [x1, y1 - 0.01], [x1, y1 + 0.01], [x0, y0 + 0.01], [x0, y0 - 0.01]]]}}
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump({"type": "FeatureCollection", "features": [banks]}, file)
+        lines = [line(*RIVERS[0])]
+        of_column, _ = self.caught(coastmesh.rivers, self.coarse, lines)
+        meshes = [self.caught(coastmesh.rivers, self.coarse, lines, banks=given)[0] for given in (path, [path], banks)]
+        self.assertIn("widths from banks along", meshes[0].summary)
+        self.assertNotIn("widths from banks", of_column.summary)
+        for mesh in meshes:
+            np.testing.assert_array_equal(mesh.points, meshes[0].points)
+        self.assertNotEqual(len(of_column.points), len(meshes[0].points))
+
     def test_rivers(self):
         path = self.path("rivers.geojson")
         text, warned, expected, rows = self.run_program("rivers", self.path("coarse.nc"), path, "--elements", "3", "--grade", "0.3")
@@ -190,6 +207,7 @@ class CommandsTest(EditTest):
             # The program warns of what its file cannot hold, too.
             expected_warnings = [line.replace("--reach", "reach") for line in warned if "cannot hold" not in line]
             self.assertEqual((both.summary, said), (text, expected_warnings))
+            self.assertFalse([one for one in both.features if "vsimem" in one["source"]])
         self.assertGreater(len(both.quadrilaterals), 50)
         self.assertEqual([one["role"] for one in both.boundaries].count("river"), 2)
         self.assertEqual(set(both.node_source[both.quadrilaterals].ravel()), {-1})

@@ -49,7 +49,10 @@ SHAPES = {
     "boundaries": [polygon(4.99, 45.05, 5.01, 45.15, type="open"), polygon(5.44, 45.05, 5.46, 45.15, type="river")],
     "within": [polygon(5, 45, 5.1, 45.1), polygon(5.35, 45, 5.45, 45.1)],
     "outside": [polygon(5, 45, 5.1, 45.1), polygon(5.35, 45, 5.45, 45.1)],
+    "banks": [polygon(5.44, 45.095, 5.8, 45.105), polygon(4.6, 45.096, 5.01, 45.104)],
 }
+# From both ends of the lake.
+RIVERS = [feature("LineString", [[5.44, 45.1], [5.8, 45.1]], width=500), feature("LineString", [[5.01, 45.1], [4.6, 45.1]], width=500)]
 
 
 class Shape:
@@ -90,7 +93,8 @@ class ShapesTest(unittest.TestCase):
             base["bbox"] = (5, 45, 5.45, 45.2)
         if function == "cut" and not options:
             return None
-        mesh = self.quietly(getattr(coastmesh, function), LAKE if function == "mesh" else self.coarse, **base, **options)
+        given = {"mesh": [LAKE], "rivers": [self.coarse, RIVERS]}.get(function, [self.coarse])
+        mesh = self.quietly(getattr(coastmesh, function), *given, **base, **options)
         self.quietly(mesh.write, self.path("made.nc"), overwrite=True)
         with open(self.path("made.nc"), "rb") as file:
             return hashlib.sha256(file.read()).hexdigest()

@@ -18,7 +18,7 @@ RiverReach reachOf(const PlaneRiver& river) {
   return reach;
 }
 
-RiverCourse courseOf(const PlaneRiver& river) { return {reachOf(river), std::span(&river, 1)}; }
+RiverCourse courseOf(const PlaneRiver& river) { return {reachOf(river), RiverWidths(std::span(&river, 1))}; }
 
 void expectConvex(const RiverRows& rows) {
   ASSERT_EQ(rows.nodes.size(), rows.sections.size() * (rows.cells + 1));
@@ -80,7 +80,7 @@ TEST(RiverCourse, StepsOfARasterAreSmoothed) {
 
 TEST(RiverCourse, WidthsOfLinesThatFollowOneAnotherChangeGradually) {
   const std::vector<PlaneRiver> rivers{{{{0, 0}, {2000, 0}}, 400.0}, {{{2000, 0}, {4000, 0}}, 100.0}};
-  const RiverCourse course({0, 1, {{0, 0}, {2000, 0}, {4000, 0}}, {0, 1}}, rivers);
+  const RiverCourse course({0, 1, {{0, 0}, {2000, 0}, {4000, 0}}, {0, 1}}, RiverWidths(rivers));
   EXPECT_NEAR(course.sectionAt(0.0).width, 400.0, 1e-9);
   EXPECT_NEAR(course.sectionAt(3000.0).width, 100.0, 1e-9);
   EXPECT_NEAR(course.sectionAt(1000.0).width, 300.0, 10.0);
