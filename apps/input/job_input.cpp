@@ -101,6 +101,7 @@ JobInput::JobInput(const InputOptions& options, const ItemLoop& loop) : options_
     if (!cut.empty()) report_.warnings.push_back(cut);
   }
   groups_ = groupFeatures(coastline_, reach(), loop);
+  if (options_.min_island_area_m2 > 0.0) areas_.emplace(coastline_);
   bendEdges();
   addFloodPlain(loop);
 }
@@ -261,6 +262,7 @@ Domain JobInput::domain(std::size_t group, CleanReport& report, const ItemLoop& 
   clean.snap_m = snapDistance().length;
   clean.simplify_m = options_.simplify_m;
   clean.min_island_area_m2 = options_.min_island_area_m2;
+  if (areas_) clean.areas = &*areas_;
   clean.dissolve = options_.dissolve;
   clean.pinches = options_.pinches;
   return cleanFeatures(coastline_, groups_[group], projectionOf(group), clean, report, loop);

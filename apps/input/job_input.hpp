@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/input/input_options.hpp"
+#include "gis/clean/areas_within.hpp"
 #include "gis/model/boundary_rules.hpp"
 
 namespace coastmesh {
@@ -62,6 +63,7 @@ class JobInput {
   BoundaryRules boundaries_;
   std::vector<std::vector<std::size_t>> groups_;
   std::vector<std::size_t> frames_;
+  std::optional<AreasWithin> areas_;  // if small islands are left out
   std::optional<Pslg> poly_;
   std::optional<Projection> chosen_;  // if the user chose one; the same for all groups
 };

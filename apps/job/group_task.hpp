@@ -19,7 +19,7 @@ namespace coastmesh {
 struct GroupResult {
   Grid grid;  // without its CRS
   std::array<std::uint64_t, kEditKinds> edits{};
-  std::vector<Edit> edit_places;  // if the job keeps them
+  std::vector<Edit> edit_places;  // if the job keeps them; those of points outside the water in any case
   std::string projection;
   std::string projection_reason;
   SurfaceKind surface = SurfaceKind::Plane;  // on which `quality` and `short_of` are measured

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -13,9 +14,11 @@
 #include "gis/coast/feature_names.hpp"
 #include "gis/crs/crs_map.hpp"
 #include "gis/crs/ogr_support.hpp"
+#include "gis/for_count.hpp"
 #include "gis/geometry/box.hpp"
 #include "gis/grid/grid_lines.hpp"
 #include "gis/model/depth.hpp"
+#include "gis/places.hpp"
 #include "gis/raster/raster_turn.hpp"
 
 namespace coastmesh {
@@ -80,12 +83,20 @@ bool isFrom(const Feature& feature, const std::string& named) {
          feature.source == file + "|" + (layer.starts_with(kLayer) ? layer.substr(kLayer.size()) : layer);
 }
 
-// The files of that use that left nothing in the mesh; features beyond the frame were removed before. Point constraints
-// count as used: cleaning reports those outside the water.
+// How many points of each feature lie outside the water.
+std::map<std::uint32_t, std::size_t> lostPoints(const MeshJobResult& result) {
+  std::map<std::uint32_t, std::size_t> lost;
+  for (const Edit& edit : result.edit_places)
+    if (edit.kind == EditKind::OutsideWater) ++lost[edit.feature];
+  return lost;
+}
+
+// The files of that use that left nothing in the mesh; features beyond the frame were removed before.
 std::vector<std::string> idleFiles(const Coastline& coastline, FeatureUse use, const std::vector<std::string>& files,
                                    const MeshJobResult& result) {
   if (files.empty()) return {};
   const std::set<std::string> names = namesIn(result.grid, use);
+  const std::map<std::uint32_t, std::size_t> lost = lostPoints(result);
   std::vector<std::string> idle;
   for (const std::string& file : files) {
     if (file == "-" || file == "/dev/stdin") continue;
@@ -94,7 +105,8 @@ std::vector<std::string> idleFiles(const Coastline& coastline, FeatureUse use, c
       const Feature& feature = coastline.features[f];
       if (feature.use != use || !isFrom(feature, file)) continue;
       const bool left_any = result.took_part.contains(f) && names.contains(lineNameOf(feature));
-      is_used = left_any || !feature.points.empty();
+      const auto outside = lost.find(f);
+      is_used = left_any || feature.points.size() > (outside == lost.end() ? 0 : outside->second);
     }
     if (!is_used) idle.push_back(file);
   }
@@ -170,6 +182,47 @@ void leaveOutPolygonFiles(InputOptions& input, const Coastline& coastline) {
   };
   leaveOut(input.constraints, FeatureUse::Constraint);
   leaveOut(input.weirs, FeatureUse::Weir);
+}
+
+void addStrayPoints(const JobInput& input, MeshJobResult& result) {
+  const std::vector<Feature>& features = input.coastline().features;
+  std::vector<std::uint8_t> in_group(features.size(), 0);
+  for (std::size_t group = 0; group < input.groups(); ++group)
+    for (const std::size_t member : input.members(group)) in_group[member] = 1;
+  for (std::uint32_t f = 0; f < features.size(); ++f) {
+    if (in_group[f] != 0 || features[f].use != FeatureUse::Constraint) continue;
+    for (const Point& point : features[f].points) {
+      result.edit_places.push_back({EditKind::OutsideWater, point, features[f].fid, f});
+      result.edited.try_emplace(f, features[f].source);
+      ++result.edits[static_cast<std::size_t>(EditKind::OutsideWater)];
+    }
+  }
+}
+
+std::vector<std::string> warningsOfLostPoints(const InputOptions& input, const Coastline& coastline,
+                                              const MeshJobResult& result) {
+  constexpr std::size_t kMostNamed = 5;
+  std::vector<std::string> all;
+  const std::vector<std::string> idle = idleFiles(coastline, FeatureUse::Constraint, input.constraints, result);
+  for (const std::string& file : input.constraints) {
+    if (std::ranges::find(idle, file) != idle.end()) continue;
+    std::string places;
+    std::size_t count = 0;
+    for (const Edit& edit : result.edit_places) {
+      const Feature& feature = coastline.features[edit.feature];
+      if (edit.kind != EditKind::OutsideWater || !isFrom(feature, file) || ++count > kMostNamed) continue;
+      const std::string name(nameOf(feature.attributes));
+      places += (places.empty() ? "" : ", ") +
+                (name.empty() ? "feature " + std::to_string(feature.fid) : "'" + name + "'") + " at " +
+                pointText(edit.place);
+    }
+    if (count == 0) continue;
+    all.push_back("--constraints " + file + ": " + std::to_string(count) +
+                  forCount(count, " point lies outside the water, and is no vertex: ",
+                           " points lie outside the water, and are no vertices: ") +
+                  places + (count > kMostNamed ? " and more" : ""));
+  }
+  return all;
 }
 
 std::vector<std::string> warningsOfIdleInputs(const MeshJob& job, const SizeInputs& sizes, const Coastline& coastline,

@@ -16,6 +16,13 @@ std::vector<std::string> warningsOfPolygons(const InputOptions& input, const Coa
 // Removes the files of constraints and weirs that have nothing but polygons.
 void leaveOutPolygonFiles(InputOptions& input, const Coastline& coastline);
 
+// Records the points of --constraints that lie so far from all areas that they are in no group.
+void addStrayPoints(const JobInput& input, MeshJobResult& result);
+
+// A warning for each file of --constraints of which some points, but not all of it, lie outside the water.
+std::vector<std::string> warningsOfLostPoints(const InputOptions& input, const Coastline& coastline,
+                                              const MeshJobResult& result);
+
 // A warning for each file given for sizes, passages, barriers, constraints, weirs or regions that has nothing near the
 // mesh (mostly its CRS is wrong, or it is of another place), and for each band that contains no depth of the mesh.
 std::vector<std::string> warningsOfIdleInputs(const MeshJob& job, const SizeInputs& sizes, const Coastline& coastline,

@@ -149,7 +149,9 @@ Domain cleanStage(const GroupTask& task, GroupResult& result) {
   const ItemLoop loop = many_points ? recorder.loop("clean", task.control) : ItemLoop(inOrder);
   Domain domain = task.input.domain(task.group, clean, loop);
   result.edits = clean.counts;
-  if (task.job.keep_edits) result.edit_places = std::move(clean.edits);
+  if (!task.job.keep_edits)
+    std::erase_if(clean.edits, [](const Edit& edit) { return edit.kind != EditKind::OutsideWater; });
+  result.edit_places = std::move(clean.edits);
   result.notes = std::move(clean.notes);
   result.warnings = std::move(clean.warnings);
   result.took_part = std::move(clean.took_part);

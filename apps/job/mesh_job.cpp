@@ -139,9 +139,12 @@ void findTurned(MeshJobResult& result, const ItemLoop& loop) {
 }
 
 // A shard may legitimately be far from these inputs. So may one feature of many: the caller compares it with others.
-void warnOfIdleInputs(const MeshJob& job, const SizeInputs& sizes, const Coastline& coastline, MeshJobResult& result) {
+void warnOfIdleInputs(const MeshJob& job, const SizeInputs& sizes, const JobInput& input, MeshJobResult& result) {
+  const Coastline& coastline = input.coastline();
+  if (!job.input.constraints.empty() && !job.input.ready) addStrayPoints(input, result);
   result.idle_inputs = warningsOfIdleInputs(job, sizes, coastline, result);
   if (job.input.ready) return;
+  std::ranges::move(warningsOfLostPoints(job.input, coastline, result), std::back_inserter(result.read.warnings));
   std::ranges::move(warningsOfPolygons(job.input, coastline), std::back_inserter(result.read.warnings));
   std::ranges::move(result.idle_inputs, std::back_inserter(result.read.warnings));
   for (const auto& [text, regions] : result.idle)
@@ -326,7 +329,7 @@ MeshJobResult runOnThreads(const MeshJob& given, const JobControl& control) {
   completeFinish(job, result, finish);
   finishStage(job, input, merged, finish, control, result);
   recorder = {};
-  if (job.exchange.shards <= 1) warnOfIdleInputs(job, sizes, input.coastline(), result);
+  if (job.exchange.shards <= 1) warnOfIdleInputs(job, sizes, input, result);
   findTurned(result, loop);
   warnOfLoneOpenings(finish, result);
   result.step = measureOutcome(result.grid, job.sizes, loop, job.mesh.refine.goal, result.waters.too_small.count,

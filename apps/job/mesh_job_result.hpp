@@ -82,7 +82,8 @@ struct MeshJobResult {
   SizeOptions sizes;  // as asked for, or as chosen
   Crs crs;
   std::array<std::uint64_t, kEditKinds> edits{};
-  std::vector<Edit> edit_places;                     // if the job keeps them: by cleaning, and by following sizes
+  // By cleaning, and by following sizes: if the job keeps them; those of points outside the water in any case.
+  std::vector<Edit> edit_places;
   std::map<std::uint32_t, std::string> edited;       // the features of these edits, and their sources
   std::map<std::string, std::uint64_t> projections;  // kind, and how many regions used it
   std::string first_projection;                      // of the first region, with its parameters

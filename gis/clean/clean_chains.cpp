@@ -35,7 +35,10 @@ std::vector<InputChain> gather(const Coastline& coastline, const std::vector<std
   using Role = CleanChain::Role;
   std::vector<InputChain> chains;
   std::optional<SmallIslands> small;
-  if (options.min_island_area_m2 > 0) small.emplace(coastline, members, options.min_island_area_m2);
+  std::optional<AreasWithin> areas;
+  if (options.min_island_area_m2 > 0)
+    small.emplace(coastline, members, options.min_island_area_m2,
+                  options.areas != nullptr ? *options.areas : areas.emplace(coastline));
   for (const std::size_t member : members) {
     const Feature& feature = coastline.features[member];
     const auto index = static_cast<std::uint32_t>(member);

@@ -371,10 +371,10 @@ class Labeller {
     const auto& [feature, first] = *shared.begin();
     const std::string more = shared.size() > 1 ? ", and so do " + std::to_string(shared.size() - 1) + " more" : "";
     const auto inWords = [this](std::uint32_t f) { return featureInWords(coastline_.features[f]); };
-    report_.warnings.push_back(
-        inWords(feature) + " lies in " + inWords(first.other) + " at " + placeInWords(placeIn(first.face)) + more +
-        ": both are meshed; an island has to be a hole of the polygon round it, which Difference "
-        "makes in QGIS");
+    report_.warnings.push_back(inWords(feature) + " lies in " + inWords(first.other) + " at " +
+                               placeInWords(placeIn(first.face)) + more +
+                               ": both are meshed, as parts of the latter; an island has to be a hole of the polygon "
+                               "round it, which Difference makes in QGIS");
   }
 
   // Checks each ring at its first remaining edge. Rings that cross something are skipped: their inside is ambiguous.

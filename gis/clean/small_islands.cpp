@@ -140,8 +140,9 @@ bool isClockwise(const Ring& ring, bool geographic) {
 
 }  // namespace
 
-SmallIslands::SmallIslands(const Coastline& coastline, const std::vector<std::size_t>& members, double least_m2)
-    : coastline_(&coastline), area_(coastline.crs), least_m2_(least_m2) {
+SmallIslands::SmallIslands(const Coastline& coastline, const std::vector<std::size_t>& members, double least_m2,
+                           const AreasWithin& areas)
+    : coastline_(&coastline), areas_(&areas), area_(coastline.crs), least_m2_(least_m2) {
   SmallPieces pieces(coastline.crs.geographic);
   std::vector<std::size_t> ascending = members;
   std::ranges::sort(ascending);
@@ -166,7 +167,7 @@ SmallIslands::SmallIslands(const Coastline& coastline, const std::vector<std::si
 std::vector<Polygon> SmallIslands::without(std::size_t member, const std::function<void(const Point&)>& drop) const {
   const Feature& feature = coastline_->features[member];
   if (isLand(feature)) return withoutLand(member, drop);
-  return feature.use == FeatureUse::Area ? withoutHoles(feature, drop) : feature.polygons;
+  return feature.use == FeatureUse::Area ? withoutHoles(member, drop) : feature.polygons;
 }
 
 bool SmallIslands::holdsWaterPlace(const Polygon& polygon, std::size_t member) const {
@@ -182,11 +183,12 @@ bool SmallIslands::isSea(const Polygon& polygon, std::size_t member) const {
   return isClockwise(polygon.outer, coastline_->crs.geographic);
 }
 
-Polygon SmallIslands::withoutSmallHoles(const Polygon& polygon, const std::function<void(const Ring&)>& drop) const {
+Polygon SmallIslands::withoutSmallHoles(const Polygon& polygon, std::size_t member,
+                                        const std::function<void(const Ring&)>& drop) const {
   Polygon larger{polygon.outer, {}};
   for (std::size_t h = 0; h < polygon.holes.size(); ++h) {
     const Ring& hole = polygon.holes[h];
-    if (polygon.isHoleCut(h) || !isSmall(hole)) {
+    if (polygon.isHoleCut(h) || !isSmall(hole) || areas_->any(*coastline_, hole, member)) {
       larger.holes.push_back(hole);
     } else {
       drop(hole);
@@ -203,7 +205,7 @@ std::vector<Polygon> SmallIslands::withoutLand(std::size_t member,
     if (std::ranges::binary_search(small_land_, PolygonId{member, p})) {
       drop(polygons[p].outer.front());
     } else if (isSea(polygons[p], member)) {
-      kept.push_back(withoutSmallHoles(polygons[p], [&](const Ring& hole) { drop(hole.front()); }));
+      kept.push_back(withoutSmallHoles(polygons[p], member, [&](const Ring& hole) { drop(hole.front()); }));
     } else {
       kept.push_back(polygons[p]);
     }
@@ -211,13 +213,13 @@ std::vector<Polygon> SmallIslands::withoutLand(std::size_t member,
   return kept;
 }
 
-std::vector<Polygon> SmallIslands::withoutHoles(const Feature& feature,
+std::vector<Polygon> SmallIslands::withoutHoles(std::size_t member,
                                                 const std::function<void(const Point&)>& drop) const {
   std::vector<Polygon> kept;
   TakenOut taken_out(coastline_->crs.geographic);
   bool any = false;
-  for (const Polygon& polygon : feature.polygons) {
-    kept.push_back(withoutSmallHoles(polygon, [&](const Ring& hole) {
+  for (const Polygon& polygon : coastline_->features[member].polygons) {
+    kept.push_back(withoutSmallHoles(polygon, member, [&](const Ring& hole) {
       drop(hole.front());
       taken_out.add(hole);
       any = true;

@@ -147,6 +147,7 @@ class UgridFile {
     const int length = file_.dimension("mesh2d_" + name + "_length", longest);
     const int variable = file_.variable("mesh2d_" + name, NC_CHAR, {dimension, length});
     file_.attribute(variable, "long_name", long_name);
+    file_.attribute(variable, "_Encoding", "utf-8");
     put(variable, [texts, longest] {
       std::string all;
       for (const std::string& text : texts) all += text + std::string(longest - text.size(), '\0');

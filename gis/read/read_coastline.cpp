@@ -5,8 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <functional>
 #include <memory>
+#include <string_view>
+#include <utility>
 
 #include "gis/coast/feature_names.hpp"
 #include "gis/coast/join_gaps.hpp"
@@ -189,6 +193,30 @@ void addPlainLines(RawLayer& layer, Coastline& coastline) {
 
 bool joinsLines(FeatureUse use) { return use == FeatureUse::Area || use == FeatureUse::Frame; }
 
+// The mesh knows features by their numbers.
+void warnOfEqualNumbers(const RawLayer& layer, ReadReport& report) {
+  if (layer.use != FeatureUse::Area) return;
+  const auto ofFid = [](const Feature& feature) { return feature.fid; };
+  // Ascending in most files.
+  const auto unsorted = std::ranges::adjacent_find(layer.features, std::ranges::greater_equal(), ofFid);
+  if (unsorted == layer.features.end()) return;
+  std::vector<std::pair<std::string_view, std::int64_t>> numbers;  // a cleaned file has features of several sources
+  for (const Feature& feature : layer.features) numbers.emplace_back(feature.source, feature.fid);
+  std::ranges::sort(numbers);
+  std::size_t count = 0;
+  std::int64_t first = 0;
+  for (std::size_t i = 1; i < numbers.size(); ++i) {
+    if (numbers[i] != numbers[i - 1] || (i > 1 && numbers[i] == numbers[i - 2])) continue;
+    if (++count == 1) first = numbers[i].second;
+  }
+  if (count == 0) return;
+  report.warnings.push_back(
+      sourceInWords(layer.source) + ": " +
+      (count == 1 ? "number " + std::to_string(first) + " is that of several features"
+                  : std::to_string(count) + " numbers are those of several features, as " + std::to_string(first)) +
+      ": src_fid does not tell them apart");
+}
+
 void noteGaps(const std::vector<ClosedGap>& gaps, ReadReport& report) {
   if (gaps.empty()) return;
   report.notes.push_back(std::to_string(gaps.size()) +
@@ -258,6 +286,7 @@ Coastline readCoastline(const std::vector<Source>& sources, const ReadFilter& fi
   coastline.crs = crsOfFirst(layers.front(), filter.unsaid_in_plane && none_says, report);
   for (std::size_t i = 1; i < layers.size(); ++i) bringTo(coastline.crs, layers.front(), layers[i], report);
   for (RawLayer& layer : layers) {
+    warnOfEqualNumbers(layer, report);
     if (coastline.features.empty()) {
       coastline.features = std::move(layer.features);
     } else {
@@ -273,6 +302,10 @@ Coastline readCoastline(const std::vector<Source>& sources, const ReadFilter& fi
   report.features = static_cast<std::uint64_t>(
       std::ranges::count(coastline.features, FeatureUse::Area, [](const Feature& feature) { return feature.use; }));
   report.features += report.not_read;
+  if (report.skipped_empty > 0)
+    report.notes.push_back(std::to_string(report.skipped_empty) + forCount(report.skipped_empty,
+                                                                           " feature without a shape is left out",
+                                                                           " features without a shape are left out"));
   return coastline;
 }
 

@@ -71,6 +71,32 @@ TEST_F(IdleInputs, OfLinesAndRegionsOutsideTheWaterAreWarnedOf) {
               HasSubstr("island.geojson: nothing of it lies in the water"));
 }
 
+TEST_F(IdleInputs, PointsOutsideTheWaterAreNamed) {
+  const auto gauge = [](const std::string& name, const std::string& place) {
+    return R"({"type":"Feature","properties":{"name":")" + name + R"("},"geometry":{"type":"Point","coordinates":)" +
+           place + "}}";
+  };
+  const auto gauges = [&](const std::string& name, const std::vector<std::string>& features) {
+    std::string text;
+    for (const std::string& one : features) text += (text.empty() ? "" : ",") + one;
+    return write(name, R"({"type":"FeatureCollection","features":[)" + text + "]}");
+  };
+  const std::string wet = gauge("wet", "[-87.7,47.7]"), dry = gauge("on the island", "[-87.505,47.505]"),
+                    far = gauge("far", "[20,50]");
+  EXPECT_EQ(warningsWith("--constraints", gauges("wet.geojson", {wet})), "");
+  for (const std::string& lost : {dry, far})
+    EXPECT_THAT(warningsWith("--constraints", gauges("lost.geojson", {lost})),
+                HasSubstr("lost.geojson: nothing of it lies in the water; is its CRS right?"));
+  EXPECT_THAT(warningsWith("--constraints", gauges("some.geojson", {far, wet, dry})),
+              HasSubstr("some.geojson: 2 points lie outside the water, and are no vertices: 'on the island' at "
+                        "(-87.505, 47.505), 'far' at (20, 50)"));
+  const ProgramRun run =
+      runProgram({"mesh", inputFile("lines/lake.geojson"), "--size", "5000", "--constraints", file("some.geojson"),
+                  "-o", file("lake.nc"), "--edits", file("edits.geojson"), "--overwrite"});
+  ASSERT_EQ(run.code, 0) << run.errors;
+  EXPECT_THAT(readText(file("edits.geojson")), HasSubstr("[ 20.0, 50.0 ]"));
+}
+
 // The polygons are in the water and in the right CRS.
 TEST_F(IdleInputs, PolygonsAmongLinesAreWarnedOfAsSuch) {
   const std::string polygon =

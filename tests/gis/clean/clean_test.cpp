@@ -7,6 +7,7 @@
 #include <limits>
 #include <tuple>
 
+#include "gis/clean/areas_within.hpp"
 #include "gis/clean/geodesic_area.hpp"
 #include "gis/error.hpp"
 #include "tests/support/cleaned.hpp"
@@ -273,6 +274,31 @@ TEST(Clean, FillsPondsOfSmallIslands) {
   EXPECT_EQ(cleaned.count(EditKind::SmallIsland), 1u);
   EXPECT_EQ(cleaned.count(EditKind::MisplacedRing), 0u);
   EXPECT_EQ(cleaned.area(0), 400.0 - 16.0 + 1.0 + 1.0);
+}
+
+TEST(Clean, HolesWithAnotherAreaAreNoSmallIslands) {
+  const Feature around = polygonFeature(1, square(0, 0, 20), {square(2, 2, 3), square(10, 10, 4), square(16, 2, 1)});
+  const Feature lake = polygonFeature(2, square(3, 3, 1));       // on the first
+  const Feature country = polygonFeature(3, square(10, 10, 4));  // fills the second
+  const Feature beside = polygonFeature(4, square(21, 0, 2));
+  const CleanOptions least{.snap_m = 0, .min_island_area_m2 = 50.0};
+  const Coastline coastline = coastlineOf({around, lake, country, beside});
+  CleanReport report;
+  const Domain domain = cleanFeatures(coastline, {0, 2}, Projection::plane(), least, report);
+  EXPECT_EQ(report.counts[static_cast<std::size_t>(EditKind::SmallIsland)], 1u);
+  EXPECT_EQ(geodesicArea(domain, coastline.crs), 400.0 - 9.0);
+  EXPECT_EQ(geodesicArea(coastline, {1}), 1.0);
+  // Both countries have their own area.
+  const Cleaned cleaned = cleanInPlane({around, country}, least);
+  EXPECT_EQ(cleaned.area(0), 400.0 - 16.0);
+  EXPECT_EQ(cleaned.area(1), 16.0);
+  // At any turn of longitudes.
+  Coastline at_180 = coastlineOf({polygonFeature(1, square(170, 0, 20), {{{178, 5}, {-178, 5}, {-178, 9}, {178, 9}}}),
+                                  polygonFeature(2, square(-179.5, 6, 1))},
+                                 wgs84());
+  const AreasWithin areas(at_180);
+  EXPECT_TRUE(areas.any(at_180, at_180.features[0].polygons[0].holes[0], 0));
+  EXPECT_FALSE(areas.any(at_180, at_180.features[0].polygons[0].holes[0], 1));
 }
 
 // Countries, and islands that a data set cuts at tiles.

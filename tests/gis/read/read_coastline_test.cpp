@@ -157,6 +157,26 @@ TEST_F(ReadCoastline, SkipsAndCountsWhatIsNoShore) {
   EXPECT_EQ(coastline.features[0].fid, 1);
   EXPECT_EQ(report_.skipped_empty, 2u);
   EXPECT_EQ(report_.skipped_points, 3u);
+  EXPECT_THAT(report_.notes, ::testing::Contains(HasSubstr("2 features without a shape are left out")));
+}
+
+TEST_F(ReadCoastline, WarnsOfNumbersThatSeveralFeaturesHave) {
+  const auto numbered = [&](const std::string& name, const std::vector<int>& ids) {
+    std::string text = R"({"type":"FeatureCollection","features":[)";
+    for (std::size_t i = 0; i < ids.size(); ++i)
+      text += (i ? "," : "") + std::string(R"({"type":"Feature","properties":{},"id":)") + std::to_string(ids[i]) +
+              R"(,"geometry":)" + std::string(kSquare) + "}";
+    return write(name, text + "]}");
+  };
+  read(numbered("descending.geojson", {7, 5, 3}));
+  EXPECT_THAT(report_.warnings, ::testing::IsEmpty());
+  read(numbered("once.geojson", {3, 5, 3, 3, 1}));
+  ASSERT_THAT(report_.warnings, ::testing::SizeIs(1));
+  EXPECT_THAT(report_.warnings[0], HasSubstr("once.geojson': number 3 is that of several features: src_fid does not"));
+  report_ = {};
+  read(numbered("twice.geojson", {8, 5, 5, 8}));
+  ASSERT_THAT(report_.warnings, ::testing::SizeIs(1));
+  EXPECT_THAT(report_.warnings[0], HasSubstr("2 numbers are those of several features, as 5"));
 }
 
 // OGR would silently omit a hole, a polygon or a whole feature.
