@@ -292,6 +292,12 @@ void warnOfLoneOpenings(const FinishOptions& finish, MeshJobResult& result) {
                                  forCount(lone.count, "it", "them"));
 }
 
+// Looking for free memory takes longer than a small feature, of which another program, or a batch, may mesh many.
+void giveBackAfter(std::size_t points_or_triangles) {
+  constexpr std::size_t kWorthLooking = 50'000;
+  if (points_or_triangles >= kWorthLooking) giveBackFreeMemory();
+}
+
 MeshJobResult runOnThreads(const MeshJob& given, const JobControl& control) {
   const Stopwatch whole;
   MeshJob job = given;
@@ -311,7 +317,7 @@ MeshJobResult runOnThreads(const MeshJob& given, const JobControl& control) {
   RasterHelpers rasters(job.mesh.helpers, RunControl{control.cancelled, {}});
   sizes.readers = rasters.readers();
   finish.depth.readers = rasters.pixelReaders();
-  giveBackFreeMemory();
+  giveBackAfter(result.read.points);
   result.seconds.read = whole.seconds();
   result.log.append(recorder.finish("read"));
   if (control.cancelled && control.cancelled()) throw Cancelled();
@@ -320,7 +326,7 @@ MeshJobResult runOnThreads(const MeshJob& given, const JobControl& control) {
   settleSizes(input, sizes, control, job, result);
   result.sizes = job.sizes;
   const std::vector<MergedGroup> merged = meshGroups(job, input, sizes, control, result);
-  giveBackFreeMemory();
+  giveBackAfter(result.grid.triangles.size());
   recorder = {};
   const ItemLoop loop = recorder.loop("grid", RunControl{control.cancelled, {}});
   measureMeshed(job, input, merged, loop, result);
