@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "apps/edit/mesh_file.hpp"
+#include "apps/job/step_outcome.hpp"
 #include "apps/report/report_sections.hpp"
 #include "gis/cut/number_table.hpp"
 #include "gis/elements/elements.hpp"
@@ -65,7 +66,8 @@ EditedMesh editMesh(std::string_view name, Grid& grid,
     if (finish.targets.empty()) made.warnings.push_back(windingWarning(grid, loop));
     edited.warnings = std::move(made.warnings);
     edited.sources = std::move(made.sources);
-    edited.summary = made.text(grid) + finishSummary(finish, edited.finish);
+    edited.summary = made.text(grid) + stepText(measureStep(grid, loop), grid.crs.isPlane()) + "\n" +
+                     finishSummary(finish, edited.finish);
   });
   std::ranges::move(edited.finish.warnings(), std::back_inserter(edited.warnings));
   std::erase(edited.warnings, std::string());

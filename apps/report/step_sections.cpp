@@ -31,7 +31,11 @@ Json stepSection(const StepReport& step) {
           {"shortest_edge", placeJson(step.shortest_edge)},
           {"with_depths", step.has_depths},
           {"time_step_s", any ? Json(step.step_s) : Json(nullptr)},
-          {"time_step", any ? placeJson(step.step_place) : Json(nullptr)}};
+          {"time_step", any ? placeJson(step.step_place) : Json(nullptr)},
+          {"flooded", step.flood_m == 0.0 ? Json(nullptr)
+                                          : Json{{"height_m", step.flood_m},
+                                                 {"time_step_s", step.flooded_step_s},
+                                                 {"time_step", placeJson(step.flooded_place)}}}};
 }
 
 Json outcomeSection(const StepOutcome& outcome, const SizeOptions& sizes) {

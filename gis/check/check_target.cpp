@@ -46,6 +46,9 @@ bool mindsJumps(Target target) {
   return target == Target::Adcirc || target == Target::Telemac || target == Target::Swan;
 }
 
+// Metres: in shallower water, as on tidal flats, Courant numbers are small at any size.
+constexpr double kShallow = 1.0;
+
 // Triangles with Courant numbers above the limit of explicit schemes, or below that of SCHISM; the worst first.
 std::vector<TargetDefect> courantsBeyond(const Grid& grid, double time_step_s, bool from_below, const ItemLoop& loop) {
   std::vector<TargetDefect> found;
@@ -53,6 +56,7 @@ std::vector<TargetDefect> courantsBeyond(const Grid& grid, double time_step_s, b
   for (std::uint32_t t = 0; t < steps.size(); ++t) {
     if (!std::isfinite(steps[t])) continue;  // dry, or unknown
     const double courant = time_step_s / steps[t];
+    if (from_below && !(deepestOf(grid, t) >= kShallow)) continue;
     if (from_below ? courant < kSchismLeastCourant : courant > kLargestCourant)
       found.push_back({TargetDefectKind::Courant, middleOf(grid, t), t, -1, courant, {}});
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include "gis/crs/geodesy.hpp"
 #include "gis/grid/boundary_chains.hpp"
@@ -14,14 +15,6 @@ namespace coastmesh {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-// Metres: the depth of the deepest corner; NaN if none is known.
-double deepestOf(const Grid& grid, std::uint32_t t) {
-  if (grid.z.empty()) return std::numeric_limits<double>::quiet_NaN();
-  double deepest = std::numeric_limits<double>::quiet_NaN();
-  for (const std::uint32_t node : grid.triangles[t]) deepest = std::fmax(deepest, 0.0 - grid.z[node]);
-  return deepest;
-}
 
 double stepOf(double shortest_m, double depth_m) {
   if (std::isnan(depth_m)) return depth_m;
@@ -83,7 +76,44 @@ ShortCause causeIn(const Grid& grid, const HeldEdges& held, const std::array<dou
   return cause;
 }
 
+// The height that most land nodes do not exceed, if enough nodes are land for a flood plain, and floods reach it.
+double floodHeight(const Grid& grid) {
+  constexpr double kLeastShare = 0.01, kMost = 50.0;  // of the nodes; metres
+  constexpr double kOfLand = 0.95;                    // single nodes may stand out
+  std::vector<double> heights;
+  std::ranges::copy_if(grid.z, std::back_inserter(heights), [](double z) { return z > 0.0; });
+  const double count = static_cast<double>(heights.size());
+  if (heights.empty() || count < kLeastShare * static_cast<double>(grid.z.size())) return 0.0;
+  const auto most = heights.begin() + static_cast<std::ptrdiff_t>(kOfLand * (count - 1.0));
+  std::ranges::nth_element(heights, most);
+  return *most <= kMost ? *most : 0.0;
+}
+
+// The first of the shortest edges and time steps, in whatever order stretches are processed.
+struct Shortest {
+  double length = kInfinity, step = kInfinity, flooded_step = kInfinity;
+  std::size_t of_length = 0, of_step = 0, of_flooded = 0;  // triangles
+  bool has_depths = false;
+
+  static void take(double value, std::size_t triangle, double& least, std::size_t& of) {
+    if (value < least) least = value, of = triangle;
+  }
+  void add(const Shortest& later) {
+    take(later.length, later.of_length, length, of_length);
+    take(later.step, later.of_step, step, of_step);
+    take(later.flooded_step, later.of_flooded, flooded_step, of_flooded);
+    has_depths = has_depths || later.has_depths;
+  }
+};
+
 }  // namespace
+
+double deepestOf(const Grid& grid, std::uint32_t t) {
+  if (grid.z.empty()) return std::numeric_limits<double>::quiet_NaN();
+  double deepest = std::numeric_limits<double>::quiet_NaN();
+  for (const std::uint32_t node : grid.triangles[t]) deepest = std::fmax(deepest, 0.0 - grid.z[node]);
+  return deepest;
+}
 
 std::vector<double> timeSteps(const Grid& grid, const ItemLoop& loop) {
   const EdgeMeter meter(grid.nodes, grid.crs, loop);
@@ -97,39 +127,22 @@ std::vector<double> timeSteps(const Grid& grid, const ItemLoop& loop) {
 StepReport measureStep(const Grid& grid, const ItemLoop& loop) {
   StepReport report;
   if (grid.triangles.empty()) return report;
-  // The first of the shortest, in whatever order stretches are processed.
-  struct Shortest {
-    double length = kInfinity, step = kInfinity;
-    std::size_t of_length = 0, of_step = 0;  // triangles
-    bool has_depths = false;
-  };
+  const double flood = floodHeight(grid);
   const EdgeMeter meter(grid.nodes, grid.crs, loop);
   Shortest all;
   for (const Shortest& one : overStretches(loop, grid.triangles.size(), [&](std::size_t first, std::size_t last) {
          Shortest some;
          for (std::size_t t = first; t < last; ++t) {
            const double length = meter.shortestOf(grid.triangles[t]);
-           if (length < some.length) {
-             some.length = length;
-             some.of_length = t;
-           }
-           const double depth = deepestOf(grid, static_cast<std::uint32_t>(t)), step = stepOf(length, depth);
+           const double depth = deepestOf(grid, static_cast<std::uint32_t>(t));
+           Shortest::take(length, t, some.length, some.of_length);
+           Shortest::take(stepOf(length, depth), t, some.step, some.of_step);
+           if (flood > 0.0) Shortest::take(stepOf(length, depth + flood), t, some.flooded_step, some.of_flooded);
            some.has_depths = some.has_depths || !std::isnan(depth);
-           if (!(step < some.step)) continue;
-           some.step = step;
-           some.of_step = t;
          }
          return some;
-       })) {
-    if (one.length < all.length) {
-      all.length = one.length;
-      all.of_length = one.of_length;
-    }
-    all.has_depths = all.has_depths || one.has_depths;
-    if (!(one.step < all.step)) continue;
-    all.step = one.step;
-    all.of_step = one.of_step;
-  }
+       }))
+    all.add(one);
   report.shortest_edge_m = all.length;
   if (all.length < kInfinity) {
     const auto& corners = grid.triangles[all.of_length];
@@ -140,6 +153,10 @@ StepReport measureStep(const Grid& grid, const ItemLoop& loop) {
   report.has_depths = all.has_depths;
   report.step_s = all.step;
   if (all.step < kInfinity) report.step_place = middleOf(grid, static_cast<std::uint32_t>(all.of_step));
+  if (flood == 0.0 || all.step == kInfinity) return report;
+  report.flood_m = flood;
+  report.flooded_step_s = all.flooded_step;
+  report.flooded_place = middleOf(grid, static_cast<std::uint32_t>(all.of_flooded));
   return report;
 }
 
@@ -176,7 +193,7 @@ std::vector<LongStep> stepsAbove(const Grid& grid, double time_step_s, double co
         std::vector<LongStep> some;
         for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
           const double depth = deepestOf(grid, t), step = stepOf(meter.shortestOf(grid.triangles[t]), depth);
-          if (depth > least_depth_m && time_step_s < courant * step) some.push_back({t, step});
+          if (depth >= least_depth_m && time_step_s < courant * step) some.push_back({t, step});
         }
         return some;
       }));

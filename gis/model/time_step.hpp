@@ -14,6 +14,9 @@ namespace coastmesh {
 // over sqrt(g d), the speed of a long wave, with d the depth of its deepest corner, so that no definition of a
 // triangle's depth gives a shorter one. The Courant number of a triangle is the model's time step over this.
 
+// Metres: the depth of the triangle's deepest corner; NaN if none is known.
+double deepestOf(const Grid& grid, std::uint32_t t);
+
 // Seconds, for each triangle: infinite if no corner is under water, NaN if no depth is known.
 std::vector<double> timeSteps(const Grid& grid, const ItemLoop& loop = inOrder);
 
@@ -24,6 +27,11 @@ struct StepReport {
   bool has_depths = false;                                  // otherwise there is no time step
   double step_s = std::numeric_limits<double>::infinity();  // infinite if nothing is under water
   Point step_place;                                         // the middle of that triangle
+  // On a grid with a flood plain, the same with the water as high as 95 % of its nodes: metres above the still water; 0
+  // on other grids.
+  double flood_m = 0.0;
+  double flooded_step_s = std::numeric_limits<double>::infinity();
+  Point flooded_place;
 };
 
 StepReport measureStep(const Grid& grid, const ItemLoop& loop = inOrder);  // the defaults for a grid without triangles
@@ -57,7 +65,7 @@ struct LongStep {
   double step_s = 0.0;  // for a Courant number of 1
 };
 
-// Triangles in water deeper than `least_depth_m` whose Courant number at `time_step_s` is below `courant`, the worst
+// Triangles in water of `least_depth_m` and more whose Courant number at `time_step_s` is below `courant`, the worst
 // first.
 std::vector<LongStep> stepsAbove(const Grid& grid, double time_step_s, double courant, double least_depth_m,
                                  const ItemLoop& loop = inOrder);

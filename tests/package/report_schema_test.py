@@ -37,6 +37,7 @@ RUNS = {
             "--partition 4 -o sea.nc -o sea.14 -o partmesh.txt"),
     "short": ("mesh_report", 1, SEA + "--size-min 9000 --time-step 900 -o short.nc"),
     "no depths": ("mesh_report", 1, "mesh data/lake_superior.geojson --bathymetry elsewhere.asc --min-angle 44 -o dry.nc"),
+    "plain": ("mesh_report", 0, "mesh data/lake_superior.geojson --bathymetry plain.asc -o plain.nc"),
     "mended": ("mesh_report", 0, "mesh made/touching.geojson --crs plane --target schism -o mended.gr3"),
     "left": ("mesh_report", 1, "mesh made/fan.poly --min-angle 0 --no-coarsen --target mpas -o left.nc"),
     "globe": ("mesh_report", 0, "mesh --domain globe --size 800000 -o globe.nc"),
@@ -116,6 +117,8 @@ class ReportSchemaTest(unittest.TestCase):
             (path / sub).mkdir()
         inputs.make(path / "made")
         inputs.write_grid(path / "elsewhere.asc", (10.0, 10.0), 0.1, 4, 4, lambda x, y: -10.0)
+        # Land in the west.
+        inputs.write_grid(path / "plain.asc", (-93.0, 46.0), 0.1, 100, 40, lambda x, y: -20.0 if x > 0.3 else 4.0)
         cls.reports = {}
         for name, (kind, code, command) in RUNS.items():
             report = path / f"{name}.json"

@@ -560,6 +560,12 @@ TEST(CheckTarget, Courant) {
   EXPECT_EQ(kindsIn(soundGrid(), Target::Adcirc, {100.0}), Kinds{TargetDefectKind::Courant});
   EXPECT_EQ(kindsIn(soundGrid(), Target::Schism, {100.0}), Kinds{});
   EXPECT_EQ(kindsIn(soundGrid(), Target::Schism, {20.0}), Kinds{TargetDefectKind::Courant});
+  // On flats that are hardly under water they are small at any size.
+  Grid flat = soundGrid();
+  std::ranges::fill(flat.z, -0.9);
+  EXPECT_EQ(kindsIn(flat, Target::Schism, {20.0}), Kinds{});
+  flat.z[0] = -1.1;
+  EXPECT_EQ(kindsIn(flat, Target::Schism, {20.0}), Kinds{TargetDefectKind::Courant});
   // The worst first. SCHISM, TELEMAC and D-Flow FM run nevertheless, so that theirs is advice.
   for (const Target target : {Target::Adcirc, Target::Fvcom, Target::Telemac, Target::Dflowfm, Target::Schism}) {
     const bool from_below = target == Target::Schism;

@@ -79,6 +79,35 @@ TEST(TimeStep, NeedsDepthsBelowWater) {
   EXPECT_GT(measureStep(grid).shortest_edge_m, 0.0);
 }
 
+TEST(TimeStep, IsShorterOnAFloodedPlain) {
+  Grid grid = gridAt(52.0);
+  const StepReport dry = measureStep(grid);
+  EXPECT_EQ(dry.flood_m, 0.0);
+  // Land of 2 m, but for one corner, and far from the deepest node.
+  const std::size_t land = grid.nodes.size() / 4;
+  std::fill(grid.z.end() - static_cast<std::ptrdiff_t>(land), grid.z.end(), 2.0);
+  const StepReport report = measureStep(grid);
+  EXPECT_EQ(report.step_s, dry.step_s);
+  EXPECT_EQ(report.flood_m, 2.0);
+  EXPECT_LT(report.flooded_step_s, report.step_s);
+  for (double& z : grid.z) z -= 2.0;
+  EXPECT_NEAR(report.flooded_step_s, measureStep(grid).step_s, 1e-12);
+  // Mountains are no plain, nor is a single node.
+  for (double& z : grid.z) z = z == 0.0 ? 300.0 : z;
+  EXPECT_EQ(measureStep(grid).flood_m, 0.0);
+  for (double& z : grid.z) z = -40.0;
+  EXPECT_EQ(measureStep(grid).flood_m, 0.0);
+}
+
+TEST(TimeStep, TooLongStepsAreThoseInWaterOfTheLeastDepth) {
+  Grid grid = gridAt(52.0);
+  std::ranges::fill(grid.z, -2.0);
+  const double step = 0.1 * measureStep(grid).step_s;
+  EXPECT_EQ(stepsAbove(grid, step, 0.5, 2.0).size(), grid.triangles.size());
+  EXPECT_TRUE(stepsAbove(grid, step, 0.5, 2.1).empty());
+  EXPECT_TRUE(stepsAbove(grid, step, 0.05, 2.0).empty());
+}
+
 TEST(TimeStep, WhatFallsShortIsListedWorstFirstWithItsCause) {
   const Grid grid = gridAt(52.0);
   const double least = measureStep(grid).step_s;
