@@ -238,6 +238,7 @@ class Maker {
     try {
       MeshJobResult result = runMeshJobHere(job, control);
       if (!in_the_end && std::ranges::any_of(result.refusals, &Refusal::lacks_memory)) return false;
+      takeRefusalsOfOthers(*job.input.ready, outcome, result);
       if (result.regions == 0) {
         outcome.state = FeatureState::Refused;
         outcome.reason = result.refusals.empty() ? result.last_unwanted : result.refusals.front().reason;
@@ -269,6 +270,8 @@ class Maker {
   // Warnings for inputs that have no effect on any feature that was meshed, and for openings and rivers that none has.
   std::vector<std::string> idleInputs() const {
     std::vector<std::string> warnings = idle_inputs_.ofAll(meshed_);
+    for (const auto& [line, reason] : refused_lines_)
+      if (!used_lines_.contains(line)) warnings.push_back("left out: " + reason);
     std::set<std::string> idle_files;
     for (const auto& [file, idle] : idle_boundaries_) {
       if (idle.features != meshed_) continue;
@@ -296,6 +299,20 @@ class Maker {
     std::size_t features = 0;  // that do not have it
     MissedRule missed;
   };
+
+  // Open lines beside a feature are refused where it does not hold them; another may.
+  void takeRefusalsOfOthers(const Coastline& coastline, const FeatureOutcome& own, MeshJobResult& result) {
+    const auto isOfOthers = [&](const Refusal& refusal) {
+      return refusal.source != own.source || std::ranges::find(refusal.fids, own.fid) == refusal.fids.end();
+    };
+    const std::lock_guard lock(mutex_);
+    for (const Refusal& refusal : result.refusals)
+      if (isOfOthers(refusal))
+        for (const std::int64_t fid : refusal.fids) refused_lines_.try_emplace({refusal.source, fid}, refusal.reason);
+    for (const std::uint32_t f : result.took_part)
+      used_lines_.emplace(coastline.features[f].source, coastline.features[f].fid);
+    std::erase_if(result.refusals, isOfOthers);
+  }
 
   // An input, or an opening in it, that has no effect on this feature may have one on another.
   void noteIdle(MeshJobResult& result) {
@@ -352,6 +369,8 @@ class Maker {
   OutputBatch batch_;
   std::size_t meshed_ = 0;
   CountedTexts idle_inputs_, idle_notes_;
+  std::map<std::pair<std::string, std::int64_t>, std::string> refused_lines_;  // by source and number
+  std::set<std::pair<std::string, std::int64_t>> used_lines_;
   std::map<std::size_t, IdleFile> idle_boundaries_;
   std::map<std::string, std::map<std::uint32_t, Missed>> missed_;  // by file and rule
 };

@@ -181,6 +181,23 @@ TEST_F(PerFeature, LinesWithOtherLongitudesOfTheSamePlaceArePartOfTheMesh) {
 }
 
 // A file may have no effect on one feature and one on another; what has none on any is told once.
+// The line lies in the box of the first lake, but not in its water.
+TEST_F(PerFeature, OpenLinesBesideALakeDoNotMakeItFallShort) {
+  Json corner = square(5, 50, 0.01, {{"name", "corner"}});
+  corner["geometry"]["coordinates"] = {{{5, 50}, {5.03, 50}, {5, 50.03}, {5, 50}}};
+  const Json line = lineIn(5.015, 50.015, 0.01);
+  const ProgramRun beside = mesh(writeFeatures({corner, line}), {"-o", file("{}.nc"), "--name-field", "name"});
+  EXPECT_EQ(beside.code, 0) << beside.errors;
+  EXPECT_THAT(beside.errors, HasSubstr("left out: "));
+  EXPECT_THAT(beside.errors, HasSubstr("feature 1: the lines close no ring"));
+  EXPECT_EQ(beside.errors.find("corner:"), std::string::npos) << beside.errors;
+  // In the water of another lake.
+  const ProgramRun within = mesh(writeFeatures({corner, line, square(5.0145, 50.0145, 0.011, {{"name", "other"}})}),
+                                 {"-o", file("{}.nc"), "--name-field", "name", "--overwrite"});
+  EXPECT_EQ(within.code, 0) << within.errors;
+  EXPECT_EQ(within.errors.find("close no ring"), std::string::npos) << within.errors;
+}
+
 TEST_F(PerFeature, InputsWithoutEffectOnAnyFeatureAreWarnedOf) {
   const std::string input = lakes();
   const std::string near = writeFeatures(Json::array({lineIn(6, 50, 0.03)}), "near.geojson");
