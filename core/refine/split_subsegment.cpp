@@ -1,11 +1,15 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "core/refine/mend_triangles.hpp"
 
 namespace coastmesh {
 
 namespace {
+
+bool shareAnEnd(const Segment& p, const Segment& q) { return p.a == q.a || p.a == q.b || p.b == q.a || p.b == q.b; }
 
 // Like spacingAt, for a point that splits a subsegment: other segments beside it count too.
 double spacingOnSegment(const RefineRun& run, const Point& x, EdgeRef edge, const Patch& cavity) {
@@ -18,10 +22,38 @@ double spacingOnSegment(const RefineRun& run, const Point& x, EdgeRef edge, cons
     if (r.seg >= run.pslg.segments.size()) continue;
     // Near a common end two segments are arbitrarily close: there the spacing of that vertex counts.
     const Segment& other = run.pslg.segments[r.seg];
-    if (own.a == other.a || own.a == other.b || own.b == other.a || own.b == other.b) continue;
+    if (shareAnEnd(own, other)) continue;
     spacing = std::min(spacing, distanceToSegment(run.bound.surface, x, mesh.point(r.a), mesh.point(r.b)));
   }
   return spacing;
+}
+
+// True if the segment shares an end with one that ends at the vertex: near that end they are arbitrarily close.
+bool isConnected(const RefineRun& run, VertexId v, const Segment& segment) {
+  const EditMesh& mesh = run.mesh;
+  std::vector<EdgeRef> opposite;
+  mesh.star(v, opposite);
+  return std::ranges::any_of(opposite, [&](EdgeRef e) {
+    return std::ranges::any_of(
+        std::array{edgeRef(triOf(e), next3(indexOf(e))), edgeRef(triOf(e), prev3(indexOf(e)))}, [&](EdgeRef at_v) {
+          const SegmentId s = mesh.segment(at_v);
+          return s != kNone && (s >= run.pslg.segments.size() || shareAnEnd(run.pslg.segments[s], segment));
+        });
+  });
+}
+
+// Of several vertices of the input beside a long segment only one has a triangle with it at first. Others note how
+// close it is once it is divided.
+void noteSegmentBeside(RefineRun& run, EdgeRef edge, const Patch& cavity) {
+  const EditMesh& mesh = run.mesh;
+  const Segment& own = run.pslg.segments[mesh.segment(edge)];
+  const Point &a = run.pslg.points[own.a], &b = run.pslg.points[own.b];
+  for (const BoundaryEdge& r : cavity.boundary) {
+    if (mesh.kind(r.a) != VertexKind::Input) continue;
+    double& spacing = run.notes.spacing[r.a];
+    const double gap = distanceToSegment(run.bound.surface, mesh.point(r.a), a, b);
+    if (gap < spacing && !isConnected(run, r.a, own)) spacing = gap;
+  }
 }
 
 // Converts a share of an edge's length on the surface to one of its length in the plane, by the ratio of its two
@@ -104,6 +136,7 @@ bool splitFor(RefineRun& run, EdgeRef edge, TriId t, unsigned apex) {
   // Where the input itself is finer than the resolution, nothing can be repaired.
   if (std::min(nearer, spacing * spacing) < run.squared_resolution) return false;
   if (nearer < kSegmentShare * kSegmentShare * spacing * spacing) return false;
+  noteSegmentBeside(run, edge, patch);
   const EdgeRef cleared = clearDiametralCircle(run, edge);
   const VertexId v = cleared == kNone ? kNone : mesh.splitSegment(cleared, place, run.touched);
   if (v != kNone) {

@@ -353,6 +353,27 @@ TEST(Refine, InletsOfAnyAngle) {
   }
 }
 
+// At first only one of them has a triangle with the side.
+TEST(Refine, PointsCloseToALongSegment) {
+  Pslg pslg;
+  pslg.points = {{0, 0}, {10000, 0}, {10000, 10000}, {0, 10000}};
+  for (VertexId i = 0; i < 4; ++i) pslg.segments.push_back({i, (i + 1) % 4});
+  for (int i = 1; i < 20; ++i) {
+    const double x = 500.0 * i;
+    pslg.points.push_back({x, 0.5 + 0.1 * (i % 7)});
+    pslg.points.push_back({x + 3.0, 300.0});
+  }
+  for (const double min_angle : {25.0, 33.0, 38.0})
+    for (const Algorithm algorithm : kAlgorithms) {
+      const RefineOptions options{.min_angle_deg = algorithm == Algorithm::Relocate ? min_angle : 25.0,
+                                  .algorithm = algorithm};
+      SCOPED_TRACE(describe(options));
+      const auto [mesh, stats] = refined(pslg, options);
+      expectRefined(mesh, pslg, options, stats);
+      EXPECT_TRUE(stats.unresolved.empty());
+    }
+}
+
 // Neither huge nor tiny coordinates nor the input's orientation matter. Each mesh depends on every rounding, so a
 // single count says little; sums over several hardly change.
 TEST(Refine, ScaleMoveAndTurnHardlyChangeTheCount) {
