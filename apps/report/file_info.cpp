@@ -159,6 +159,7 @@ CoastlineInfo describeCoastline(const JobInput& input) {
   ExtentOf extent;
   ExtremeEdges edges(coastline.crs);
   for (const Feature& feature : coastline.features) {
+    ++info.sources[feature.source];
     for (const Polygon& polygon : feature.polygons) {
       info.rings += 1 + polygon.holes.size();
       info.holes += polygon.holes.size();

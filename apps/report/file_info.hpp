@@ -61,7 +61,8 @@ struct MeshInfo {
 struct CoastlineInfo {
   std::string crs;
   std::uint64_t features = 0;
-  std::uint64_t groups = 0;  // of features that touch one another
+  std::map<std::string, std::uint64_t> sources;  // files, or layers of one, with their features
+  std::uint64_t groups = 0;                      // of features that touch one another
   std::uint64_t rings = 0;
   std::uint64_t holes = 0;
   std::uint64_t lines = 0;  // open ones

@@ -6,6 +6,7 @@
 #include "apps/report/file_info.hpp"
 #include "apps/report/report_sections.hpp"
 #include "apps/report/step_sections.hpp"
+#include "gis/coast/feature_names.hpp"
 #include "gis/for_count.hpp"
 
 namespace coastmesh {
@@ -88,9 +89,12 @@ std::string toJson(const MeshInfo& info) {
 }
 
 std::string toJson(const CoastlineInfo& info) {
+  Json sources = Json::array();
+  for (const auto& [name, features] : info.sources) sources.push_back({{"name", name}, {"features", features}});
   return dump({{"kind", "coastline"},
                {"crs", info.crs},
                {"features", info.features},
+               {"sources", sources},
                {"groups", info.groups},
                {"rings", info.rings},
                {"holes", info.holes},
@@ -159,6 +163,9 @@ std::string toText(const CoastlineInfo& info) {
   std::string text;
   addLine(text, "features        %llu in %llu %s", big(info.features), big(info.groups),
           forCount(info.groups, "group that touches", "groups that touch"));
+  if (info.sources.size() > 1)
+    for (const auto& [name, features] : info.sources)
+      text += "  in            " + sourceInWords(name) + ", " + std::to_string(features) + "\n";
   addLine(text, "rings           %llu, %llu of them %s", big(info.rings), big(info.holes),
           forCount(info.holes, "a hole", "holes"));
   if (info.lines > 0) addLine(text, "open lines      %llu", big(info.lines));

@@ -55,6 +55,21 @@ TEST_F(Commands, EveryOptionOfTheJsonUsageIsInTheHelp) {
 }
 
 // GDAL's error would not help.
+TEST_F(Commands, InfoNamesTheLayersThatItReads) {
+  std::filesystem::create_directory(file("layers"));
+  write("layers/a.csv", "WKT,n\n\"POLYGON ((0 0, 1000 0, 1000 1000, 0 1000, 0 0))\",1\n");
+  write("layers/b.csv",
+        "WKT,n\n\"POLYGON ((2000 0, 3000 0, 3000 1000, 2000 0))\",1\n\"POLYGON ((4000 0, 5000 0, 5000 900, 4000 "
+        "0))\",2\n");
+  const ProgramRun text = runProgram({"info", file("layers")});
+  EXPECT_EQ(text.code, 0) << text.errors;
+  EXPECT_THAT(text.output, HasSubstr("in            '" + file("layers") + "|a', 1\n"));
+  EXPECT_THAT(text.output, HasSubstr("in            '" + file("layers") + "|b', 2\n"));
+  const Json sources = Json::parse(runProgram({"info", file("layers"), "--json"}).output).at("sources");
+  ASSERT_EQ(sources.size(), 2u);
+  EXPECT_EQ(sources[1].at("features"), 2);
+}
+
 TEST_F(Commands, InfoSaysWhyAMeshCannotBeRead) {
   const ProgramRun run = runProgram({"info", write("sea_grd.dat", "Nodes: 3\n")});
   EXPECT_EQ(run.code, 3);
