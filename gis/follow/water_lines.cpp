@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "core/metric.hpp"
-#include "gis/follow/line_coarsen.hpp"
-#include "gis/follow/line_pieces.hpp"
+#include "gis/shore/line_coarsen.hpp"
+#include "gis/shore/line_pieces.hpp"
 
 namespace coastmesh {
 

@@ -1,4 +1,4 @@
-#include "gis/follow/line_pieces.hpp"
+#include "gis/shore/line_pieces.hpp"
 
 #include <algorithm>
 #include <cmath>

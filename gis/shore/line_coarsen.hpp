@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "gis/follow/line_pieces.hpp"
+#include "gis/shore/line_pieces.hpp"
 
 namespace coastmesh {
 

@@ -1,4 +1,4 @@
-#include "gis/follow/line_coarsen.hpp"
+#include "gis/shore/line_coarsen.hpp"
 
 #include <algorithm>
 #include <set>
