@@ -96,7 +96,8 @@ DomainSizes followedSizes(const GroupTask& task, Domain& domain, MakeSizes&& mak
                            projected(sizes.layers->barriers, domain.projection)};
   const std::vector<IslandRing> islands = follow.of_land ? std::vector<IslandRing>() : islandRings(domain.pslg);
   CleanReport coarser, followed;
-  FollowStart start;
+  const DataShores data(domain.pslg);
+  FollowStart start{.data = &data};
   if (const double least = leastWanted(job.sizes, sizes); least > 0.0)
     domain = thinToLeast(std::move(domain), least, follow, input.coastline(), guides, coarser, start, loop);
   if (sizes.opened) domain = sizes.opened(std::move(domain), job.sizes, loop);

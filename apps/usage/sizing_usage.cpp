@@ -122,13 +122,14 @@ void declareSizing(OptionTable& table, SizeOptions& sizes, SizingUsage& usage,
       .needs({"--coast follow"}, follows);
   table
       .number({"--strait-min", "Narrowest strait"}, sizes.follow.strait_min, "N", {0.0, 100.0},
-              "with --coast follow: a narrow connection of waters, at least N times the size there wide, is widened to "
-              "--channel-min times the size instead of closed, if this takes less than a quarter of the water behind "
-              "it; N of --channel-min or more widens none")
+              "with --coast follow: a narrow connection of waters, in the data at least N times the size there wide, "
+              "is widened to --channel-min times the size instead of closed, if this takes less than a quarter of the "
+              "water behind it; N of --channel-min or more widens none")
       .needs({"--coast follow"}, follows);
   table
       .number({"--land-min", "Narrowest land"}, sizes.follow.land_min, "N", {0.0, 100.0},
-              "with --coast follow: remove spits and capes narrower than N times the size there; 0 keeps them")
+              "with --coast follow: remove spits and capes narrower than N times the size there, unless that joins "
+              "large waters which only narrow water connects; 0 keeps them")
       .needs({"--coast follow"}, follows);
   table
       .choice(

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <ranges>
 #include <string>
 #include <utility>
@@ -222,12 +223,15 @@ Domain followSizes(Domain&& domain, const SizeFunction& wanted, const FollowOpti
   const FollowTask task{options, guides, log, scales, asked, std::isnan(known.rate) ? nullptr : &growing, loop};
   WaterLines in_water;
   LostLines lost;
+  std::optional<DataShores> data;
+  if (known.data == nullptr) known.data = &data.emplace(domain.pslg);
+  const DataShores& shores = *known.data;
   ShoreStart start = triangulated(domain, in_plane.get(), std::move(known), task, in_water, lost);
   const PassageSizes size(in_plane.get(), guides.passages, start.triangles);
   const ShoreSizes sizes{size, scales};
   FollowNotes noted;
   applyGuides(start.triangles, size, task, edit, noted);
-  JoinedShores joined = openJoined(std::move(start), sizes, guides, options, loop);
+  JoinedShores joined = openJoined(std::move(start), shores, sizes, guides, options, loop);
   for (const auto& [kind, place, water] : joined.opened.edits) edit(kind, place, water);
   noteOpened(joined, options.keep, noted);
   noteFollowing(std::move(noted), guides, options, domain.projection, report);

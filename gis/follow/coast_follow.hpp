@@ -9,13 +9,15 @@
 #include "gis/follow/follow_options.hpp"
 #include "gis/follow/shore_guides.hpp"
 #include "gis/follow/shore_sizes.hpp"
+#include "gis/shore/data_shores.hpp"
 
 namespace coastmesh {
 
 // Known properties of a domain that is to follow sizes.
 struct FollowStart {
-  double thinned_m = 0.0;  // shores were thinned for a size of so many metres on the ground: `thinToLeast`
-  WaterAreas gained{};     // by that, for each region
+  double thinned_m = 0.0;            // shores were thinned for a size of so many metres on the ground: `thinToLeast`
+  WaterAreas gained{};               // by that, for each region
+  const DataShores* data = nullptr;  // shores before that; null: those of the domain
   // If the distance from the shore alone determines sizes: their growth with it, and the size at the shore, in metres
   // on the ground. Otherwise NaN.
   double rate = std::numeric_limits<double>::quiet_NaN(), shore_m = rate;

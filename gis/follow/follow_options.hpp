@@ -11,7 +11,8 @@ enum class KeepWater { All, Largest, Open, Modelled };
 struct FollowOptions {
   double channel_min = 1.0;  // water
   double land_min = 1.0;     // land
-  // Water at least this wide that is the only connection of others is widened to `channel_min` instead of closed.
+  // Water in the data at least this wide that is the only connection of others is widened to `channel_min` instead of
+  // closed.
   double strait_min = 0.4;
   KeepWater keep = KeepWater::All;
   bool of_land = false;  // land is meshed, so notes refer to land instead of water

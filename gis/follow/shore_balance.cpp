@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 #include "gis/follow/shore_settle.hpp"
@@ -43,7 +42,6 @@ OpenedShores openShores(const ShoreStart& start, const ShoreSizes& sizes, const 
   };
   OpenedWater water = close(first < 1.0 ? KeepWater::All : options.keep);
   if (first < 1.0) {
-    opened.straits = closedStraits(triangles, sizes.scale);
     settleShores(triangles, sizes.wanted, loop);
     openLand(triangles, sizes, guides, options.land_min, opened.small, edit, opened.gained, opened.spits, loop);
     water = close(options.keep);
@@ -55,12 +53,6 @@ OpenedShores openShores(const ShoreStart& start, const ShoreSizes& sizes, const 
   for (const auto& [region, there] : opened.areas) area += there;
   opened.error = gained / area;
   return opened;
-}
-
-std::vector<ClosedStrait> allStraits(const OpenedShores& opened, const ShoreSizes& sizes) {
-  std::vector<ClosedStrait> straits = opened.straits;
-  std::ranges::move(closedStraits(opened.after, sizes.scale), std::back_inserter(straits));
-  return straits;
 }
 
 OpenedShores balanceShores(OpenedShores&& opened, const ShoreStart& start, const ShoreSizes& sizes,

@@ -6,7 +6,6 @@
 
 #include "gis/follow/follow_options.hpp"
 #include "gis/follow/shore_opening.hpp"
-#include "gis/follow/shore_straits.hpp"
 
 namespace coastmesh {
 
@@ -27,7 +26,6 @@ struct OpenedShores {
   ShoreTriangles after;  // not settled
   SmallWaters small;     // by region, at the start
   std::vector<WaterPart> waters;
-  std::vector<ClosedStrait> straits;  // closed before the second opening of land; see `allStraits`
   WaterAreas areas, gained;
   ShoreEdits edits;
   std::vector<DroppedSpit> spits;
@@ -40,9 +38,6 @@ struct OpenedShores {
 // which is narrower than an element stays as it is, and so does the land in it: without, it would become larger.
 OpenedShores openShores(const ShoreStart& start, const ShoreSizes& sizes, const ShoreGuides& guides,
                         const FollowOptions& options, double first, const ItemLoop& loop = inOrder);
-
-// All straits that were closed. REQUIRES: `after` is not settled.
-std::vector<ClosedStrait> allStraits(const OpenedShores& opened, const ShoreSizes& sizes);
 
 // Chooses `first` so that the water's area stays near the original. If both are narrow, what is removed first makes
 // room for the other: the less land is removed before water is closed, the less water remains. REQUIRES: `opened` was

@@ -25,8 +25,9 @@ std::vector<double> elementsOf(const std::vector<ShoreLine>& lines);
 struct ShoreGuides {
   std::vector<ShoreLine> passages;  // kept open, and widened to their elements where narrower
   std::vector<ShoreLine> barriers;  // closed
+  std::vector<ShoreLine> land{};    // on land that stays
 
-  BoxTree tree() const;  // of the boxes of the lines' segments
+  BoxTree tree() const;  // of the boxes of the segments of passages and barriers
 };
 
 // Finds triangles at lines.

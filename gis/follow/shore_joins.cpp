@@ -4,11 +4,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
 #include "gis/follow/shore_settle.hpp"
+#include "gis/follow/water_basins.hpp"
+#include "gis/follow/water_gaps.hpp"
 
 namespace coastmesh {
 
@@ -44,16 +48,23 @@ class WaterSearch {
 
 class Joiner {
  public:
-  Joiner(ShoreStart&& start, const ShoreSizes& sizes, ShoreGuides guides, const FollowOptions& options,
-         const ItemLoop& loop)
-      : start_(std::move(start)), sizes_(sizes), guides_(std::move(guides)), options_(options), loop_(loop) {}
+  Joiner(ShoreStart&& start, const DataShores& data, const ShoreSizes& sizes, ShoreGuides guides,
+         const FollowOptions& options, const ItemLoop& loop)
+      : data_(std::move(start)),
+        gaps_({data_.triangles, data}, options.channel_min, loop),
+        sizes_(sizes),
+        guides_(std::move(guides)),
+        options_(options),
+        loop_(loop) {}
 
   JoinedShores run() {
-    // Which water is cut off depends on the order of opening land and water. Straits are widest if all of the land is
-    // opened first: what is connected then stays so.
-    opened_ = openShores(start_, sizes_, guides_, options_, 1.0, loop_);
+    // Which water is cut off depends on the order of opening land and water. Most stays connected if all of the land is
+    // opened first.
+    opened_ = openShores(start(), sizes_, guides_, options_, 1.0, loop_);
+    keepSeparatingLand();
     std::vector<JoinedWater> joins = findJoins();
-    opened_ = balanceShores(std::move(opened_), start_, sizes_, guides_, options_, loop_);
+    opened_ = balanceShores(std::move(opened_), start(), sizes_, guides_, options_, loop_);
+    if (opened_.first != 1.0) keepSeparatingLand();
     if (joins.empty() && opened_.first != 1.0) joins = findJoins();
     for (int round = 0; round < kRounds && join(std::move(joins)); ++round) {
       joins = findJoins();
@@ -63,9 +74,9 @@ class Joiner {
     JoinedShores shores;
     forItems(loop_, 2, [&](std::size_t i) {
       if (i == 0) {
-        shores.ways = waysToWaters(opened_, sizes_, options_);
+        shores.ways = waysToWaters(gaps_, opened_, sizes_);
       } else {
-        shores.straits = allStraits(opened_, sizes_);
+        shores.straits = closedStraits(gaps_, opened_, options_.keep, sizes_.scale);
       }
     });
     shores.opened = std::move(opened_);
@@ -74,9 +85,20 @@ class Joiner {
   }
 
  private:
+  const ShoreStart& start() const { return widened_ ? *widened_ : data_; }
+
+  void keepSeparatingLand() {
+    for (int round = 0; round < kRounds; ++round) {
+      std::vector<ShoreLine> lines = separatingLand(gaps_, basinsOf(gaps_, opened_));
+      if (lines.empty()) return;
+      std::ranges::move(lines, std::back_inserter(guides_.land));
+      opened_ = openShores(start(), sizes_, guides_, options_, opened_.first, loop_);
+    }
+  }
+
   std::vector<JoinedWater> findJoins() const {
     if (options_.strait_min >= options_.channel_min) return {};
-    return waysToJoin(opened_, sizes_, options_);
+    return waysToJoin(gaps_, opened_, sizes_, options_);
   }
 
   // Removes earlier joins of the same waters: for each, the largest that is in it.
@@ -113,21 +135,23 @@ class Joiner {
     }
     if (lines.empty()) return false;
     // Continues from the state after the first opening of land, which cannot come back.
-    start_ = {std::move(opened_.before), std::move(opened_.gained_before), std::move(opened_.edits),
-              std::move(opened_.spits)};
-    start_.edits.resize(opened_.edits_before);
-    start_.spits.resize(opened_.spits_before);
+    ShoreStart& start = widened_.emplace(ShoreStart{std::move(opened_.before), std::move(opened_.gained_before),
+                                                    std::move(opened_.edits), std::move(opened_.spits)});
+    start.edits.resize(opened_.edits_before);
+    start.spits.resize(opened_.spits_before);
     const ShoreEdit edit = [&](EditKind kind, const Point& place, RegionId water) {
-      start_.edits.emplace_back(kind, place, water);
+      start.edits.emplace_back(kind, place, water);
     };
     PassageEffects effects;
-    widenPassages(start_.triangles, sizes_, lines, opened_.small, edit, start_.gained, effects, loop_);
+    widenPassages(start.triangles, sizes_, lines, opened_.small, edit, start.gained, effects, loop_);
     guides_.passages.insert(guides_.passages.end(), lines.begin(), lines.end());
-    opened_ = openShores(start_, sizes_, guides_, options_, opened_.first, loop_);
+    opened_ = openShores(start, sizes_, guides_, options_, opened_.first, loop_);
     return true;
   }
 
-  ShoreStart start_;
+  const ShoreStart data_;
+  const WaterGaps gaps_;
+  std::optional<ShoreStart> widened_;
   const ShoreSizes& sizes_;
   ShoreGuides guides_;
   const FollowOptions& options_;
@@ -138,9 +162,9 @@ class Joiner {
 
 }  // namespace
 
-JoinedShores openJoined(ShoreStart&& start, const ShoreSizes& sizes, ShoreGuides guides, const FollowOptions& options,
-                        const ItemLoop& loop) {
-  return Joiner(std::move(start), sizes, std::move(guides), options, loop).run();
+JoinedShores openJoined(ShoreStart&& start, const DataShores& data, const ShoreSizes& sizes, ShoreGuides guides,
+                        const FollowOptions& options, const ItemLoop& loop) {
+  return Joiner(std::move(start), data, sizes, std::move(guides), options, loop).run();
 }
 
 }  // namespace coastmesh

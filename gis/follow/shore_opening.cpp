@@ -41,6 +41,7 @@ class Opening {
         scale_(sizes.scale),
         passages_(guides.passages),
         barriers_(guides.barriers),
+        lands_(guides.land),
         edit_(edit),
         gained_(gained),
         loop_(loop) {}
@@ -52,6 +53,7 @@ class Opening {
       if (usesOf(land) & kAround) continue;
       const RegionId water = waterAround(land);
       if (isIn(small, water)) continue;
+      if (std::ranges::any_of(land, [&](TriId t) { return isAt(lands_, t, 0.0); })) continue;
       if (water != kNoRegion && isSmall(land)) {
         flip(land, water, EditKind::SmallIsland, firstVertexOf(land));
       } else if (std::ranges::all_of(land, [&](TriId t) { return t_.width[t] < narrowest_; })) {
@@ -72,7 +74,7 @@ class Opening {
     };
     std::vector<TriId> ends = numbersWith(loop_, 0, thin.size(), [&](TriId t) {
       thin[t] = isLand(t) && t_.width[t] < narrowest && !keeps_all_[t] && (usesOf(t) & ~kOnShore) == 0 &&
-                !isAt(barriers_, t, 0.0);
+                !isAt(barriers_, t, 0.0) && !isAt(lands_, t, 0.0);
       return thin[t] != 0 && isEnd(t);
     });
     for (const TriId t : ends) off[t] = 1;
@@ -399,7 +401,7 @@ class Opening {
 
   ShoreTriangles& t_;
   const ScaleTable& scale_;
-  const LineZone passages_, barriers_;
+  const LineZone passages_, barriers_, lands_;
   const ShoreEdit& edit_;
   WaterAreas& gained_;
   const ItemLoop& loop_;

@@ -6,11 +6,11 @@
 #include <limits>
 #include <map>
 #include <queue>
-#include <tuple>
+#include <set>
 #include <utility>
 
 #include "core/metric.hpp"
-#include "gis/follow/shore_settle.hpp"
+#include "gis/follow/water_basins.hpp"
 
 namespace coastmesh {
 
@@ -20,30 +20,38 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMostWidened = 0.25;  // of the area of the joined water
 constexpr int kRounds = 3;             // waters behind one another are joined in turn
 constexpr double kWide = 1e-3;         // cost of a way through wide water, per element of length
+constexpr double kThinned = 0.25;      // of the size: thinning makes water seem narrower by less
+constexpr int kAttempts = 6;           // to find other ways where the data are narrower than shores as thinned
 
+// Finds ways through the water of the data, between large basins if the waters have any. All that is narrow in the data
+// counts, also where land that was removed has made it wider.
 class WayFinder {
  public:
-  // Ways are at least `least` sizes wide.
-  WayFinder(const OpenedShores& opened, const ShoreSizes& sizes, double narrowest, double least)
-      : t_(opened.before),
+  // Ways are at least `least` sizes wide; if 0, each is the widest.
+  WayFinder(const WaterGaps& gaps, const OpenedShores& opened, const ShoreSizes& sizes, double least)
+      : t_(gaps.triangles()),
+        gaps_(gaps),
         scale_(sizes.scale),
-        narrowest_(narrowest),
+        narrowest_(gaps.narrowestOpen()),
         least_(least),
-        places_(locate(opened.waters)),
-        cost_(mesh().triangles.size(), kInfinity),
-        from_(mesh().triangles.size(), kNone) {}
+        basins_(basinsOf(gaps, opened)),
+        has_large_(opened.waters.size(), 0) {
+    for (TriId t = 0; t < basins_.water.size(); ++t)
+      if (basins_.is_large[t] != 0) has_large_[basins_.water[t]] = 1;
+  }
 
-  // Ways from the sought waters to joined ones. REQUIRES: waters joined before are still joined.
+  // Ways from the sought waters to joined ones.
   std::vector<WaterWay> run(const std::vector<bool>& is_joined, const std::vector<bool>& is_sought) {
-    for (std::size_t i = 0; i < is_joined.size(); ++i)
-      if (is_joined[i]) start(places_[i]);
-    spread(is_sought);
-    std::vector<WaterWay> ways(is_joined.size());
-    for (std::size_t i = 0; i < is_joined.size(); ++i) {
-      if (!is_sought[i] || places_[i].empty()) continue;
-      const TriId end = *std::ranges::min_element(places_[i], {}, [&](TriId t) { return cost_[t]; });
-      if (cost_[end] < kInfinity) ways[i] = wayFrom(end);
+    std::vector<WaterWay> ways;
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+      spread(is_joined, is_sought);
+      ways.assign(is_joined.size(), {});
+      for (std::size_t i = 0; i < ways.size(); ++i)
+        if (end_[i] != kNone) ways[i] = wayFrom(end_[i]);
+      if (!barTooNarrow(measured(ways))) break;
     }
+    for (WaterWay& way : ways)
+      if (way.exists && way.least < least_) way = {};
     return ways;
   }
 
@@ -52,136 +60,133 @@ class WayFinder {
   const Point& pointOf(TriId t, unsigned corner) const { return mesh().point(mesh().triangles[t].v[corner]); }
   Point centreOf(TriId t) const { return centroid(pointOf(t, 0), pointOf(t, 1), pointOf(t, 2)); }
   Point middleOf(EdgeRef e) const { return midpoint(mesh().point(mesh().origin(e)), mesh().point(mesh().target(e))); }
-  double lengthOf(EdgeRef e) const { return distance(mesh().point(mesh().origin(e)), mesh().point(mesh().target(e))); }
-  // The smaller of both triangles' sizes: one may reach far into open water, where sizes are larger.
-  double sizeAt(EdgeRef e) const { return std::min(t_.size[triOf(e)], t_.size[triOf(mesh().twin(e))]); }
   bool isLand(TriId t) const { return mesh().regions[t] == t_.land; }
-  bool isNarrow(TriId t) const { return t_.width[t] < narrowest_ && !hasOffShore(t_, t); }
-  // The width of the water as a share of the size: edges reach from shore to shore, except those to a border of regions
-  // in the water, whose width is unknown.
-  double shareOf(EdgeRef e) const {
-    if (isOffShore(t_, mesh().origin(e)) || isOffShore(t_, mesh().target(e))) return kInfinity;
-    return lengthOf(e) / sizeAt(e);
+  // The water whose end of a way the triangle is, or kNone.
+  std::uint32_t endIn(TriId t) {
+    const std::uint32_t water = basins_.water[t];
+    if (isLand(t) || water == kNone) return kNone;
+    return has_large_[water] == 0 || basins_.is_large[basins_.sets.find(t)] != 0 ? water : kNone;
   }
-
-  // For each water, the triangles that contain its places.
-  std::vector<std::vector<TriId>> locate(const std::vector<WaterPart>& waters) const {
-    std::vector<std::vector<TriId>> found(waters.size());
-    TriId last = 0;
-    for (std::size_t i = 0; i < waters.size(); ++i) {
-      for (const Point& x : waters[i].inside) {
-        const TriId t = locateIn(t_, x, last);
-        if (t == kNone) continue;
-        last = t;
-        if (!isLand(t)) found[i].push_back(t);
-      }
-    }
-    return found;
-  }
-
-  // Starts, at cost 0, from these and from all that wide enough water connects to them.
-  void start(const std::vector<TriId>& places) {
-    std::vector<TriId> reached;  // a stack: the last is mostly the nearest in memory
-    const auto reach = [&](TriId t) {
-      if (cost_[t] == 0.0) return;
-      cost_[t] = 0.0;
-      from_[t] = kNone;
-      reached.push_back(t);
-    };
-    for (const TriId t : places) reach(t);
-    while (!reached.empty()) {
-      const TriId t = reached.back();
-      reached.pop_back();
-      bool goes_on = false;
-      for (const EdgeRef e : mesh().triangles[t].adj) {
-        if (isLand(triOf(e))) continue;
-        if (!isNarrow(triOf(e)))
-          reach(triOf(e));
-        else
-          goes_on = goes_on || cost_[triOf(e)] > 0.0;
-      }
-      if (goes_on) queue_.emplace(0.0, t);
-    }
-  }
-
-  // The largest cost of a way to one of the sought waters.
-  double farthest(const std::vector<bool>& is_sought) const {
-    double most = 0.0;
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-      double least = kInfinity;
-      for (const TriId t : places_[i]) least = std::min(least, cost_[t]);
-      if (is_sought[i] && !places_[i].empty()) most = std::max(most, least);
-    }
-    return most;
+  bool isClosed(EdgeRef e) const {
+    const std::uint32_t water = basins_.water[triOf(e)];
+    return water == kNone || basins_.water[triOf(mesh().twin(e))] != water;
   }
 
   // Dijkstra's algorithm, until all sought waters are reached. The cost is the length in elements, and more where the
-  // water is narrow.
-  void spread(const std::vector<bool>& is_sought) {
-    std::vector<char> is_place(mesh().triangles.size(), 0);
-    for (const std::vector<TriId>& places : places_)
-      for (const TriId t : places) is_place[t] = 1;
-    double most = farthest(is_sought);
-    while (!queue_.empty() && queue_.top().first <= most) {
+  // water is narrow; of the widest way, its narrowness.
+  void spread(const std::vector<bool>& is_joined, const std::vector<bool>& is_sought) {
+    start(is_joined);
+    end_.assign(is_sought.size(), kNone);
+    auto left = std::ranges::count(is_sought, true);
+    while (!queue_.empty() && left > 0) {
       const auto [cost, t] = queue_.top();
       queue_.pop();
       if (cost > cost_[t]) continue;
+      if (const std::uint32_t water = endIn(t); water != kNone && is_sought[water] && end_[water] == kNone) {
+        end_[water] = t;
+        --left;
+      }
       for (unsigned i = 0; i < 3; ++i) {
         const EdgeRef e = edgeRef(t, i);
         const TriId next = triOf(mesh().twin(e));
-        if (isLand(next)) continue;
-        const double share = shareOf(e);
-        if (share < least_) continue;
-        const double step = (distance(centreOf(t), middleOf(e)) + distance(middleOf(e), centreOf(next))) / sizeAt(e);
-        const double there = cost + step * (kWide + std::max(0.0, narrowest_ / share - 1.0));
+        if (isLand(next) || cost_[next] == 0.0) continue;
+        const double there = costAcross(e, cost);
         if (!(there < cost_[next])) continue;
         cost_[next] = there;
         from_[next] = e;
         queue_.emplace(there, next);
-        if (is_place[next] != 0) most = farthest(is_sought);
       }
     }
   }
 
-  WaterWay wayFrom(TriId end) const {
+  void start(const std::vector<bool>& is_joined) {
+    const std::size_t count = mesh().triangles.size();
+    cost_.assign(count, kInfinity);
+    from_.assign(count, kNone);
+    queue_ = {};
+    for (TriId t = 0; t < count; ++t)
+      if (const std::uint32_t water = endIn(t); water != kNone && is_joined[water]) cost_[t] = 0.0;
+    for (TriId t = 0; t < count; ++t) {
+      const auto goesOn = [&](EdgeRef e) { return !isLand(triOf(e)) && cost_[triOf(e)] != 0.0; };
+      if (cost_[t] == 0.0 && std::ranges::any_of(mesh().triangles[t].adj, goesOn)) queue_.emplace(0.0, t);
+    }
+  }
+
+  // Infinite if it may not be crossed.
+  double costAcross(EdgeRef e, double before) const {
+    const double share = gaps_.isNarrow(e) ? gaps_.share(e) : kInfinity;
+    if (share < least_ - kThinned || barred_.contains(std::min(e, mesh().twin(e)))) return kInfinity;
+    if (least_ == 0.0) return std::max({before, kWide, narrowest_ / share});
+    const TriId t = triOf(e), next = triOf(mesh().twin(e));
+    const Point x = middleOf(e);
+    const double step = (distance(centreOf(t), x) + distance(x, centreOf(next))) / gaps_.sizeAt(e);
+    return before + step * (kWide + std::max(0.0, narrowest_ / share - 1.0));
+  }
+
+  WaterWay wayFrom(TriId end) {
     WaterWay way;
     way.exists = true;
-    way.least = kInfinity;
     std::vector<Point> line{centreOf(end)};
-    bool narrow_before = false;
+    bool narrow_before = false, crossed_narrow = false;
     const auto finishLine = [&] {
       if (narrow_before) way.narrow.push_back({line, "", narrowest_});
     };
     for (TriId t = end; from_[t] != kNone; t = triOf(from_[t])) {
       const EdgeRef e = from_[t];
       const Point x = middleOf(e);
-      if (shareOf(e) < way.least) {
-        way.least = shareOf(e);
-        way.place = x;
-        way.width_m = lengthOf(e) / scale_.at(x);
-      }
-      if (isNarrow(t)) {
+      const bool closed = isClosed(e), narrow = closed || gaps_.isNarrow(e);
+      if (narrow) way.crossed.push_back(e);
+      if (narrow || crossed_narrow) {
         if (!narrow_before) line.assign(1, line.back());
         const double scale = scale_.at(x), length = distance(line.back(), x) / scale;
         way.length_m += length;
-        way.widening_m2 += length * std::max(0.0, narrowest_ * sizeAt(e) - lengthOf(e)) / scale;
+        if (closed) way.widening_m2 += length * std::max(0.0, narrowest_ - gaps_.share(e)) * gaps_.sizeAt(e) / scale;
         narrow_before = true;
       } else {
         finishLine();
         narrow_before = false;
       }
+      crossed_narrow = narrow;
       line.push_back(x);
     }
     finishLine();
     return way;
   }
 
+  // The ways with the widths of the data.
+  std::vector<WaterWay>& measured(std::vector<WaterWay>& ways) const {
+    std::vector<std::vector<EdgeRef>> crossed;
+    for (const WaterWay& way : ways) crossed.push_back(way.crossed);
+    std::vector<NarrowPlace> places = gaps_.narrowest(crossed, least_);
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+      if (!ways[i].exists) continue;
+      auto& [gap, share, too_narrow] = places[i];
+      ways[i].least = share;
+      ways[i].place = gap.middle;
+      ways[i].width_m = gap.width / scale_.at(gap.middle);
+      ways[i].too_narrow = std::move(too_narrow);
+    }
+    return ways;
+  }
+
+  // Keeps further ways from passing where these are too narrow. Returns false if none is.
+  bool barTooNarrow(const std::vector<WaterWay>& ways) {
+    const std::size_t before = barred_.size();
+    for (const WaterWay& way : ways)
+      for (const EdgeRef e : way.too_narrow) barred_.insert(std::min(e, mesh().twin(e)));
+    return barred_.size() > before;
+  }
+
   const ShoreTriangles& t_;
+  const WaterGaps& gaps_;
   const ScaleTable& scale_;
   const double narrowest_, least_;
-  const std::vector<std::vector<TriId>> places_;  // triangles in each of the waters
+  WaterBasins basins_;
+  std::vector<char> has_large_;  // by water: a large basin
+  std::set<EdgeRef> barred_;     // as thinned wide enough, but not in the data
   std::vector<double> cost_;
   std::vector<EdgeRef> from_;  // the edge crossed into a triangle
+  std::vector<TriId> end_;     // of the way to each sought water
   std::priority_queue<std::pair<double, TriId>, std::vector<std::pair<double, TriId>>, std::greater<>> queue_;
 };
 
@@ -213,12 +218,12 @@ std::vector<bool> areMain(const std::vector<WaterPart>& waters) {
   return main;
 }
 
-std::vector<WaterWay> waysToWaters(const OpenedShores& opened, const ShoreSizes& sizes, const FollowOptions& options) {
+std::vector<WaterWay> waysToWaters(const WaterGaps& gaps, const OpenedShores& opened, const ShoreSizes& sizes) {
   const std::vector<bool> main = areMain(opened.waters), kept = areKept(opened.waters);
   const std::vector<bool> apart = butNot(kept, main), cut_off = butNot(std::vector<bool>(kept.size(), true), kept);
   std::vector<WaterWay> ways(kept.size());
   if (!hasAny(apart) && !hasAny(cut_off)) return ways;
-  WayFinder finder(opened, sizes, options.channel_min, 0.0);
+  WayFinder finder(gaps, opened, sizes, 0.0);
   const auto find = [&](const std::vector<bool>& joined, const std::vector<bool>& sought) {
     if (!hasAny(sought)) return;
     std::vector<WaterWay> found = finder.run(joined, sought);
@@ -230,13 +235,14 @@ std::vector<WaterWay> waysToWaters(const OpenedShores& opened, const ShoreSizes&
   return ways;
 }
 
-std::vector<JoinedWater> waysToJoin(const OpenedShores& opened, const ShoreSizes& sizes, const FollowOptions& options) {
+std::vector<JoinedWater> waysToJoin(const WaterGaps& gaps, const OpenedShores& opened, const ShoreSizes& sizes,
+                                    const FollowOptions& options) {
   const std::vector<bool> kept = areKept(opened.waters);
   const std::vector<bool> every(kept.size(), true);
   std::vector<bool> joined = areMain(opened.waters);
   std::vector<JoinedWater> found;
   if (!hasAny(butNot(every, joined))) return found;
-  WayFinder finder(opened, sizes, options.channel_min, options.strait_min);
+  WayFinder finder(gaps, opened, sizes, options.strait_min);
   // Joins those of `candidates` that are not joined yet.
   const auto join = [&](const std::vector<bool>& candidates) {
     for (int round = 0; round < kRounds; ++round) {

@@ -87,7 +87,7 @@ TEST(WidenedStraits, NoWaterIsCountedTwiceOrWhileStillApart) {
     const Domain domain = domainOf(water, 0.25);
     CleanReport separate, widened;
     followSizes(Domain(domain), ConstantSize(2.0), {.strait_min = 1.0}, oneFeature(), separate);
-    followSizes(Domain(domain), ConstantSize(2.0), {}, oneFeature(), widened);
+    followSizes(Domain(domain), ConstantSize(2.0), {.strait_min = 0.2}, oneFeature(), widened);
     EXPECT_GE(widened.waters.joined.count, 10u) << seed;
     EXPECT_LE(widened.waters.joined.count + widened.waters.cut_off.count, separate.waters.cut_off.count) << seed;
   }
