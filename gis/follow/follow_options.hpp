@@ -13,7 +13,7 @@ struct FollowOptions {
   double land_min = 1.0;     // land
   // Water in the data at least this wide that is the only connection of others is widened to `channel_min` instead of
   // closed.
-  double strait_min = 0.4;
+  double strait_min = 0.2;
   KeepWater keep = KeepWater::All;
   bool of_land = false;  // land is meshed, so notes refer to land instead of water
 

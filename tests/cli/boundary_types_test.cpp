@@ -332,8 +332,9 @@ TEST_F(BoundaryTypes, ACoastThatFollowsKeepsTheWaterAtOpenings) {
       put("lagoon.geojson", Json::array({feature(Json::object(), "Polygon", Json::array({ring}))}));
   const std::string types =
       put("types.geojson", Json::array({feature({{"type", "open"}}, "LineString", {{5, 50}, {5, 50.1}})}));
-  const ProgramRun run = runProgram({"mesh", input, "-o", file("a.gpkg"), "--report", file("r.json"), "--boundaries",
-                                     types, "--size", "1000", "--coast", "follow", "--keep-water", "open"});
+  const ProgramRun run =
+      runProgram({"mesh", input, "-o", file("a.gpkg"), "--report", file("r.json"), "--boundaries", types, "--size",
+                  "1000", "--coast", "follow", "--keep-water", "open", "--strait-min", "0.4"});
   EXPECT_EQ(run.code, 0);
   EXPECT_THAT(run.errors, Not(HasSubstr("says nothing of the mesh's boundary")));
   EXPECT_NEAR(rolesIn("a.gpkg")["open"], 11, 3);

@@ -53,7 +53,7 @@ Domain seaWithASpit() {
 TEST(DataStraits, AnElementWiderThanASpitDoesNotOpenTheStraitBesideIt) {
   for (const double size : {1.2, 1.6, 2.0, 2.4, 2.6, 3.0, 3.5, 4.0, 5.0, 6.0}) {
     CleanReport report;
-    const Domain coarse = followSizes(seaWithASpit(), ConstantSize(size), {}, oneFeature(), report);
+    const Domain coarse = followSizes(seaWithASpit(), ConstantSize(size), {.strait_min = 0.4}, oneFeature(), report);
     const bool joined = 1.0 / size >= 0.4;
     EXPECT_EQ(parts(coarse), joined ? 1u : 2u) << size;
     EXPECT_EQ(report.waters.cut_off.count, joined ? 0u : 1u) << size;
@@ -69,7 +69,7 @@ TEST(DataStraits, ASpitIsRemovedWhereTheDataConnectTheWatersBesideIt) {
   Domain domain;
   addShore(domain, {{0, 0}, {39, 0}, {39, 30}, {40, 30}, {40, 0}, {80, 0}, {80, 40}, {0, 40}});
   CleanReport report;
-  const Domain coarse = followSizes(std::move(domain), ConstantSize(4.0), {}, oneFeature(), report);
+  const Domain coarse = followSizes(std::move(domain), ConstantSize(4.0), {.strait_min = 0.4}, oneFeature(), report);
   EXPECT_EQ(parts(coarse), 1u);
   EXPECT_EQ(countOf(report, EditKind::DroppedSpit), 1u);
   EXPECT_EQ(report.waters.joined.count, 0u);
@@ -95,7 +95,7 @@ TEST(DataStraits, DetailFinerThanAnElementCounts) {
                       {20, 20},
                       {0, 20}});
     CleanReport report;
-    followSizes(std::move(domain), ConstantSize(size), {}, oneFeature(), report);
+    followSizes(std::move(domain), ConstantSize(size), {.strait_min = 0.4}, oneFeature(), report);
     const Way way = wayBehind(report);
     EXPECT_NEAR(way.width, 0.6, 1e-3) << size;
     EXPECT_NEAR(way.x, 25.0, 0.1) << size;
@@ -131,7 +131,7 @@ Domain threeLakes(double first, double second) {
 TEST(DataStraits, TheNarrowestOnTheWayIsNamed) {
   for (const auto& [first, second] : {std::pair(1.2, 0.8), std::pair(0.8, 1.2)}) {
     CleanReport report;
-    followSizes(threeLakes(first, second), ConstantSize(3.5), {}, oneFeature(), report);
+    followSizes(threeLakes(first, second), ConstantSize(3.5), {.strait_min = 0.4}, oneFeature(), report);
     ASSERT_EQ(report.waters.cut_off.count, 2u);
     const Way near = wayBehind(report, 0), far = wayBehind(report, 1);
     EXPECT_NEAR(near.width, first, 1e-3);
@@ -149,7 +149,7 @@ TEST(DataStraits, IslandsSmallerThanAnElementDivideStraits) {
     const double low = 9.8 - side / 2, high = low + side, west = 25 - side / 2, east = west + side;
     addShore(domain, {{west, low}, {west, high}, {east, high}, {east, low}});
     CleanReport report;
-    const Domain coarse = followSizes(std::move(domain), ConstantSize(4.0), {}, oneFeature(), report);
+    const Domain coarse = followSizes(std::move(domain), ConstantSize(4.0), {.strait_min = 0.4}, oneFeature(), report);
     const bool divides = side == 1.0;
     EXPECT_EQ(parts(coarse), divides ? 2u : 1u);
     const Way way = divides ? wayBehind(report) : wayJoined(report);
@@ -163,7 +163,7 @@ TEST(DataStraits, ClosedStraitsAreAsWideAsInTheData) {
   addShore(domain, {{0, 0}, {60, 0}, {60, 20}, {0, 20}});
   addShore(domain, {{10, 0.7}, {10, 10}, {50, 10}, {50, 0.7}});
   CleanReport report;
-  followSizes(std::move(domain), ConstantSize(3.0), {}, oneFeature(), report);
+  followSizes(std::move(domain), ConstantSize(3.0), {.strait_min = 0.4}, oneFeature(), report);
   ASSERT_EQ(report.waters.straits.count, 1u);
   const std::string& text = report.waters.straits.longest[0].text;
   double width = 0.0;

@@ -20,7 +20,8 @@ TEST(FollowSizes, OfWaterThatIsCutApartWhatIsAskedForStays) {
     domain.input_points = domain.pslg.points;
     if (open_to_the_east) domain.pslg.segments[5].tag = kOpenTag;
     CleanReport report;
-    Domain coarse = followSizes(std::move(domain), ConstantSize(2.0), {.keep = keep}, oneFeature(), report);
+    Domain coarse =
+        followSizes(std::move(domain), ConstantSize(2.0), {.strait_min = 0.4, .keep = keep}, oneFeature(), report);
     addWaterNotes(report, {.keep = keep});
     const std::vector<std::string>& texts = keep == KeepWater::All ? report.notes : report.warnings;
     EXPECT_EQ(texts.size(), 1u);
@@ -46,7 +47,8 @@ TEST(FollowSizes, AFrameThatGrazesAnotherWaterDoesNotDropTheOneThatIsMeant) {
     domain.pslg.segments[5].tag = kOpenTag;
     for (const KeepWater keep : {KeepWater::Modelled, KeepWater::Open}) {
       CleanReport report;
-      const Domain coarse = followSizes(Domain(domain), ConstantSize(2.0), {.keep = keep}, oneFeature(), report);
+      const Domain coarse =
+          followSizes(Domain(domain), ConstantSize(2.0), {.strait_min = 0.4, .keep = keep}, oneFeature(), report);
       const bool grazed = side == 12.0 && keep == KeepWater::Modelled;  // areas: 144 of 1744, 400 of 2000
       for (const Point& p : coarse.pslg.points) EXPECT_EQ(p.x < 45.0, grazed) << side;
       addWaterNotes(report, {.keep = keep});
@@ -70,7 +72,8 @@ TEST(FollowSizes, TheLakeOfAnotherFeatureStays) {
     coast.features.emplace_back();
     for (const KeepWater keep : {KeepWater::Modelled, KeepWater::Open, KeepWater::Largest}) {
       CleanReport report;
-      const Domain coarse = followSizes(Domain(domain), ConstantSize(2.0), {.keep = keep}, coast, report);
+      const Domain coarse =
+          followSizes(Domain(domain), ConstantSize(2.0), {.strait_min = 0.4, .keep = keep}, coast, report);
       EXPECT_EQ(parts(coarse), 2u);
       EXPECT_EQ(countOf(report, EditKind::CutOffWater), 0u);
     }
@@ -85,8 +88,9 @@ TEST(FollowSizes, AFrameThatGrazesAWaterBesideTheSeaLeavesOneWater) {
   for (const SegmentId s : {3u, 5u}) domain.pslg.segments[s].tag = kOpenTag;
   for (const KeepWater keep : {KeepWater::Modelled, KeepWater::Open}) {
     CleanReport report;
-    EXPECT_EQ(parts(followSizes(Domain(domain), ConstantSize(2.0), {.keep = keep}, oneFeature(), report)),
-              keep == KeepWater::Open ? 2u : 1u);
+    EXPECT_EQ(
+        parts(followSizes(Domain(domain), ConstantSize(2.0), {.strait_min = 0.4, .keep = keep}, oneFeature(), report)),
+        keep == KeepWater::Open ? 2u : 1u);
     EXPECT_EQ(countOf(report, EditKind::CutOffWater), keep == KeepWater::Open ? 0u : 1u);
   }
 }
@@ -99,7 +103,8 @@ TEST(FollowSizes, WatersThatAreBothKeptAreJoinedOrNamed) {
       Domain domain = twoLakes(width);
       for (const SegmentId s : {5u, 11u}) domain.pslg.segments[s].tag = kOpenTag;
       CleanReport report;
-      const Domain coarse = followSizes(std::move(domain), ConstantSize(2.0), {.keep = keep}, oneFeature(), report);
+      const Domain coarse =
+          followSizes(std::move(domain), ConstantSize(2.0), {.strait_min = 0.4, .keep = keep}, oneFeature(), report);
       EXPECT_EQ(parts(coarse), width < 1.0 ? 2u : 1u);
       EXPECT_EQ(countOf(report, EditKind::CutOffWater), 0u);
       addWaterNotes(report, {.keep = keep});
@@ -127,8 +132,8 @@ TEST(FollowSizes, AShortOpeningKeepsNoWater) {
   domain.pslg.segments.push_back({count + 1, 0, 0, 0, kOutside});
   domain.input_points = domain.pslg.points;
   CleanReport report;
-  const Domain coarse =
-      followSizes(std::move(domain), ConstantSize(2.0), {.keep = KeepWater::Open}, oneFeature(), report);
+  const Domain coarse = followSizes(std::move(domain), ConstantSize(2.0), {.strait_min = 0.4, .keep = KeepWater::Open},
+                                    oneFeature(), report);
   EXPECT_EQ(countOf(report, EditKind::CutOffWater), 1u);
   for (const Point& p : coarse.pslg.points) EXPECT_GT(p.x, 25.0);
 }
@@ -170,7 +175,8 @@ TEST(FollowSizes, ABayOfOneOfTwoFeaturesWithACommonBorderIsLeftOutAsThatOfOneFea
     const auto outcome = [&](KeepWater keep, bool is_open, CleanReport& report) {
       Domain domain = twoSeas(0.4, of_two);
       if (is_open) domain.pslg.segments[13].tag = kOpenTag;  // the western side
-      const Domain coarse = followSizes(std::move(domain), ConstantSize(2.0), {.keep = keep}, twoFeatures(), report);
+      const Domain coarse =
+          followSizes(std::move(domain), ConstantSize(2.0), {.strait_min = 0.4, .keep = keep}, twoFeatures(), report);
       addWaterNotes(report, {.keep = keep});
       return parts(coarse);
     };
@@ -189,7 +195,8 @@ TEST(FollowSizes, ABayOfOneOfTwoFeaturesWithACommonBorderIsLeftOutAsThatOfOneFea
 TEST(FollowSizes, AStraitToABayOfOneOfTwoFeaturesWithACommonBorderIsWidened) {
   for (const bool of_two : {true, false}) {
     CleanReport report;
-    const Domain coarse = followSizes(twoSeas(1.8, of_two), ConstantSize(2.0), {}, twoFeatures(), report);
+    const Domain coarse =
+        followSizes(twoSeas(1.8, of_two), ConstantSize(2.0), {.strait_min = 0.4}, twoFeatures(), report);
     EXPECT_EQ(parts(coarse), 1u);
     EXPECT_EQ(countOf(report, EditKind::CutOffWater), 0u);
     EXPECT_EQ(countOf(report, EditKind::WidenedPassage), 1u);
@@ -215,7 +222,7 @@ TEST(FollowSizes, AWayToTheMainWaterCrossesABorderOfFeatures) {
   for (VertexId v : {0u, 13u}) domain.pslg.points[v].x = -5.0;  // the western sea is larger
   domain.input_points = domain.pslg.points;
   CleanReport report;
-  EXPECT_EQ(parts(followSizes(std::move(domain), ConstantSize(2.0), {}, twoFeatures(), report)), 1u);
+  EXPECT_EQ(parts(followSizes(std::move(domain), ConstantSize(2.0), {.strait_min = 0.4}, twoFeatures(), report)), 1u);
   EXPECT_EQ(countOf(report, EditKind::WidenedPassage), 1u);
 }
 
@@ -242,7 +249,8 @@ TEST(FollowSizes, ABorderInAStraitLeavesNoPondThere) {
       domain.pslg.segments.push_back({last, 13, 0, 0, 1});
       domain.input_points = domain.pslg.points;
       CleanReport report;
-      const Domain coarse = followSizes(std::move(domain), ConstantSize(2.0), {}, twoFeatures(), report);
+      const Domain coarse =
+          followSizes(std::move(domain), ConstantSize(2.0), {.strait_min = 0.4}, twoFeatures(), report);
       EXPECT_EQ(parts(coarse), width < 1.0 ? 2u : 1u) << vertices;
       EXPECT_EQ(report.waters.apart.count + report.waters.cut_off.count, width < 1.0 ? 1u : 0u) << vertices;
     }

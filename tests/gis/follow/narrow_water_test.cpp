@@ -87,7 +87,7 @@ TEST(FollowSizes, AChannelNarrowerThanAnElementIsClosed) {
   CleanReport wide, narrow, kept;
   EXPECT_EQ(parts(followSizes(twoLakes(3.0), size, {}, oneFeature(), wide)), 1u);
   EXPECT_EQ(countOf(wide, EditKind::ClosedWater), 0u);
-  EXPECT_EQ(parts(followSizes(twoLakes(0.6), size, {}, oneFeature(), narrow)), 2u);
+  EXPECT_EQ(parts(followSizes(twoLakes(0.6), size, {.strait_min = 0.4}, oneFeature(), narrow)), 2u);
   EXPECT_GE(countOf(narrow, EditKind::ClosedWater), 1u);
   const Domain open = followSizes(twoLakes(0.6), size, {.channel_min = 0.0}, oneFeature(), kept);
   EXPECT_EQ(parts(open), 1u);
