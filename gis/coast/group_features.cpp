@@ -323,16 +323,6 @@ class Uniting {
   // Features with at least this many edges keep their index; those of smaller ones are made when needed.
   static constexpr std::size_t kLarge = 64;
 
-  static std::size_t edgesOf(const Feature& feature) {
-    std::size_t edges = 0;
-    for (const Polygon& polygon : feature.polygons) {
-      edges += polygon.outer.size();
-      for (const Ring& hole : polygon.holes) edges += hole.size();
-    }
-    for (const auto& line : feature.lines) edges += line.size();
-    return edges;
-  }
-
   void keepLarge(const std::vector<Pair>& pairs) {
     std::vector<std::uint32_t> large;
     std::vector<bool> seen(features_.size(), false);
@@ -340,7 +330,7 @@ class Uniting {
       for (const std::uint32_t f : {pair.a, pair.b}) {
         if (seen[f]) continue;
         seen[f] = true;
-        if (edgesOf(features_[f]) >= kLarge) large.push_back(f);
+        if (pointsOf(features_[f]) >= kLarge) large.push_back(f);
       }
     loop_(large.size(), [&](std::size_t i) { kept_[large[i]] = std::make_unique<FeatureIndex>(features_[large[i]]); });
   }
