@@ -68,7 +68,7 @@ InsertedMesh putIn(Grid& grid, const std::string& name, const MeshToInsert& mesh
   return done;
 }
 
-std::vector<std::string> warningsOf(const InsertedMesh& inserted, const DepthOptions& depth) {
+std::vector<std::string> warningsOf(const InsertedMesh& inserted, const Grid& grid, const DepthOptions& depth) {
   const MergeReport& merged = inserted.result.merged;
   const std::string in = "'" + inserted.name + "': ";
   std::vector<std::string> all;
@@ -78,6 +78,11 @@ std::vector<std::string> warningsOf(const InsertedMesh& inserted, const DepthOpt
                   forCount(merged.walls, " edge of its open boundaries is land now, as it has",
                            " edges of its open boundaries are land now, as they have") +
                   " no water of the other mesh beside it");
+  if (merged.closed.length_m > 0.0)
+    all.push_back(in + lengthText(merged.closed.length_m, grid) +
+                  " of its land boundary run through triangles of the other mesh, such as at " +
+                  pointText(merged.closed.place) +
+                  ": they stay closed; if they are sides of its frame, convert --boundaries can make them open");
   if (merged.cut_off > 0)
     all.push_back(in + "it cuts waters off from the rest, which are left out: " + grouped(merged.cut_off) +
                   forCount(merged.cut_off, " triangle", " triangles"));
@@ -95,7 +100,11 @@ TextOfFinished textOf(const InsertedMesh& inserted, const Grid& grid, bool may_c
   const MergedMesh& result = inserted.result;
   std::string text = "'" + inserted.name + "': " + inserted.elements + " in place of " +
                      grouped(result.merged.covered) + ", joined along " + grouped(result.merged.joined) +
-                     forCount(result.merged.joined, " edge", " edges") + "\n";
+                     forCount(result.merged.joined, " edge", " edges") +
+                     (result.merged.joined_land > 0
+                          ? ", " + grouped(result.merged.joined_land) + " of them sides of its frame across land"
+                          : "") +
+                     "\n";
   if (result.merged.united > 0) text += "nodes that both have: " + grouped(result.merged.united) + "\n";
   if (!result.band) return [text](const Grid&) { return text; };
   const LastingFigures between(result.band->inside, may_change, grid, loop,
@@ -145,7 +154,7 @@ EditedMesh runMergeJob(Grid& grid, const std::string& name, const std::vector<Me
       InsertedMesh done = putIn(grid, name, inserted[i], job.merge, warn, of_one, loop);
       nodes = composed(nodes, done.result.nodes, i + 1);
       triangles = composed(triangles, done.result.triangles, i + 1);
-      std::ranges::move(warningsOf(done, job.merge.depth), std::back_inserter(edit.warnings));
+      std::ranges::move(warningsOf(done, grid, job.merge.depth), std::back_inserter(edit.warnings));
       texts.push_back(textOf(done, grid, may_change, loop));
       edit.sources.elements_before.push_back(std::move(done.element_numbers));
     }

@@ -167,6 +167,7 @@ DepthReport setNewDepths(Grid& grid, const ReplaceReport& replaced, const DepthO
   }
   DepthOptions own = options;
   own.keep_known = true;
+  own.keep_land = true;
   DepthReport report = setDepths(part, own, control, loop);
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (replaced.nodes[nodes[i]] == kNone) grid.z[nodes[i]] = part.z[i];

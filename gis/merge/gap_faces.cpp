@@ -106,7 +106,7 @@ class GapFiller {
     std::vector<std::uint8_t> taken(candidates.size(), 0);
     forEachByStretches(loop_, candidates.size(), [&](std::size_t i) {
       const Point& p = mesh_.points[candidates[i]];
-      const bool is_clear = !outline_.surrounds(p) &&
+      const bool is_clear = !outline_.surrounds(p) && !outline_.passes(p) &&
                             !outline_.isNear(p, kNear, [&](std::uint32_t e) { return outline_.edges()[e].joins; });
       taken[i] = is_fixed[candidates[i]] != 0 || is_clear ? 1 : 0;
     });

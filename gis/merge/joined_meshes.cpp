@@ -16,6 +16,7 @@
 #include "gis/grid/linked_grid.hpp"
 #include "gis/merge/covered_triangles.hpp"
 #include "gis/merge/enclosed_gaps.hpp"
+#include "gis/merge/frame_sides.hpp"
 #include "gis/merge/gap_faces.hpp"
 #include "gis/merge/outline.hpp"
 #include "gis/merge/same_nodes.hpp"
@@ -74,6 +75,7 @@ class MeshJoiner {
       : grid_(grid),
         plane_(plane),
         loop_(loop),
+        inserted_grid_(inserted),
         inserted_(linkGrid(inserted, loop).mesh),
         kinds_(grid),
         inserted_kinds_(inserted),
@@ -90,6 +92,7 @@ class MeshJoiner {
   JoinedMeshes join() {
     requireTurns(inserted_, {}, "the mesh that is put in");
     requireTurns(joined_.mesh, is_far_, "the mesh");
+    joinSides();
     moveSame();
     findCover();
     fillGaps();
@@ -124,6 +127,17 @@ class MeshJoiner {
                        " is clockwise or flat: coastmesh convert with --target turns clockwise ones");
     }
   }
+
+  // Sides of the inserted mesh's frame across land, which is in the other one too, are as good as open.
+  void joinSides() {
+    const FrameSides sides = frameSides(grid_, joined_.mesh, is_far_, inserted_grid_, inserted_, outline_, loop_);
+    outline_.join(sides.joined);
+    for (const std::uint32_t e : sides.joined) sides_.push_back(edgeKey(outline_.edges()[e].a, outline_.edges()[e].b));
+    std::ranges::sort(sides_);
+    for (const std::uint32_t e : sides.closed) joined_.closed.push_back({outline_.edges()[e].a, outline_.edges()[e].b});
+  }
+
+  bool isSide(VertexId a, VertexId b) const { return std::ranges::binary_search(sides_, edgeKey(a, b)); }
 
   void moveSame() {
     joined_.same = sameNodes(grid_, outline_, loop_);
@@ -173,7 +187,8 @@ class MeshJoiner {
       return kinds_.isOpen(joined_.mesh.origin(own), joined_.mesh.target(own)) ? EndKind::OpenOfOne : EndKind::Shore;
     }
     const EdgeRef own = e - edgeRef(joined_.first_inserted, 0);
-    return inserted_kinds_.isOpen(inserted_.origin(own), inserted_.target(own)) ? EndKind::OpenOfOther : EndKind::Shore;
+    const VertexId a = inserted_.origin(own), b = inserted_.target(own);
+    return inserted_kinds_.isOpen(a, b) || isSide(a, b) ? EndKind::OpenOfOther : EndKind::Shore;
   }
 
   void assemble() {
@@ -237,9 +252,12 @@ class MeshJoiner {
   void countJoined() {
     for (TriId t = 0; t < inserted_.triangles.size(); ++t) {
       for (unsigned i = 0; i < 3; ++i) {
-        if (inserted_.twin(edgeRef(t, i)) != kNone) continue;
+        const EdgeRef own = edgeRef(t, i);
+        if (inserted_.twin(own) != kNone) continue;
         const EdgeRef across = joined_.whole.twin(edgeRef(joined_.first_inserted + t, i));
-        if (across != kNone && joined_.isTaken(triOf(across))) ++joined_.joined;
+        if (across == kNone || !joined_.isTaken(triOf(across))) continue;
+        ++joined_.joined;
+        if (isSide(inserted_.origin(own), inserted_.target(own))) ++joined_.joined_land;
       }
     }
   }
@@ -257,9 +275,11 @@ class MeshJoiner {
   const Grid& grid_;
   const NestPlane* const plane_;
   const ItemLoop& loop_;
+  const Grid& inserted_grid_;
   const TriMesh inserted_;
   const EdgeKinds kinds_, inserted_kinds_;
-  const Outline outline_;
+  Outline outline_;
+  std::vector<NodePair> sides_;  // edges of its land boundaries that join, sorted
   JoinedMeshes joined_;
   std::vector<std::uint8_t> is_far_;  // for each triangle of the grid: on the other side of the Earth
   std::vector<Cover> cover_;

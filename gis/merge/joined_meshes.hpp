@@ -26,6 +26,8 @@ struct JoinedMeshes {
   std::size_t covered = 0;          // triangles of the grid that the inserted mesh replaces
   std::size_t cut_off = 0;          // triangles of waters that only those connected to the rest: left out
   std::size_t joined = 0;           // edges where the inserted mesh ended, with a triangle beyond now
+  std::size_t joined_land = 0;      // of these, those of its land boundaries
+  std::vector<NodePair> closed;     // edges of its land boundaries that are hardly a shore (`frameSides`)
   bool has_open = true;             // the inserted mesh has an open boundary
   std::vector<LineEnd> line_ends;
 

@@ -1,6 +1,7 @@
 #include "gis/merge/merge_grids.hpp"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "gis/grid/boundary_kinds.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/linked_grid.hpp"
+#include "gis/grid/local_plane.hpp"
 #include "gis/merge/joined_meshes.hpp"
 #include "gis/merge/nearby_shore.hpp"
 #include "gis/merge/nest_plane.hpp"
@@ -170,6 +172,19 @@ std::size_t countUnited(const JoinedMeshes& joined) {
   return static_cast<std::size_t>(std::ranges::count(is_united, 1));
 }
 
+// `grid` is the mesh that the edges are of.
+ClosedSides closedSides(const Grid& grid, const std::vector<NodePair>& edges) {
+  ClosedSides closed;
+  if (edges.empty()) return closed;
+  for (const NodePair& edge : edges) {
+    const std::array<Point, 2> ends = localPlane(grid, edge);
+    closed.length_m += distance(ends[0], ends[1]);
+  }
+  const NodePair& edge = edges[edges.size() / 2];
+  closed.place = meanPlace(grid.crs, std::array{grid.nodes[edge[0]], grid.nodes[edge[1]]});
+  return closed;
+}
+
 // Removes nodes that are in no triangle, and notes where all others come from.
 void setSources(Grid& grid, const JoinedMeshes& joined, std::size_t inserted_triangles, MergeReport& report) {
   for (TriId i = 0; i < joined.first_inserted; ++i)
@@ -197,6 +212,8 @@ MergeReport mergeGrids(Grid& grid, Grid&& inserted, const ItemLoop& loop) {
   report.covered = joined.covered;
   report.cut_off = joined.cut_off;
   report.joined = joined.joined;
+  report.joined_land = joined.joined_land;
+  report.closed = closedSides(inserted, joined.closed);
   report.has_open = joined.has_open;
   report.united = countUnited(joined);
   for (Grid* const part : {&grid, &inserted})

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <span>
 
 #include "core/predicates.hpp"
 #include "gis/geometry/ring_area.hpp"
@@ -35,6 +34,10 @@ Outline::Outline(const Grid& grid, const TriMesh& mesh, const ItemLoop& loop) : 
   tree_ = BoxTree(boxes, BoxTree::Order::Hilbert, loop);
 }
 
+void Outline::join(std::span<const std::uint32_t> edges) {
+  for (const std::uint32_t e : edges) edges_[e].joins = true;
+}
+
 bool Outline::surrounds(const Point& p) const {
   int turns = 0;  // of the outline around the place
   visit({p.x, p.y, std::numeric_limits<double>::infinity(), p.y}, [&](std::uint32_t e) {
@@ -43,6 +46,15 @@ bool Outline::surrounds(const Point& p) const {
     if (a.y > p.y && b.y <= p.y && orient2d(a, b, p) < 0) --turns;
   });
   return turns != 0;
+}
+
+bool Outline::passes(const Point& p) const {
+  bool found = false;
+  visit(Box::of(p, p), [&](std::uint32_t e) {
+    const Point &a = place(edges_[e].a), &b = place(edges_[e].b);
+    found = found || (Box::of(a, b).meets(Box::of(p, p)) && orient2d(a, b, p) == 0);
+  });
+  return found;
 }
 
 }  // namespace coastmesh

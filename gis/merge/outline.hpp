@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/item_loop.hpp"
@@ -20,11 +21,14 @@ class Outline {
   // An edge, with the mesh to its left.
   struct Edge {
     std::uint32_t a = kNone, b = kNone;
-    bool joins = false;  // the other mesh may continue here: an open boundary; all edges if there is none
+    bool joins = false;  // the other mesh may continue here: an open boundary; all edges if there is none; `join`
   };
 
   // `mesh` is the grid's, from `linkGrid`. REQUIRES: the grid outlives it.
   Outline(const Grid& grid, const TriMesh& mesh, const ItemLoop& loop = inOrder);
+
+  // The other mesh may continue at these edges too.
+  void join(std::span<const std::uint32_t> edges);
 
   const std::vector<Edge>& edges() const { return edges_; }
   bool hasOpen() const { return has_open_; }
@@ -48,6 +52,8 @@ class Outline {
   }
   // True if the outline surrounds the place. Exact; places on an edge are on either side.
   bool surrounds(const Point& place) const;
+  // True if the place is exactly on an edge.
+  bool passes(const Point& place) const;
 
  private:
   const Grid& grid_;

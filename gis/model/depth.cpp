@@ -101,6 +101,13 @@ std::string apartWarning(const std::vector<std::uint32_t>& nodes, const Grid& gr
          "--keep-water leaves waters out";
 }
 
+// The number of nodes above the water that were not before. `before` may be empty.
+std::size_t newlyDry(const std::vector<double>& before, const std::vector<double>& z) {
+  std::size_t dry = 0;
+  for (std::size_t i = 0; i < z.size(); ++i) dry += z[i] > 0.0 && (i >= before.size() || !(before[i] > 0.0));
+  return dry;
+}
+
 // A warning that most nodes lie above the water, with possible reasons. `z` is that of all nodes.
 std::string dryWarning(std::vector<double> z, std::size_t dry, const DepthOptions& options) {
   std::string text = std::to_string(dry) + " of " + std::to_string(z.size()) + " nodes lie above the water";
@@ -123,6 +130,19 @@ void takeCounts(const RasterCounts& counts, DepthReport& report) {
   report.partial = counts.partial;
   report.notes = counts.notes;
   report.warnings = counts.warnings;
+}
+
+// Lowers nodes to the minimum depth; those above the water only if not `mayBeLand(node)`. Returns how many.
+template <typename MayBeLand>
+std::size_t lowerWhere(Grid& grid, const DepthOptions& options, const MayBeLand& mayBeLand) {
+  std::size_t lowered = 0;
+  for (std::size_t i = 0; i < grid.z.size(); ++i) {
+    double& z = grid.z[i];
+    if (!(z > 0.0 - options.min_depth_m) || (z >= 0.0 && mayBeLand(i))) continue;
+    z = 0.0 - options.min_depth_m;
+    ++lowered;
+  }
+  return lowered;
 }
 
 void measure(const Grid& grid, DepthReport& report) {
@@ -177,21 +197,17 @@ DepthReport setDepths(Grid& grid, const DepthOptions& options, const RunControl&
     if (!apart.empty()) report.warnings.push_back(apartWarning(apart, grid));
   }
   const auto dry = static_cast<std::size_t>(std::ranges::count_if(grid.z, [](double z) { return z > 0.0; }));
-  if (2 * dry > grid.nodes.size() && known > 0 && !options.has_land)
+  if (2 * newlyDry(before, grid.z) > grid.nodes.size() && known > 0 && !options.has_land)
     report.warnings.push_back(dryWarning(grid.z, dry, options));
-  report.lowered = lowerToMinimum(grid, options);
+  report.lowered = lowerWhere(grid, options, [&](std::size_t i) {
+    return options.has_land || (options.keep_land && i < before.size() && before[i] > 0.0);
+  });
   measure(grid, report);
   return report;
 }
 
 std::size_t lowerToMinimum(Grid& grid, const DepthOptions& options) {
-  std::size_t lowered = 0;
-  for (double& z : grid.z) {
-    if (!(z > 0.0 - options.min_depth_m) || (options.has_land && z >= 0.0)) continue;
-    z = 0.0 - options.min_depth_m;
-    ++lowered;
-  }
-  return lowered;
+  return lowerWhere(grid, options, [&](std::size_t) { return options.has_land; });
 }
 
 }  // namespace coastmesh

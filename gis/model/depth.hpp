@@ -38,6 +38,8 @@ struct DepthOptions {
   bool has_land = false;
   DepthFill fill = DepthFill::Neighbours;
   bool keep_known = false;  // nodes for which no raster has a value keep the z that they have, instead of being filled
+  bool keep_land =
+      false;  // with `keep_known`: those above the water before are land, which `min_depth_m` does not lower
   const PixelReaders* readers = nullptr;  // readers of the rasters for bilinear depths; null: the caller
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 #include <string>
@@ -15,6 +16,7 @@ namespace coastmesh::test {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 // Land from longitude 0.1 on, in a frame from (0, 50) to (0.2, 50.1), with heights in pixels of 0.002 degrees.
 class FloodPlainRun : public ProgramTest {
@@ -144,6 +146,76 @@ TEST_F(FloodPlainRun, SidesOfAFrameAcrossLandAreLand) {
     }
   }
   EXPECT_GT(open, 20u);
+}
+
+// Meshes with the plain: one of all, and a part of it.
+class Nest : public FloodPlainRun {
+ protected:
+  Nest() {
+    const std::string heights = dem(slope);
+    const auto make = [&](const std::string& name, const std::string& box, const std::string& shore,
+                          const std::string& most) {
+      const ProgramRun run = runProgram({"mesh", file("land.geojson"), "--domain", "outside", "--bbox", box,
+                                         "--bathymetry", heights, "--flood-height", "10", "--size-shore", shore,
+                                         "--size-max", most, "--coast", "follow", "-o", file(name), "--quiet"});
+      EXPECT_EQ(run.code, 0) << run.errors;
+    };
+    make("outer.nc", "0,50,0.2,50.1", "400", "1500");
+    make("nest.nc", "0.06,50.03,0.13,50.07", "150", "500");
+  }
+  double areaOf(const std::string& name) const {
+    return nlohmann::json::parse(runProgram({"info", file(name), "--json"}).output).at("area_m2").get<double>();
+  }
+};
+
+TEST_F(Nest, IsJoinedAcrossThePlainToo) {
+  const ProgramRun run = runProgram(
+      {"merge", file("outer.nc"), file("nest.nc"), "-o", file("both.nc"), "-o", file("both.14"), "--target", "adcirc"});
+  ASSERT_EQ(run.code, 0) << run.errors;
+  EXPECT_THAT(run.output, HasSubstr(" of them sides of its frame across land\n"));
+  EXPECT_THAT(run.errors, Not(HasSubstr("stay closed")));
+  EXPECT_NEAR(areaOf("both.nc") / areaOf("outer.nc"), 1.0, 1e-4);
+}
+
+TEST_F(Nest, SidesThatStayClosedAreNamed) {
+  // The outer mesh's depths say that all of it is water.
+  const std::string deep = dem([](double, double) { return -20.0; });
+  ASSERT_EQ(runProgram({"convert", file("outer.nc"), "--bathymetry", deep, "-o", file("deep.nc"), "--quiet"}).code, 0);
+  const ProgramRun run = runProgram({"merge", file("deep.nc"), file("nest.nc"), "-o", file("both.nc")});
+  ASSERT_EQ(run.code, 0) << run.errors;
+  EXPECT_THAT(run.output, Not(HasSubstr("across land")));
+  EXPECT_THAT(run.errors, HasSubstr(" m of its land boundary run through triangles of the other mesh, such as at ("));
+  EXPECT_THAT(run.errors, HasSubstr("): they stay closed; if they are sides of its frame, convert --boundaries"));
+  EXPECT_LT(areaOf("both.nc") / areaOf("outer.nc"), 0.99);
+}
+
+TEST_F(Nest, LandOfAMeshIsNoMistake) {
+  const std::string deep = dem([](double, double) { return -20.0; });
+  ASSERT_EQ(runProgram({"convert", file("outer.nc"), "--bathymetry", deep, "-o", file("deep.nc"), "--quiet"}).code, 0);
+  const std::string heights = dem(slope);
+  const auto warningsOf = [&](const std::string& mesh) {
+    const ProgramRun run = runProgram({"remesh", file(mesh), "--bbox=0.11,50.02,0.14,50.08", "--size", "200",
+                                       "--bathymetry", heights, "-o", file("finer.nc"), "--overwrite"});
+    EXPECT_EQ(run.code, 0) << run.errors;
+    return run.errors;
+  };
+  EXPECT_THAT(warningsOf("outer.nc"), Not(HasSubstr("--depth-sign")));
+  EXPECT_THAT(warningsOf("deep.nc"), HasSubstr("--depth-sign"));
+}
+
+TEST_F(Nest, AMinimumDepthOfNewNodesIsForTheWater) {
+  const ProgramRun run =
+      runProgram({"remesh", file("outer.nc"), "--bbox=0.08,50.02,0.14,50.08", "--size", "200", "--bathymetry",
+                  dem(slope), "--min-depth", "30", "-o", file("fort.14"), "--quiet"});
+  ASSERT_EQ(run.code, 0) << run.errors;
+  std::size_t lowered = 0;
+  for (const Node& node : nodes()) {
+    lowered += node.depth == 30.0;
+    if (node.lon > 0.108) {  // an edge of the mesh before from the coast
+      EXPECT_LT(node.depth, 0.0) << node.lon << " " << node.lat;
+    }
+  }
+  EXPECT_GT(lowered, 20u);
 }
 
 TEST_F(FloodPlainRun, WhatCannotBeMeant) {

@@ -21,6 +21,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using testing::kNoValue;
 using testing::lattice;
 using testing::RasterShape;
@@ -400,6 +401,36 @@ TEST_F(Depth, WarnsOfTheWrongSign) {
   const auto depths = raster("dep.tif", "EPSG:4326", {60, 60, 8.0, 54.0, 0.1}, [](double, double) { return 40.0; });
   ASSERT_EQ(setDepths(grid, {{depths}}).warnings.size(), 1u);
   EXPECT_THAT(setDepths(grid, {{depths}}).warnings[0], HasSubstr("--depth-sign"));
+}
+
+// A plain is above the water in the mesh already.
+TEST_F(Depth, LandThatWasThereBeforeIsNoSign) {
+  const auto heights = raster("dem.tif", "EPSG:4326", {60, 60, 8.0, 54.0, 0.1}, [](double, double) { return 3.0; });
+  DepthOptions options{{heights}};
+  options.keep_known = true;
+  const auto warningsOf = [&](double z) {
+    Grid grid = squares("EPSG:4326", {10.0, 50.0}, 0.25, 8, 8);
+    grid.z.assign(grid.nodes.size(), z);
+    return setDepths(grid, options).warnings;
+  };
+  EXPECT_THAT(warningsOf(2.5), IsEmpty());
+  EXPECT_THAT(warningsOf(-2.5), ElementsAre(HasSubstr("--depth-sign")));
+}
+
+// A mesh with a plain, in a part of which nodes are new: only those in its water get the minimum depth.
+TEST_F(Depth, LeastDepthSparesLandThatWasThereBefore) {
+  const auto heights = raster("dem.tif", "EPSG:4326", {60, 60, 8.0, 54.0, 0.1}, [](double, double) { return 3.0; });
+  DepthOptions options{{heights}};
+  options.min_depth_m = 2.0;
+  options.keep_known = true;
+  for (const bool keeps : {true, false}) {
+    options.keep_land = keeps;
+    Grid grid = squares("EPSG:4326", {10.0, 50.0}, 0.25, 8, 8);
+    for (const Point& p : grid.nodes) grid.z.push_back(p.x < 11.1 ? -2.5 : 2.5);
+    setDepths(grid, options);
+    for (std::size_t i = 0; i < grid.nodes.size(); ++i)
+      EXPECT_EQ(grid.z[i], grid.nodes[i].x < 11.1 || !keeps ? -2.0 : 3.0);
+  }
 }
 
 // Heights of a lake's bed are all far above the raster's zero; depths given as heights begin at zero.
