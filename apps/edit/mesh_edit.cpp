@@ -8,6 +8,7 @@
 #include "apps/report/report_sections.hpp"
 #include "gis/cut/number_table.hpp"
 #include "gis/elements/elements.hpp"
+#include "gis/fields/node_fields.hpp"
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/merge/source_table.hpp"
 #include "parallel/recorder.hpp"
@@ -63,6 +64,7 @@ EditedMesh editMesh(std::string_view name, Grid& grid,
     before.insert(before.begin(), std::move(elements_before));
     of_edit.checkpoint(1.0);
     edited.finish = finishGrid(grid, finish, controlOf("finish", control), loop);
+    roundStates(grid);
     if (finish.targets.empty()) made.warnings.push_back(windingWarning(grid, loop));
     edited.warnings = std::move(made.warnings);
     edited.sources = std::move(made.sources);

@@ -23,12 +23,12 @@ constexpr std::array<FieldName, 18> kFields{{
     {"friction", "", "", "friction coefficient of the bed", "", kNone},
     {"primitive_weighting_in_continuity_equation", "tau0", "1",
      "weight of the primitive form in the wave continuity equation", "", kNone},
-    {"surface_submergence_state", "", "1", "1 where the model starts dry below the geoid", "", 0.0},
+    {"surface_submergence_state", "", "1", "1 where the model starts dry below the geoid", "", 0.0, true},
     {"surface_directional_effective_roughness_length", "", "m", "roughness length of the land upwind", "", 0.0},
     {"surface_canopy_coefficient", "canopy", "1", "0 where a canopy keeps the wind off the water, else 1", "", 1.0},
     {"sea_surface_height_above_geoid", "geoid", "m", "sea surface height above the geoid",
      "sea_surface_height_above_geoid", 0.0},
-    {"wave_refraction_in_swan", "", "1", "1 where SWAN computes refraction", "", 1.0},
+    {"wave_refraction_in_swan", "", "1", "1 where SWAN computes refraction", "", 1.0, true},
     {"average_horizontal_eddy_viscosity_in_sea_water_wrt_depth", "eddy_viscosity", "m2 s-1",
      "horizontal eddy viscosity", "", kNone},
     {"average_horizontal_eddy_diffusivity_in_sea_water_wrt_depth", "eddy_diffusivity", "m2 s-1",
@@ -56,6 +56,11 @@ const FieldName* findFieldName(std::string_view name) {
   const auto found = std::ranges::find_if(
       kFields, [name](const FieldName& field) { return field.name == name || (field.alias == name && !name.empty()); });
   return found == kFields.end() ? nullptr : &*found;
+}
+
+bool isState(std::string_view name) {
+  const FieldName* const known = findFieldName(name);
+  return known != nullptr && known->is_state;
 }
 
 std::string fullFieldName(const std::string& name) {

@@ -13,10 +13,14 @@ struct FieldName {
   std::string_view long_name;
   std::string_view standard_name;  // of CF; empty: none
   double usual;                    // where the attribute has no effect; NaN: nowhere
+  bool is_state = false;           // 0 or 1, and nothing between
 };
 
 // Null for a name that is not known, of either kind.
 const FieldName* findFieldName(std::string_view name);
+
+// True for an attribute, by its full name, whose values are not interpolated.
+bool isState(std::string_view name);
 
 // ADCIRC's name of an attribute that it knows, otherwise `name`.
 std::string fullFieldName(const std::string& name);

@@ -78,6 +78,13 @@ double roundedValue(double value) {
   return rounded + 0.0;  // never -0
 }
 
+void roundStates(Grid& grid) {
+  for (NodeField& field : grid.node_fields)
+    if (isState(field.name))
+      for (double& value : field.values)
+        if (!std::isnan(value)) value = value < 0.5 ? 0.0 : 1.0;
+}
+
 void requireFields(const Grid& grid, const std::string& path) {
   for (const NodeField& field : grid.node_fields) {
     const auto unknown = std::ranges::find_if(field.values, [](double value) { return std::isnan(value); });

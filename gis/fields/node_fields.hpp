@@ -31,6 +31,9 @@ std::string variableWordOf(const NodeField& field);
 // 0.0250000004. NaN stays NaN.
 double roundedValue(double value);
 
+// Gives states (`isState`) the nearer of 0 and 1: edits of grids interpolate between nodes.
+void roundStates(Grid& grid);
+
 // Throws OutputError if a value is unknown; for formats that need one at every node.
 void requireFields(const Grid& grid, const std::string& path);
 

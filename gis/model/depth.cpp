@@ -172,7 +172,8 @@ DepthReport setDepths(Grid& grid, const DepthOptions& options, const RunControl&
   DepthReport report;
   if (options.files.empty()) return report;
   const std::vector<double> before = options.keep_known ? std::move(grid.z) : std::vector<double>();
-  RasterValues search(grid, {options.method == DepthMethod::Average, BandValues::Lengths, options.readers}, loop);
+  RasterValues search(grid, {options.method == DepthMethod::Average, false, BandValues::Lengths, options.readers},
+                      loop);
   for (const std::string& file : options.files) search.take({file}, control);
   grid.z = search.finish();
   takeCounts(search.counts(), report);

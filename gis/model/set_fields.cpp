@@ -42,7 +42,7 @@ std::size_t countUnknown(const std::vector<double>& values) {
 
 std::vector<double> sampled(const Grid& grid, const FieldPlan& plan, DepthMethod method, FieldReport& report,
                             const RunControl& control, const ItemLoop& loop) {
-  RasterValues search(grid, {method == DepthMethod::Average, BandValues::AsTheyAre, nullptr}, loop);
+  RasterValues search(grid, {method == DepthMethod::Average, isState(plan.name), BandValues::AsTheyAre, nullptr}, loop);
   for (const FieldSource& raster : plan.rasters) {
     std::optional<PixelClasses> classes;
     if (!raster.table.empty()) classes.emplace(raster.table);
@@ -117,7 +117,8 @@ FieldReport setField(Grid& grid, const FieldPlan& plan, DepthMethod method, Dept
   complete(plan, field, values, report);
   if (std::string warning = gapWarning(grid, values, plan.name, how); !warning.empty())
     report.warnings.push_back(std::move(warning));
-  report.filled = fillUnknown(grid, how, values, loop);
+  report.filled =
+      fillUnknown(grid, how == DepthFill::Neighbours && isState(plan.name) ? DepthFill::Nearest : how, values, loop);
   if (field == nullptr) {
     const FieldName* const known = findFieldName(plan.name);
     grid.node_fields.push_back({plan.name, known != nullptr ? std::string(known->unit) : std::string()});

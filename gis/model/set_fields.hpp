@@ -28,7 +28,7 @@ struct FieldReport {
 
 // Sets nodal attributes of a grid, in the order in which they are named first: of the first raster that has a value at
 // a node, by `method`, or by classes; else their number, else what the grid has, else as `fill` says. Values that are
-// computed have seven digits. Throws InputError, Cancelled.
+// computed have seven digits. States (`isState`) are those of the nearest pixel or node. Throws InputError, Cancelled.
 std::vector<FieldReport> setFields(Grid& grid, const std::vector<FieldSource>& sources, DepthMethod method,
                                    DepthFill fill, const RunControl& control = {}, const ItemLoop& loop = inOrder);
 

@@ -39,14 +39,14 @@ void RasterValues::take(const RasterSource& source, const RunControl& control) {
   std::vector<std::uint32_t> open = unknownNodes();
   if (open.empty()) return;
   const std::vector<Point> pixels = pixelsOf(grid_, raster, loop_);
-  if (how_.average || source.classes != nullptr) {
+  if (!how_.nearest && (how_.average || source.classes != nullptr)) {
     const auto samples = sampleAverage(raster, grid_, pixels, open, kLeastPixels, loop_, control, source.classes);
     counts_.averaged += put(open, samples, kMostPixels);
     open = unknownNodes();
   }
   put(open,
-      source.classes != nullptr ? sampleNearest(raster, pixels, open, *source.classes, loop_, control)
-                                : sampleBilinear(raster, pixels, open, how_.readers, loop_, control),
+      how_.nearest || source.classes != nullptr ? sampleNearest(raster, pixels, open, source.classes, loop_, control)
+                                                : sampleBilinear(raster, pixels, open, how_.readers, loop_, control),
       1.0);
 }
 

@@ -17,6 +17,7 @@ namespace coastmesh {
 // How values at nodes are made of pixels.
 struct RasterSampling {
   bool average = false;  // over the pixels in a node's triangles; bilinear if these contain fewer than four
+  bool nearest = false;  // that of the pixel that holds a node, whatever `average` says
   BandValues kind = BandValues::Lengths;
   const PixelReaders* readers = nullptr;  // readers of the rasters for bilinear values; null: the caller
 };

@@ -31,7 +31,7 @@ std::optional<PixelVisit> visitAt(const RasterBand& raster, const Point& pixel, 
 }
 
 // Reads the pixels of one tile.
-void readTile(const RasterBand& raster, std::span<PixelVisit> visits, const PixelClasses& classes,
+void readTile(const RasterBand& raster, std::span<PixelVisit> visits, const PixelClasses* classes,
               std::vector<RasterSample>& samples) {
   const auto [left, right] = std::ranges::minmax(visits, {}, &PixelVisit::column);
   const auto [top, bottom] = std::ranges::minmax(visits, {}, &PixelVisit::row);
@@ -41,7 +41,7 @@ void readTile(const RasterBand& raster, std::span<PixelVisit> visits, const Pixe
     const double read =
         values[static_cast<std::size_t>((visit.row - window.row) * window.columns + visit.column - window.column)];
     if (std::isnan(read)) continue;
-    const std::optional<double> value = classes.valueOf(read);
+    const std::optional<double> value = classes != nullptr ? classes->valueOf(read) : read;
     visit.lacks_value = !value;
     if (value) samples[visit.index] = {*value, 1.0};
   }
@@ -50,7 +50,7 @@ void readTile(const RasterBand& raster, std::span<PixelVisit> visits, const Pixe
 }  // namespace
 
 std::vector<RasterSample> sampleNearest(const RasterBand& raster, std::span<const Point> pixels,
-                                        std::span<const std::uint32_t> which, const PixelClasses& classes,
+                                        std::span<const std::uint32_t> which, const PixelClasses* classes,
                                         const ItemLoop& loop, const RunControl& control) {
   std::vector<PixelVisit> visits;
   for (std::size_t i = 0; i < which.size(); ++i)
@@ -64,7 +64,7 @@ std::vector<RasterSample> sampleNearest(const RasterBand& raster, std::span<cons
                 readTile(own, std::span(visits).subspan(first, last - first), classes, samples);
               });
   const auto lacking = std::ranges::find(visits, true, &PixelVisit::lacks_value);
-  if (lacking != visits.end()) classes.failAt(raster, lacking->column, lacking->row);
+  if (lacking != visits.end()) classes->failAt(raster, lacking->column, lacking->row);
   return samples;
 }
 

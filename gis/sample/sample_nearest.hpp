@@ -12,10 +12,11 @@
 
 namespace coastmesh {
 
-// The value of the class of the pixel that holds `pixels[i]`, for each i of `which`, in its order. Each tile of the
-// raster is read once, several at the same time. Throws InputError, also for a class without a value; Cancelled.
+// The value of the pixel that holds `pixels[i]`, or that of its class if there are classes, for each i of `which`, in
+// its order. Each tile of the raster is read once, several at the same time. Throws InputError, also for a class
+// without a value; Cancelled.
 std::vector<RasterSample> sampleNearest(const RasterBand& raster, std::span<const Point> pixels,
-                                        std::span<const std::uint32_t> which, const PixelClasses& classes,
+                                        std::span<const std::uint32_t> which, const PixelClasses* classes,
                                         const ItemLoop& loop, const RunControl& control);
 
 }  // namespace coastmesh

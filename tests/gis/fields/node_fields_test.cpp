@@ -14,6 +14,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
+using ::testing::IsNan;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -69,6 +70,14 @@ TEST(NodeFields, MissingOnesGetTheirDefault) {
   EXPECT_THAT(findField(grid, "b")->values, ElementsAre(6, 6, 6, 6));
   EXPECT_THAT(findField(grid, "surface_canopy_coefficient")->values, ElementsAre(1, 1, 1, 1));
   EXPECT_THAT(addMissingFields(grid, other), IsEmpty());
+}
+
+TEST(NodeFields, StatesAreRoundedAndOthersAreNot) {
+  Grid grid = square(0);
+  grid.node_fields = {field("surface_submergence_state", {0.49, 0.5, 1, kUnknown}), field("a", {0.49, 0.5, 1, 0})};
+  roundStates(grid);
+  EXPECT_THAT(grid.node_fields[0].values, ElementsAre(0, 1, 1, IsNan()));
+  EXPECT_THAT(grid.node_fields[1].values, ElementsAre(0.49, 0.5, 1, 0));
 }
 
 TEST(NodeFields, MostFrequentIsTheLeastOfSeveral) {

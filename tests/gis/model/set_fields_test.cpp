@@ -84,6 +84,23 @@ TEST_F(SetFields, AreInterpolatedAndNotTakenForLengths) {
   EXPECT_THAT(grid.z, IsEmpty());
 }
 
+TEST_F(SetFields, StatesAreThoseOfTheNearestPixel) {
+  // Between the middles of pixels at 40 and 80 m, the fifth node would be 0.75.
+  const RasterShape shape{10, 10, -100, 200, 40};
+  const std::string file = raster("a.tif", shape, [](double x, double) { return x < 60 ? 1.0 : 0.0; });
+  for (const DepthMethod method : {DepthMethod::Bilinear, DepthMethod::Average}) {
+    Grid grid = fan(100);
+    setFields(grid, {{"surface_submergence_state", {}, file}}, method, DepthFill::Neighbours);
+    EXPECT_THAT(grid.node_fields[0].values, ElementsAre(1, 0, 0, 1, 1));
+  }
+  const std::string gaps = raster("b.tif", {40, 40, -100, 200, 10}, [](double x, double y) {
+    return x + y < 40 ? 1.0 : x + y > 160 ? 0.0 : kNoValue;
+  });
+  Grid grid = fan(100);
+  EXPECT_EQ(set(grid, {{"surface_submergence_state", {}, gaps}}).filled, 3u);
+  for (const double state : grid.node_fields[0].values) EXPECT_TRUE(state == 0.0 || state == 1.0) << state;
+}
+
 TEST_F(SetFields, ANumberIsThatOfNodesWithoutAValue) {
   // No value east of 50 m, not even in the pixel around it.
   const std::string file =
