@@ -296,6 +296,7 @@ void JobInput::addFloodPlain(const ItemLoop& loop) {
   for (std::size_t g = 0; g < groups_.size(); ++g)
     if (std::optional<Domain> domain = domainIfAny(g, loop)) waters.push_back(std::move(*domain));
   FloodPlain plain = floodPlainOf(coastline_, waters, options_.flood, loop);
+  plain_.emplace(waters);
   std::ranges::move(plain.features, std::back_inserter(coastline_.features));
   std::ranges::move(plain.notes, std::back_inserter(report_.notes));
   groups_ = groupFeatures(coastline_, reach(), loop);

@@ -6,6 +6,7 @@
 
 #include "apps/input/input_options.hpp"
 #include "gis/clean/areas_within.hpp"
+#include "gis/flood_plain/plain_land.hpp"
 #include "gis/model/boundary_rules.hpp"
 
 namespace coastmesh {
@@ -23,6 +24,8 @@ class JobInput {
   bool isPoly() const { return poly_.has_value(); }
   std::size_t groups() const { return groups_.size(); }
   const std::vector<std::size_t>& members(std::size_t group) const { return groups_[group]; }
+  // What tells the flood plain's land from the water; null without a flood plain.
+  const PlainLand* plain() const { return plain_ ? &*plain_ : nullptr; }
   // The features that are frames.
   const std::vector<std::size_t>& frames() const { return frames_; }
   std::size_t pointsOf(std::size_t group) const;
@@ -64,6 +67,7 @@ class JobInput {
   std::vector<std::vector<std::size_t>> groups_;
   std::vector<std::size_t> frames_;
   std::optional<AreasWithin> areas_;  // if small islands are left out
+  std::optional<PlainLand> plain_;
   std::optional<Pslg> poly_;
   std::optional<Projection> chosen_;  // if the user chose one; the same for all groups
 };

@@ -87,16 +87,41 @@ std::string summaryOf(const FieldReport& field) {
          std::to_string(field.unknown) + " unknown\n";
 }
 
+// Depths open no boundary on the land of a flood plain, whatever its height.
+BoundaryReport boundariesOf(Grid& grid, const FinishOptions& options, const ItemLoop& loop) {
+  const bool by_depth = options.plain != nullptr && options.boundaries.opensByDepth() && !grid.z.empty();
+  if (!by_depth) return assignBoundaries(grid, options.boundaries, loop);
+  const std::vector<double> heights = grid.z;
+  const LandFlags land = landFlags(grid, options.plain, loop);
+  for (std::size_t v = 0; v < grid.z.size(); ++v)
+    if (land.isLandNode(v)) grid.z[v] = std::max(grid.z[v], 0.0);
+  BoundaryReport report = assignBoundaries(grid, options.boundaries, loop);
+  grid.z = heights;
+  return report;
+}
+
+// Finds the flood plain's land below the water, which ADCIRC gets an attribute for, unless the user gives it.
+void markLowLand(Grid& grid, const FinishOptions& options, const std::vector<Target>& targets, const ItemLoop& loop,
+                 FinishReport& report) {
+  if (options.plain == nullptr) return;
+  report.low = findLowLand(grid, landFlags(grid, options.plain, loop));
+  const bool given = std::ranges::find(options.fields, kStartsDry, &FieldSource::name) != options.fields.end();
+  const bool for_adcirc = std::ranges::find(targets, Target::Adcirc) != targets.end();
+  report.starts_dry = for_adcirc && !given && !report.low.apart.empty();
+  if (report.starts_dry) markStartDry(grid, report.low);
+}
+
 }  // namespace
 
 std::vector<std::string> FinishReport::notes() const {
   std::vector<std::string> all;
   if (dry.edges > 0)
     all.push_back(std::to_string(dry.edges) +
-                  forCount(dry.edges, " edge of the frame's sides lies on dry land and is",
-                           " edges of the frame's sides lie on dry land and are") +
+                  forCount(dry.edges, " edge of the frame's sides lies on land and is",
+                           " edges of the frame's sides lie on land and are") +
                   " no open boundary" + amount(", %.3g km in all", dry.length_m / 1000.0) + ", the first at " +
                   pointText(dry.place));
+  if (std::string note = noteOf(low, starts_dry); !note.empty()) all.push_back(std::move(note));
   if (dropped.waters > 0 && dropped.share <= kMuchWater) all.push_back(textOf(dropped));
   return all;
 }
@@ -137,9 +162,11 @@ FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunContr
   const std::vector<Target> targets = targetsNamed(options.targets);
   DepthOptions depth = options.depth;
   depth.keep_known = hasDepths(grid);
+  if (options.plain != nullptr) depth.landOf = [&](const Grid& of) { return landFlags(of, options.plain, loop).nodes; };
   if (!grid.triangles.empty()) report.depth = setDepths(grid, depth, of_depths, loop);
-  if (options.close_dry && !options.depth.files.empty()) report.dry = closeDrySides(grid, options.depth.has_land, loop);
-  if (!grid.triangles.empty()) report.boundaries = assignBoundaries(grid, options.boundaries, loop);
+  if (options.close_dry && !options.depth.files.empty())
+    report.dry = closeDrySides(grid, options.depth.has_land, landFlags(grid, options.plain, loop), loop);
+  if (!grid.triangles.empty()) report.boundaries = boundariesOf(grid, options, loop);
   if (options.drop_apart) report.dropped = dropApartWaters(grid, options.grazed, loop);
   // The report is of the water that is left.
   if (report.dropped.waters > 0 && !depth.files.empty()) report.depth = setDepths(grid, depth, of_depths, loop);
@@ -170,6 +197,7 @@ FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunContr
   // Of the nodes that there are in the end.
   if (!grid.triangles.empty())
     report.fields = setFields(grid, options.fields, options.depth.method, options.depth.fill, control, loop);
+  markLowLand(grid, options, targets, loop, report);
   if (report.mended) report.lost = lossOf(before_m2, grid, loop);
   std::ranges::set_difference(asked, nodesAmong(grid, asked), std::back_inserter(report.lost_asked), lexLess);
   if (!targets.empty() && !isOneWater(grid, loop)) report.apart = apartWaters(grid, loop).size();

@@ -6,6 +6,7 @@
 #include "core/item_loop.hpp"
 #include "core/run_control.hpp"
 #include "gis/flood_plain/dry_sides.hpp"
+#include "gis/flood_plain/low_land.hpp"
 #include "gis/grid/grid.hpp"
 #include "gis/model/apart_waters.hpp"
 #include "gis/model/assign_boundaries.hpp"
@@ -26,6 +27,7 @@ struct FinishOptions {
   GrazedWaters grazed = GrazedWaters::Drop;
   // With depths, parts of open boundaries across dry land become land first; see `closeDrySides`.
   bool close_dry = false;
+  const PlainLand* plain = nullptr;  // tells the land of a flood plain from the water; null: the mesh has none
 
   bool any() const {
     return !depth.files.empty() || !fields.empty() || boundaries.any() || !targets.empty() || repair.time_step_s > 0.0;
@@ -43,6 +45,8 @@ struct RepairLoss {
 struct FinishReport {
   DepthReport depth;
   DrySides dry;
+  LowLand low;              // of the flood plain
+  bool starts_dry = false;  // an attribute was made of it
   std::vector<FieldReport> fields;
   BoundaryReport boundaries;
   bool mended = false;  // repairs were requested

@@ -239,7 +239,7 @@ void measureMeshed(const MeshJob& job, const JobInput& input, const std::vector<
 }
 
 // Adds to `finish` what follows from the meshed grid.
-void completeFinish(const MeshJob& job, const MeshJobResult& result, FinishOptions& finish) {
+void completeFinish(const MeshJob& job, const JobInput& input, const MeshJobResult& result, FinishOptions& finish) {
   finish.repair = {job.sizes.time_step_s / job.sizes.courant,
                    job.sizes.coast == CoastDetail::Follow,
                    job.mesh.refine.min_angle_deg,
@@ -249,6 +249,7 @@ void completeFinish(const MeshJob& job, const MeshJobResult& result, FinishOptio
   finish.repair.on_sphere = result.surfaces.contains(SurfaceKind::Sphere);
   finish.drop_apart = dropsWatersApart(job);
   finish.close_dry = true;
+  finish.plain = input.plain();
   finish.grazed = job.sizes.keep_water_given ? GrazedWaters::Keep : GrazedWaters::Drop;
 }
 
@@ -332,7 +333,7 @@ MeshJobResult runOnThreads(const MeshJob& given, const JobControl& control) {
   measureMeshed(job, input, merged, loop, result);
   if (!given.sizes.choose) noteRaisedShore(result);
   result.log.append(recorder.finish("grid"));
-  completeFinish(job, result, finish);
+  completeFinish(job, input, result, finish);
   finishStage(job, input, merged, finish, control, result);
   recorder = {};
   if (job.exchange.shards <= 1) warnOfIdleInputs(job, sizes, input, result);

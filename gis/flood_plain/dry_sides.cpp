@@ -40,10 +40,11 @@ std::vector<OpenChain> openChains(const std::vector<std::uint32_t>& loop, const 
 }
 
 // For each node of the chain, whether the edges at it are closed.
-std::vector<bool> closedAt(const OpenChain& chain, const std::vector<double>& z, bool to_the_coast) {
+template <typename IsDryNode>
+std::vector<bool> closedAt(const OpenChain& chain, const IsDryNode& isDryNode, bool to_the_coast) {
   std::vector<std::uint32_t> nodes = chain.nodes;
   std::vector<bool> closed(nodes.size(), false);
-  const auto isDry = [&](std::size_t i) { return z[nodes[i]] >= 0.0; };
+  const auto isDry = [&](std::size_t i) { return isDryNode(nodes[i]); };
   if (chain.is_loop) {  // dry stretches of a loop may pass its ends: found by going round twice
     nodes.insert(nodes.end(), chain.nodes.begin() + 1, chain.nodes.end());
   }
@@ -58,23 +59,45 @@ std::vector<bool> closedAt(const OpenChain& chain, const std::vector<double>& z,
   return closed;
 }
 
+// The edges of triangles on land, in the order of their corners.
+std::vector<NodePair> edgesOnLand(const Grid& grid, const LandFlags& land) {
+  std::vector<NodePair> edges;
+  for (std::size_t t = 0; t < land.triangles.size(); ++t) {
+    if (land.triangles[t] == 0) continue;
+    const auto& [a, b, c] = grid.triangles[t];
+    edges.insert(edges.end(), {NodePair{a, b}, NodePair{b, c}, NodePair{c, a}});
+  }
+  std::ranges::sort(edges);
+  return edges;
+}
+
 }  // namespace
 
-DrySides closeDrySides(Grid& grid, bool to_the_coast, const ItemLoop& loop) {
+DrySides closeDrySides(Grid& grid, bool to_the_coast, const LandFlags& land, const ItemLoop& loop) {
   const auto isOpen = [](const Boundary& boundary) { return boundary.role == BoundaryRole::Open; };
   if (grid.z.empty() || std::ranges::none_of(grid.boundaries, isOpen)) return {};
   const std::vector<std::vector<std::uint32_t>> loops = boundaryLoops(grid, loop);
   const EdgeKinds before(grid);
+  const std::vector<NodePair> on_land = edgesOnLand(grid, land);
+  const auto isDry = [&](std::uint32_t node) { return grid.z[node] >= 0.0 || land.isLandNode(node); };
   std::vector<NodePair> closed;
   std::vector<std::vector<Point>> lines;
+  const auto close = [&](std::uint32_t from, std::uint32_t to) {
+    closed.push_back({from, to});
+    lines.push_back({grid.nodes[from], grid.nodes[to]});
+  };
   for (const std::vector<std::uint32_t>& nodes : loops) {
-    const auto isOpenEdge = [&](std::uint32_t from, std::uint32_t to) { return before.isOpen(from, to); };
+    const auto isOpenEdge = [&](std::uint32_t from, std::uint32_t to) {
+      return before.isOpen(from, to) && !std::ranges::binary_search(on_land, NodePair{from, to});
+    };
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const std::uint32_t from = nodes[i], to = nodes[(i + 1) % nodes.size()];
+      if (before.isOpen(from, to) && !isOpenEdge(from, to)) close(from, to);
+    }
     for (const OpenChain& chain : openChains(nodes, isOpenEdge)) {
-      const std::vector<bool> at = closedAt(chain, grid.z, to_the_coast);
+      const std::vector<bool> at = closedAt(chain, isDry, to_the_coast);
       for (std::size_t i = 0; i + 1 < chain.nodes.size(); ++i) {
-        if (!at[i] && !at[i + 1]) continue;
-        closed.push_back({chain.nodes[i], chain.nodes[i + 1]});
-        lines.push_back({grid.nodes[chain.nodes[i]], grid.nodes[chain.nodes[i + 1]]});
+        if (at[i] || at[i + 1]) close(chain.nodes[i], chain.nodes[i + 1]);
       }
     }
   }

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "gis/geometry/box_tree.hpp"
+#include "gis/geometry/edges_below.hpp"
 #include "gis/geometry/planar_map.hpp"
 
 namespace coastmesh {
@@ -14,16 +14,19 @@ class FaceLocator {
  public:
   // REQUIRES: the arguments outlive the locator, which keeps references.
   FaceLocator(const PlanarMap& map, const std::vector<Point>& points,
-              const std::vector<std::pair<VertexId, VertexId>>& edges);
+              const std::vector<std::pair<VertexId, VertexId>>& edges)
+      : map_(map), edges_(points, edges) {}
 
   // The face that contains `place`; for a point on an edge, the face above it; on a vertical edge, either face. Exact.
-  std::uint32_t faceAt(const Point& place) const;
+  std::uint32_t faceAt(const Point& place) const {
+    const std::uint32_t below = edges_.at(place);
+    if (below == kNone) return PlanarMap::kOuterFace;
+    return map_.faceOf(2 * below + (edges_.runsEast(below) ? 0u : 1u));  // to the left of the edge, taken eastwards
+  }
 
  private:
   const PlanarMap& map_;
-  const std::vector<Point>& points_;
-  const std::vector<std::pair<VertexId, VertexId>>& edges_;
-  BoxTree tree_;
+  EdgesBelow edges_;
 };
 
 }  // namespace coastmesh

@@ -132,13 +132,16 @@ void takeCounts(const RasterCounts& counts, DepthReport& report) {
   report.warnings = counts.warnings;
 }
 
-// Lowers nodes to the minimum depth; those above the water only if not `mayBeLand(node)`. Returns how many.
+// Lowers nodes to the minimum depth, but none that `landOf` flags; those above the water only if not `mayBeLand(node)`.
+// Returns how many.
 template <typename MayBeLand>
 std::size_t lowerWhere(Grid& grid, const DepthOptions& options, const MayBeLand& mayBeLand) {
+  if (!std::isfinite(options.min_depth_m)) return 0;
+  const std::vector<std::uint8_t> land = options.landOf ? options.landOf(grid) : std::vector<std::uint8_t>();
   std::size_t lowered = 0;
   for (std::size_t i = 0; i < grid.z.size(); ++i) {
     double& z = grid.z[i];
-    if (!(z > 0.0 - options.min_depth_m) || (z >= 0.0 && mayBeLand(i))) continue;
+    if (!(z > 0.0 - options.min_depth_m) || (z >= 0.0 && mayBeLand(i)) || (!land.empty() && land[i] != 0)) continue;
     z = 0.0 - options.min_depth_m;
     ++lowered;
   }

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -36,10 +38,11 @@ struct DepthOptions {
   double min_depth_m = -std::numeric_limits<double>::infinity();  // metres: shallower nodes are lowered to this
   // Nodes above the water are land on purpose: `min_depth_m` does not lower them, and many are no mistake.
   bool has_land = false;
+  // Flags of nodes that are land too, though they may lie below the water, one for each; empty: there are none.
+  std::function<std::vector<std::uint8_t>(const Grid&)> landOf{};
   DepthFill fill = DepthFill::Neighbours;
   bool keep_known = false;  // nodes for which no raster has a value keep the z that they have, instead of being filled
-  bool keep_land =
-      false;  // with `keep_known`: those above the water before are land, which `min_depth_m` does not lower
+  bool keep_land = false;   // with `keep_known`: those above the water before are land, not lowered to `min_depth_m`
   const PixelReaders* readers = nullptr;  // readers of the rasters for bilinear depths; null: the caller
 };
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -126,6 +127,106 @@ TEST_F(FloodPlainRun, AMinimumDepthIsForTheWater) {
   }
 }
 
+// A dike of 4 m from the coast at 0.1 to 0.115; behind it a polder 1 m below the still water, which rises from 0.16 on.
+double polder(double lon, double) {
+  return lon < 0.1 ? -20.0 : lon < 0.115 ? 4.0 : lon < 0.16 ? -1.0 : 200.0 * (lon - 0.165);
+}
+
+class PolderRun : public FloodPlainRun {
+ protected:
+  ProgramRun meshPolder(const std::string& coast, const std::vector<std::string>& more) const {
+    std::vector<std::string> options{"--bathymetry", dem(polder), "--depth-method", "average", "--flood-height", "5",
+                                     "--size-shore", "400",       "--size-max",     "800",     "--coast",        coast,
+                                     "--min-depth",  "3"};
+    options.insert(options.end(), more.begin(), more.end());
+    return mesh(options);
+  }
+  // The nodes of fort.13 that do not have the default of its only attribute, which is 0.
+  std::set<std::size_t> startDry(const std::string& name = "fort.13") const {
+    std::istringstream text(readText(file(name)));
+    std::string line;
+    std::size_t count = 0, number = 0;
+    constexpr int kHeader = 8;  // lines: the last has the attribute's name again
+    for (int i = 0; i < kHeader; ++i) std::getline(text, line);
+    EXPECT_EQ(line, "surface_submergence_state");
+    text >> count;
+    std::set<std::size_t> nodes;
+    double value = 0.0;
+    while (nodes.size() < count && text >> number >> value) {
+      EXPECT_EQ(value, 1.0);
+      nodes.insert(number);
+    }
+    return nodes;
+  }
+};
+
+TEST_F(PolderRun, APolderIsLand) {
+  for (const std::string coast : {"follow", "keep"}) {
+    const ProgramRun run = meshPolder(coast, {"--target", "adcirc"});
+    ASSERT_EQ(run.code, 0) << run.errors;
+    const std::string all = run.output + run.errors;
+    EXPECT_THAT(all, Not(HasSubstr("dry opening")));
+    EXPECT_THAT(all, HasSubstr("nodes of the flood plain lie below the still water without a connection to it, the "
+                               "lowest by 1 m at "));
+    EXPECT_THAT(all, HasSubstr("surface_submergence_state is 1 there"));
+    const std::vector<Node> found = nodes();
+    std::size_t in_polder = 0, open = 0;
+    std::set<std::size_t> low;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const Node& node = found[i];
+      open += node.open;
+      if (node.lon > 0.104) {
+        EXPECT_FALSE(node.open) << node.lon << " " << node.lat;
+        if (node.depth > 0.0) low.insert(i + 1);
+      }
+      if (node.lon > 0.122 && node.lon < 0.147) {
+        ++in_polder;
+        EXPECT_NEAR(node.depth, 1.0, 1e-6) << node.lon << " " << node.lat;
+      }
+      if (node.lon > 0.106 && node.lon < 0.109) {
+        EXPECT_LT(node.depth, 0.0) << "the dike at " << node.lat;
+      }
+      if (node.open) {
+        EXPECT_GE(node.depth, 3.0);
+      }
+    }
+    EXPECT_GT(in_polder, 30u);
+    EXPECT_GT(open, 10u);
+    EXPECT_EQ(startDry(), low);
+  }
+}
+
+TEST_F(PolderRun, RemeshingKeepsWhatStartsDry) {
+  ASSERT_EQ(meshPolder("follow", {"--target", "adcirc"}).code, 0);
+  const std::size_t before = startDry().size();
+  const ProgramRun run = runProgram({"remesh", file("fort.14"), "--bbox", "0.11,50.02,0.15,50.08", "--size", "250",
+                                     "--target", "adcirc", "-o", file("finer.14")});
+  ASSERT_EQ(run.code, 0) << run.errors;
+  EXPECT_GT(startDry("finer.13").size(), before + 20);
+}
+
+TEST_F(PolderRun, DepthsOpenNoBoundaryOnLand) {
+  ASSERT_EQ(meshPolder("follow", {"--open-deeper", "0.5"}).code, 0);
+  for (const Node& node : nodes())
+    if (node.lon > 0.104) {
+      EXPECT_FALSE(node.open) << node.lon << " " << node.lat;
+    }
+}
+
+TEST_F(PolderRun, OnlyAdcircGetsAnAttribute) {
+  const ProgramRun run = meshPolder("follow", {"--target", "schism"});
+  ASSERT_EQ(run.code, 0) << run.errors;
+  EXPECT_THAT(run.output + run.errors, HasSubstr("models start them wet"));
+  EXPECT_FALSE(std::filesystem::exists(file("fort.13")));
+}
+
+TEST_F(PolderRun, TheUsersAttributeIsKept) {
+  const ProgramRun run = meshPolder("follow", {"--target", "adcirc", "--attribute", "surface_submergence_state=0"});
+  ASSERT_EQ(run.code, 0) << run.errors;
+  EXPECT_THAT(run.output + run.errors, HasSubstr("models start them wet"));
+  EXPECT_TRUE(startDry().empty());
+}
+
 TEST_F(FloodPlainRun, SidesOfAFrameAcrossLandAreLand) {
   // The polygon is land and water.
   write("land.geojson", geoJsonPolygons({{{{-1, 49}, {1, 49}, {1, 51}, {-1, 51}}}}));
@@ -134,7 +235,7 @@ TEST_F(FloodPlainRun, SidesOfAFrameAcrossLandAreLand) {
       runProgram({"mesh", file("land.geojson"), "--domain", "inside", "--bbox", "0,50,0.2,50.1", "--bathymetry",
                   heights, "--size", "800", "--target", "adcirc", "-o", file("fort.14")});
   ASSERT_EQ(run.code, 0) << run.errors;
-  EXPECT_THAT(run.output + run.errors, HasSubstr("lie on dry land and are no open boundary"));
+  EXPECT_THAT(run.output + run.errors, HasSubstr("lie on land and are no open boundary"));
   std::size_t open = 0;
   for (const Node& node : nodes()) {
     open += node.open;

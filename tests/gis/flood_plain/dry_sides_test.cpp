@@ -5,7 +5,9 @@
 
 #include <limits>
 #include <set>
+#include <tuple>
 
+#include "core/metric.hpp"
 #include "gis/grid/boundary_chains.hpp"
 #include "tests/gis/grid_samples.hpp"
 
@@ -80,6 +82,46 @@ TEST(DrySides, StretchesAtTheCoastBecomeLand) {
   grid = squareOf(south);
   closeDrySides(grid, true);
   EXPECT_EQ(openInTheSouth(grid), (Edges{2, 3, 4, 5, 6, 7, 8}));
+}
+
+// Flags of land on the squares from `first` to `last` along y = 0, counted by their west sides.
+LandFlags landOnSquares(const Grid& grid, double first, double last) {
+  LandFlags land;
+  land.nodes.assign(grid.nodes.size(), 1);
+  for (const auto& corners : grid.triangles) {
+    Point middle;
+    for (const std::uint32_t corner : corners) middle = middle + (1.0 / 3.0) * grid.nodes[corner];
+    land.triangles.push_back(middle.y < 1.0 && middle.x > first && middle.x < last + 1.0);
+    if (land.triangles.back() == 0)
+      for (const std::uint32_t corner : corners) land.nodes[corner] = 0;
+  }
+  return land;
+}
+
+TEST(DrySides, LandOfAFloodPlainIsLandBelowTheWaterToo) {
+  const std::vector<double> south(11, kWet);
+  for (const auto& [first, last, open] :
+       {std::tuple{3.0, 6.0, Edges{0, 1, 2, 7, 8, 9}}, std::tuple{0.0, 3.0, Edges{4, 5, 6, 7, 8, 9}},
+        std::tuple{4.0, 4.0, Edges{0, 1, 2, 3, 5, 6, 7, 8, 9}},  // a narrow bar
+        std::tuple{0.0, 9.0, Edges{}}}) {
+    Grid grid = squareOf(south);
+    const DrySides dry = closeDrySides(grid, true, landOnSquares(grid, first, last));
+    EXPECT_EQ(openInTheSouth(grid), open) << first;
+    EXPECT_EQ(dry.edges, 10u - open.size());
+  }
+}
+
+TEST(DrySides, ADikeInFrontOfAPolderIsNotBreached) {
+  const std::vector<double> south{kWet, kWet, kWet, kDry, kWet, kWet, kWet, kWet, kWet, kWet, kWet};
+  Grid grid = squareOf(south);
+  closeDrySides(grid, true);
+  EXPECT_EQ(openInTheSouth(grid), kAll);  // as if both sides were water
+  grid = squareOf(south);
+  closeDrySides(grid, true, landOnSquares(grid, 3.0, 9.0));
+  EXPECT_EQ(openInTheSouth(grid), (Edges{0, 1}));
+  grid = squareOf(south);
+  closeDrySides(grid, false, landOnSquares(grid, 3.0, 9.0));
+  EXPECT_EQ(openInTheSouth(grid), (Edges{0, 1, 2}));
 }
 
 TEST(DrySides, AllAroundTheMesh) {
