@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "apps/job/mesh_area.hpp"
 #include "core/quality.hpp"
@@ -111,6 +112,20 @@ void markLowLand(Grid& grid, const FinishOptions& options, const std::vector<Tar
   if (report.starts_dry) markStartDry(grid, report.low);
 }
 
+// Weirs between pairs of nodes are walls to other models, so these keep the edges.
+void openWeirsOf(Grid& grid, const std::vector<WeirSource>& weirs, std::span<const Target> targets,
+                 double min_angle_deg, const ItemLoop& loop, FinishReport& report) {
+  if (std::ranges::find(targets, Target::Adcirc) == targets.end()) return;
+  const auto hasCrest = [](const WeirSource& weir) { return weir.crest.has_value(); };
+  if (targets.size() == 1)
+    report.weirs = openWeirs(grid, weirs, min_angle_deg, loop);
+  else if (std::ranges::any_of(weirs, hasCrest))
+    report.weirs.warnings.push_back(
+        "weirs stay edges of the mesh: it is for other models besides ADCIRC, which would "
+        "get walls; give --target adcirc alone for weirs with pairs of nodes");
+  report.beds = lowerBedsAtWeirs(grid);
+}
+
 }  // namespace
 
 std::vector<std::string> FinishReport::notes() const {
@@ -123,6 +138,7 @@ std::vector<std::string> FinishReport::notes() const {
                   pointText(dry.place));
   if (std::string note = noteOf(low, starts_dry); !note.empty()) all.push_back(std::move(note));
   if (dropped.waters > 0 && dropped.share <= kMuchWater) all.push_back(textOf(dropped));
+  std::ranges::move(weirs.notes(), std::back_inserter(all));
   return all;
 }
 
@@ -149,6 +165,7 @@ std::vector<std::string> FinishReport::warnings() const {
     all.push_back(std::to_string(apart) + forCount(apart, " water has", " waters have") +
                   " no connection to an open boundary; check names their places, and --coast follow with --keep-water "
                   "open leaves them out");
+  all.insert(all.end(), weirs.warnings.begin(), weirs.warnings.end());
   return all;
 }
 
@@ -201,6 +218,7 @@ FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunContr
   if (report.mended) report.lost = lossOf(before_m2, grid, loop);
   std::ranges::set_difference(asked, nodesAmong(grid, asked), std::back_inserter(report.lost_asked), lexLess);
   if (!targets.empty() && !isOneWater(grid, loop)) report.apart = apartWaters(grid, loop).size();
+  openWeirsOf(grid, options.weirs, targets, how.min_angle_deg, loop, report);
   return report;
 }
 
@@ -219,6 +237,7 @@ std::string finishSummary(const FinishOptions& options, const FinishReport& repo
     text += line;
   }
   for (const FieldReport& field : report.fields) text += summaryOf(field);
+  for (const std::string& note : report.beds.notes()) text += note + "\n";
   constexpr std::size_t kRepairsShown = 20;
   const std::vector<Repair>& repairs = report.repairs.repairs;
   for (std::size_t i = 0; i < std::min(kRepairsShown, repairs.size()); ++i)

@@ -13,6 +13,8 @@
 #include "gis/model/depth.hpp"
 #include "gis/model/set_fields.hpp"
 #include "gis/repair/repair_target.hpp"
+#include "gis/weirs/beds_at_weirs.hpp"
+#include "gis/weirs/open_weirs.hpp"
 
 namespace coastmesh {
 
@@ -28,6 +30,7 @@ struct FinishOptions {
   // With depths, parts of open boundaries across dry land become land first; see `closeDrySides`.
   bool close_dry = false;
   const PlainLand* plain = nullptr;  // tells the land of a flood plain from the water; null: the mesh has none
+  std::vector<WeirSource> weirs{};   // those of the lines in the mesh; ADCIRC gets boundaries of them
 
   bool any() const {
     return !depth.files.empty() || !fields.empty() || boundaries.any() || !targets.empty() || repair.time_step_s > 0.0;
@@ -53,7 +56,9 @@ struct FinishReport {
   RepairReport repairs;
   RepairLoss lost;
   DroppedWaters dropped;
-  std::size_t apart = 0;          // such waters that are left, if targets are given
+  std::size_t apart = 0;  // such waters that are left, if targets are given
+  WeirReport weirs;
+  WeirBeds beds;                  // at weirs, for ADCIRC
   std::vector<Point> lost_asked;  // places of `RepairOptions::asked` that were nodes before, and are not now
 
   std::vector<std::string> notes() const;

@@ -59,7 +59,8 @@ Box surroundingsOf(const Grid& grid) {
 }
 
 // Names that the mesh has of features of that use: of lines, or of regions.
-std::set<std::string> namesIn(const Grid& grid, FeatureUse use) {
+std::set<std::string> namesIn(const MeshJobResult& result, FeatureUse use) {
+  const Grid& grid = result.grid;
   std::set<std::string> names;
   if (use == FeatureUse::Region) {
     for (const GridFeature& feature : grid.features) names.insert(feature.region);
@@ -67,6 +68,8 @@ std::set<std::string> namesIn(const Grid& grid, FeatureUse use) {
     const LineKind kind = use == FeatureUse::Weir ? LineKind::Weir : LineKind::Constraint;
     for (const GridLine& line : grid.lines)
       if (line.kind == kind) names.insert(line.name);
+    const std::vector<std::string>& opened = result.finish.weirs.names;
+    if (use == FeatureUse::Weir) names.insert(opened.begin(), opened.end());
   }
   return names;
 }
@@ -95,7 +98,7 @@ std::map<std::uint32_t, std::size_t> lostPoints(const MeshJobResult& result) {
 std::vector<std::string> idleFiles(const Coastline& coastline, FeatureUse use, const std::vector<std::string>& files,
                                    const MeshJobResult& result) {
   if (files.empty()) return {};
-  const std::set<std::string> names = namesIn(result.grid, use);
+  const std::set<std::string> names = namesIn(result, use);
   const std::map<std::uint32_t, std::size_t> lost = lostPoints(result);
   std::vector<std::string> idle;
   for (const std::string& file : files) {

@@ -208,6 +208,7 @@ FinishOptions finishOptionsOf(const MeshJob& job, const JobInput& input) {
   if (finish.boundaries.of_input.empty()) finish.boundaries.of_input = input.boundaries();
   if (!finish.boundaries.of_files) finish.boundaries.of_files = readBoundaryFiles(finish.boundaries);
   finish.boundaries.frame = job.input.frame.box;
+  finish.weirs = weirSources(input.coastline(), finish.depth.water_level_m);
   return finish;
 }
 
@@ -265,7 +266,7 @@ void finishStage(const MeshJob& job, const JobInput& input, const std::vector<Me
   const ItemLoop loop = recorder.loop("finish", RunControl{control.cancelled, {}});
   result.finish = finishGrid(result.grid, finish, inner, loop);
   std::ranges::move(result.finish.notes(), std::back_inserter(result.read.notes));
-  if (!result.finish.repairs.repairs.empty() || result.finish.dropped.waters > 0) {
+  if (!result.finish.repairs.repairs.empty() || result.finish.dropped.waters > 0 || result.finish.weirs.pairs > 0) {
     result.short_before_repairs = result.short_of.count;
     measureAgain(job, input, merged, true, loop, result);
     result.mesh_area_m2 = meshArea(result.grid, loop);

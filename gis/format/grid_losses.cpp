@@ -108,7 +108,9 @@ std::string wordsFor(GridPart part, const Grid& grid, const GridFormat& format) 
       std::string text = linesOf(grid) + ", whose edges stay in the mesh";
       const bool weirs = std::ranges::count(grid.lines, LineKind::Weir, &GridLine::kind) > 0;
       if (weirs && format.holds.has(GridPart::Weirs))
-        text += " (a weir of its own takes nodes across and heights, and lines have none)";
+        text +=
+            " (a weir of its own takes nodes across and heights: mesh --target adcirc makes it of --weirs with a "
+            "height)";
       return text;
     }
     case GridPart::LineNames: {
@@ -134,7 +136,9 @@ std::string wordsFor(GridPart part, const Grid& grid, const GridFormat& format) 
     }
     case GridPart::Weirs: {
       const std::size_t weirs = countBoundaries(grid, [](const Boundary& boundary) { return !boundary.weir.empty(); });
-      return weirs == 0 ? "" : "heights and nodes across of " + counted(weirs, "weir", "weirs") + " between shores";
+      return weirs == 0 ? ""
+                        : "heights and nodes across of " + counted(weirs, "weir", "weirs") +
+                              " between shores, which a .14 holds";
     }
     case GridPart::BareWeirs: {
       const std::size_t bare = countBoundaries(grid, isBareWeir);

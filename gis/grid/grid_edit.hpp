@@ -31,8 +31,8 @@ std::uint32_t addNodeBetween(Grid& grid, std::uint32_t a, std::uint32_t b, doubl
 // Moves a node `share` of the way towards the midpoint of `a` and `b`. Values are interpolated if those of both are
 // known.
 void moveNode(Grid& grid, std::uint32_t node, std::uint32_t a, std::uint32_t b, double share);
-// Gives `triangles`, which share no edge at the node with others, a copy of it at `place`. Lines along their edges use
-// it, and are cut where they come from others; boundaries keep the node.
+// Gives `triangles`, which share no edge of a line at the node with others, a copy of it at `place`. Lines along their
+// edges use it, and are cut where they come from others; boundaries keep the node.
 std::uint32_t detachTriangles(Grid& grid, std::uint32_t node, std::span<const std::uint32_t> triangles,
                               const Point& place);
 std::uint32_t copyTriangle(Grid& grid, std::uint32_t source, const GridCorners& corners);

@@ -1,0 +1,111 @@
+#include "gis/weirs/weir_crests.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "core/metric.hpp"
+#include "gis/coast/feature_names.hpp"
+#include "gis/crs/lon_lat.hpp"
+#include "gis/error.hpp"
+#include "gis/grid/grid_edit.hpp"
+#include "gis/grid/grid_lines.hpp"
+#include "gis/lower_case.hpp"
+
+namespace coastmesh {
+namespace {
+
+std::optional<double> numberOf(const Feature& feature, const std::string& attribute, double least) {
+  for (const auto& [key, value] : feature.attributes) {
+    if (lowerCase(key) != attribute || value.empty()) continue;
+    double number = 0.0;
+    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+    const bool whole = error == std::errc() && end == value.data() + value.size() && std::isfinite(number);
+    if (!whole || number < least)
+      throw InputError(featureInWords(feature) + ": its " + key + " \"" + value + "\" is no number" +
+                       (std::isfinite(least) ? " of 0 or more" : ""));
+    return number;
+  }
+  return std::nullopt;
+}
+
+std::optional<WeirCrest> crestOf(const Feature& feature, double zero_m) {
+  const auto height = numberOf(feature, kWeirHeight, -std::numeric_limits<double>::infinity());
+  const auto subcritical = numberOf(feature, kWeirSubcritical, 0.0);
+  const auto supercritical = numberOf(feature, kWeirSupercritical, 0.0);
+  if (!height) return std::nullopt;
+  const WeirCrest usual;
+  return WeirCrest{*height - zero_m, subcritical.value_or(usual.subcritical),
+                   supercritical.value_or(usual.supercritical)};
+}
+
+// Seen from a place: longitudes the short way round, and as long as latitudes there.
+class View {
+ public:
+  View(const Point& from, bool geographic)
+      : from_(from), geographic_(geographic), shrink_(geographic ? std::cos(toRadians(from.y)) : 1.0) {}
+
+  Point of(const Point& p) const {
+    const double dx = p.x - from_.x;
+    return {shrink_ * (geographic_ ? std::remainder(dx, 360.0) : dx), p.y - from_.y};
+  }
+
+ private:
+  Point from_;
+  bool geographic_;
+  double shrink_;
+};
+
+double squaredDistanceTo(const WeirSource& source, const View& view) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::vector<Point>& line : source.lines)
+    for (std::size_t i = 1; i < line.size(); ++i)
+      least = std::min(least, squaredDistanceToSegment({}, view.of(line[i - 1]), view.of(line[i])));
+  return least;
+}
+
+}  // namespace
+
+std::vector<WeirSource> weirSources(const Coastline& coastline, double zero_m) {
+  std::vector<WeirSource> sources;
+  for (const Feature& feature : coastline.features)
+    if (feature.use == FeatureUse::Weir)
+      sources.push_back({lineNameOf(feature), feature.lines, crestOf(feature, zero_m)});
+  return sources;
+}
+
+const WeirSource* sourceOf(const Grid& grid, const GridLine& line, const std::vector<WeirSource>& sources) {
+  std::vector<View> views;
+  for (const auto& [a, b] : edgesOf(line))
+    views.emplace_back(placeBetween(grid.crs, grid.nodes[a], grid.nodes[b], 0.5), grid.crs.geographic);
+  const WeirSource* closest = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (const WeirSource& source : sources) {
+    if (source.name != line.name) continue;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < views.size() && sum < least; ++i) sum += squaredDistanceTo(source, views[i]);
+    if (sum >= least) continue;
+    least = sum;
+    closest = &source;
+  }
+  return closest;
+}
+
+bool runsAsSource(const Grid& grid, const GridLine& line, const WeirSource& source) {
+  const Point &from = grid.nodes[line.nodes[0]], &to = grid.nodes[line.nodes[1]];
+  const View view(placeBetween(grid.crs, from, to, 0.5), grid.crs.geographic);
+  double least = std::numeric_limits<double>::infinity(), along = 0.0;
+  for (const std::vector<Point>& points : source.lines) {
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      const Point a = view.of(points[i - 1]), b = view.of(points[i]);
+      const double distance = squaredDistanceToSegment({}, a, b);
+      if (distance >= least) continue;
+      least = distance;
+      along = dot(view.of(to) - view.of(from), b - a);
+    }
+  }
+  return along >= 0.0;
+}
+
+}  // namespace coastmesh
