@@ -123,7 +123,7 @@ void openWeirsOf(Grid& grid, const std::vector<WeirSource>& weirs, std::span<con
     report.weirs.warnings.push_back(
         "weirs stay edges of the mesh: it is for other models besides ADCIRC, which would "
         "get walls; give --target adcirc alone for weirs with pairs of nodes");
-  report.beds = lowerBedsAtWeirs(grid);
+  report.beds = fitWeirsToBeds(grid);
 }
 
 }  // namespace

@@ -208,7 +208,8 @@ FinishOptions finishOptionsOf(const MeshJob& job, const JobInput& input) {
   if (finish.boundaries.of_input.empty()) finish.boundaries.of_input = input.boundaries();
   if (!finish.boundaries.of_files) finish.boundaries.of_files = readBoundaryFiles(finish.boundaries);
   finish.boundaries.frame = job.input.frame.box;
-  finish.weirs = weirSources(input.coastline(), finish.depth.water_level_m);
+  if (std::ranges::count(finish.targets, kTargetNames[static_cast<std::size_t>(Target::Adcirc)]) > 0)
+    finish.weirs = weirSources(input.coastline(), finish.depth.water_level_m);
   return finish;
 }
 

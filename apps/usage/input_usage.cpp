@@ -92,7 +92,8 @@ void declareInputOptions(OptionTable& table, InputOptions& options) {
   table.texts({"--constraints", "Lines and points to keep"}, options.constraints, kVectorFile, false,
               "lines and points in the water that become edges and vertices of the mesh");
   table.texts({"--weirs", "Weirs"}, options.weirs, kVectorFile, false,
-              "lines in the water that become edges of the mesh, marked as weirs if the output can hold lines");
+              "lines in the water that become edges of the mesh, marked as weirs if the output can hold lines; with "
+              "--target adcirc alone, those with an attribute height become its weirs between pairs of nodes");
   table.texts({"--regions", "Regions to mark"}, options.regions, kVectorFile, false,
               "polygons whose name is given to the triangles inside");
   table.flag({"--dissolve", "Join polygons that share an edge"}, options.dissolve,

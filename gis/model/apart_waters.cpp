@@ -95,18 +95,29 @@ Apart apartOf(const Grid& grid, const ItemLoop& loop) {
     }
   });
 
+  std::vector<Edge> there;
+  const auto triangleAt = [&](std::uint32_t a, std::uint32_t b) {
+    const auto [from, to] = std::minmax(a, b);
+    edges.listFrom(from, there);
+    const auto found = std::ranges::lower_bound(there, to, {}, &Edge::other);
+    return found == there.end() || found->other != to ? kNone : found->triangle;
+  };
+  for (const Boundary& boundary : grid.boundaries) {
+    for (std::size_t i = 0; i + 1 < boundary.back_nodes.size(); ++i) {
+      const std::uint32_t front = triangleAt(boundary.nodes[i], boundary.nodes[i + 1]);
+      const std::uint32_t back = triangleAt(boundary.back_nodes[i], boundary.back_nodes[i + 1]);
+      if (front != kNone && back != kNone) waters.unite(front, back);
+    }
+  }
   Apart apart;
   apart.reached.resize(grid.triangles.size(), 0);
   bool any = false;
-  std::vector<Edge> there;
   for (const Boundary& boundary : grid.boundaries) {
     if (boundary.role != BoundaryRole::Open && boundary.role != BoundaryRole::River) continue;
     for (std::size_t i = 0; i + 1 < boundary.nodes.size(); ++i) {
-      const auto [from, to] = std::minmax(boundary.nodes[i], boundary.nodes[i + 1]);
-      edges.listFrom(from, there);
-      const auto found = std::ranges::lower_bound(there, to, {}, &Edge::other);
-      if (found == there.end() || found->other != to) continue;
-      apart.reached[waters.find(found->triangle)] = 1;
+      const std::uint32_t t = triangleAt(boundary.nodes[i], boundary.nodes[i + 1]);
+      if (t == kNone) continue;
+      apart.reached[waters.find(t)] = 1;
       any = true;
     }
   }

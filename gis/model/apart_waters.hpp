@@ -17,7 +17,7 @@ struct ApartWater {
   friend bool operator==(const ApartWater&, const ApartWater&) = default;
 };
 
-// In the order of their first triangles. Water is connected through edges, not through single nodes.
+// In the order of their first triangles. Water is connected through edges, not through single nodes, and over weirs.
 std::vector<ApartWater> apartWaters(const Grid& grid, const ItemLoop& loop = inOrder);
 
 // A fast sufficient test: true only if all triangles are connected. REQUIRES: complete boundaries.

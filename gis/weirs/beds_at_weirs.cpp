@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -13,61 +14,87 @@
 namespace coastmesh {
 namespace {
 
-// Heights of the crests at the nodes of weirs, the lowest if there are several.
-std::map<std::uint32_t, double> crestsAtNodes(const Grid& grid) {
-  std::map<std::uint32_t, double> crests;
-  for (const Boundary& boundary : grid.boundaries) {
-    if (boundary.weir.empty()) continue;
-    const std::size_t values = boundary.weir.size() / boundary.nodes.size();
-    const auto add = [&](const std::vector<std::uint32_t>& nodes) {
-      for (std::size_t i = 0; i < nodes.size(); ++i) {
-        const double height = boundary.weir[i * values];
-        double& crest = crests.try_emplace(nodes[i], height).first->second;
-        crest = std::min(crest, height);
-      }
-    };
-    add(boundary.nodes);
-    add(boundary.back_nodes);
+constexpr double kAboveBed = 0.1;  // metres, of a crest
+
+std::size_t valuesAt(const Boundary& weir) { return weir.weir.size() / weir.nodes.size(); }
+
+// The bed beside nodes: the mean of their neighbours that are no weir's. NaN if there are none.
+class BedsBeside {
+ public:
+  // Of the nodes in `wanted`; `of_weirs`: all nodes of weirs.
+  BedsBeside(const Grid& grid, const std::set<std::uint32_t>& wanted, const std::set<std::uint32_t>& of_weirs) {
+    std::map<std::uint32_t, std::set<std::uint32_t>> beside;
+    for (const GridCorners& corners : grid.triangles)
+      for (const std::uint32_t node : corners)
+        if (wanted.contains(node))
+          for (const std::uint32_t other : corners)
+            if (!of_weirs.contains(other) && !std::isnan(grid.z[other])) beside[node].insert(other);
+    for (const auto& [node, others] : beside) {
+      double sum = 0.0;
+      for (const std::uint32_t other : others) sum += grid.z[other];
+      if (!others.empty()) mean_[node] = sum / static_cast<double>(others.size());
+    }
   }
-  return crests;
-}
+
+  double at(std::uint32_t node) const {
+    const auto found = mean_.find(node);
+    return found == mean_.end() ? NAN : found->second;
+  }
+
+ private:
+  std::map<std::uint32_t, double> mean_;
+};
 
 }  // namespace
 
 std::vector<std::string> WeirBeds::notes() const {
-  if (lowered == 0) return {};
-  return {std::to_string(lowered) +
-          forCount(lowered, " node of a weir is not below its crest, and gets",
-                   " nodes of weirs are not below their crests, and get") +
-          " the depth beside it, the first at " + pointText(first)};
+  std::vector<std::string> all;
+  if (lowered > 0)
+    all.push_back(std::to_string(lowered) +
+                  forCount(lowered, " node of a weir was as high as its crest, and has",
+                           " nodes of weirs were as high as their crests, and have") +
+                  " the depth beside it now, the first at " + pointText(first_lowered));
+  if (raised > 0)
+    all.push_back("the ground is as high as the crest at " + std::to_string(raised) +
+                  forCount(raised, " pair of nodes of a weir, whose crest is raised",
+                           " pairs of nodes of weirs, whose crests are raised") +
+                  amount(" to %g m above it", kAboveBed) + ", the first at " + pointText(first_raised));
+  return all;
 }
 
-WeirBeds lowerBedsAtWeirs(Grid& grid) {
-  constexpr double kBelowCrest = 0.1;  // metres
+WeirBeds fitWeirsToBeds(Grid& grid) {
   WeirBeds beds;
   if (grid.z.empty()) return beds;
-  const std::map<std::uint32_t, double> crests = crestsAtNodes(grid);
-  const auto isTooHigh = [&](std::uint32_t node) {
-    const auto crest = crests.find(node);
-    return crest != crests.end() && grid.z[node] >= crest->second;
+  std::set<std::uint32_t> of_weirs, high;
+  const auto forEachPair = [&grid](const auto& act) {
+    for (Boundary& boundary : grid.boundaries) {
+      for (std::size_t i = 0; !boundary.weir.empty() && i < boundary.nodes.size(); ++i) {
+        std::vector<std::uint32_t> nodes{boundary.nodes[i]};
+        if (!boundary.back_nodes.empty()) nodes.push_back(boundary.back_nodes[i]);
+        act(nodes, boundary.weir[i * valuesAt(boundary)]);
+      }
+    }
   };
-  std::map<std::uint32_t, std::set<std::uint32_t>> beside;
-  for (const auto& [node, crest] : crests)
-    if (isTooHigh(node)) beside[node];
-  if (beside.empty()) return beds;
-  for (const GridCorners& corners : grid.triangles)
-    for (const std::uint32_t node : corners)
-      if (const auto found = beside.find(node); found != beside.end())
-        for (const std::uint32_t other : corners)
-          if (!crests.contains(other) && !std::isnan(grid.z[other])) found->second.insert(other);
-  for (const auto& [node, others] : beside) {
-    double sum = 0.0;
-    for (const std::uint32_t other : others) sum += grid.z[other];
-    const double most = crests.at(node) - kBelowCrest;
-    const double mean = others.empty() ? most : sum / static_cast<double>(others.size());
-    grid.z[node] = roundedDepth(std::min(mean, most));
-    if (beds.lowered++ == 0) beds.first = grid.nodes[node];
-  }
+  forEachPair([&](const std::vector<std::uint32_t>& nodes, double height) {
+    of_weirs.insert(nodes.begin(), nodes.end());
+    for (const std::uint32_t node : nodes)
+      if (grid.z[node] >= height) high.insert(node);
+  });
+  if (high.empty()) return beds;
+  const BedsBeside beside(grid, high, of_weirs);
+  forEachPair([&](const std::vector<std::uint32_t>& nodes, double& height) {
+    double highest = -std::numeric_limits<double>::infinity();
+    for (const std::uint32_t node : nodes) {
+      if (grid.z[node] >= height && beside.at(node) <= height - kAboveBed) {
+        grid.z[node] = roundedDepth(beside.at(node));
+        if (beds.lowered++ == 0) beds.first_lowered = grid.nodes[node];
+      }
+      highest = std::max(highest, grid.z[node]);
+    }
+    if (highest < height) return;
+    height = roundedDepth(highest + kAboveBed);
+    if (beds.raised++ == 0) beds.first_raised = grid.nodes[nodes.front()];
+  });
   return beds;
 }
 

@@ -181,6 +181,7 @@ std::vector<std::string> WeirReport::notes() const {
 
 WeirReport openWeirs(Grid& grid, const std::vector<WeirSource>& sources, double min_angle_deg, const ItemLoop& loop) {
   WeirReport report;
+  if (sources.empty()) return report;
   const Crests crests = crestsOf(grid, sources, report);
   if (crests.empty()) return report;
   std::vector<std::uint32_t> lines;
