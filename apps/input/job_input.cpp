@@ -8,6 +8,7 @@
 #include "apps/input/working_plane.hpp"
 #include "core/metric.hpp"
 #include "core/triangulate/delaunay.hpp"
+#include "gis/clean/areas_within.hpp"
 #include "gis/clean/geodesic_area.hpp"
 #include "gis/clean/whole_turns.hpp"
 #include "gis/coast/feature_bounds.hpp"
@@ -101,7 +102,7 @@ JobInput::JobInput(const InputOptions& options, const ItemLoop& loop) : options_
     if (!cut.empty()) report_.warnings.push_back(cut);
   }
   groups_ = groupFeatures(coastline_, reach(), loop);
-  if (options_.min_island_area_m2 > 0.0) areas_.emplace(coastline_);
+  if (options_.min_island_area_m2 > 0.0) areas_ = std::make_shared<const AreasWithin>(coastline_);
   bendEdges();
   addFloodPlain(loop);
 }
@@ -262,7 +263,7 @@ Domain JobInput::domain(std::size_t group, CleanReport& report, const ItemLoop& 
   clean.snap_m = snapDistance().length;
   clean.simplify_m = options_.simplify_m;
   clean.min_island_area_m2 = options_.min_island_area_m2;
-  if (areas_) clean.areas = &*areas_;
+  clean.areas = areas_.get();
   clean.dissolve = options_.dissolve;
   clean.pinches = options_.pinches;
   return cleanFeatures(coastline_, groups_[group], projectionOf(group), clean, report, loop);

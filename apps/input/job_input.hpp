@@ -1,11 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/input/input_options.hpp"
-#include "gis/clean/areas_within.hpp"
 #include "gis/flood_plain/plain_land.hpp"
 #include "gis/model/boundary_rules.hpp"
 
@@ -66,7 +66,7 @@ class JobInput {
   BoundaryRules boundaries_;
   std::vector<std::vector<std::size_t>> groups_;
   std::vector<std::size_t> frames_;
-  std::optional<AreasWithin> areas_;  // if small islands are left out
+  std::shared_ptr<const AreasWithin> areas_;  // if small islands are left out; else null
   std::optional<PlainLand> plain_;
   std::optional<Pslg> poly_;
   std::optional<Projection> chosen_;  // if the user chose one; the same for all groups

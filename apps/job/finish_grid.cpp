@@ -16,6 +16,7 @@
 #include "gis/for_count.hpp"
 #include "gis/grid/local_plane.hpp"
 #include "gis/places.hpp"
+#include "gis/weirs/open_weirs.hpp"
 
 namespace coastmesh {
 

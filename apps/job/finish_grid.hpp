@@ -14,7 +14,8 @@
 #include "gis/model/set_fields.hpp"
 #include "gis/repair/repair_target.hpp"
 #include "gis/weirs/beds_at_weirs.hpp"
-#include "gis/weirs/open_weirs.hpp"
+#include "gis/weirs/weir_crests.hpp"
+#include "gis/weirs/weir_report.hpp"
 
 namespace coastmesh {
 

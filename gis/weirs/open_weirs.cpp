@@ -9,7 +9,6 @@
 
 #include "core/quality.hpp"
 #include "gis/crs/geodesy.hpp"
-#include "gis/for_count.hpp"
 #include "gis/grid/boundary_kinds.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/grid_lines.hpp"
@@ -17,6 +16,7 @@
 #include "gis/grid/local_plane.hpp"
 #include "gis/places.hpp"
 #include "gis/weirs/weir_cuts.hpp"
+#include "gis/weirs/weir_gaps.hpp"
 
 namespace coastmesh {
 namespace {
@@ -165,19 +165,6 @@ class WeirOpening {
 };
 
 }  // namespace
-
-std::vector<std::string> WeirReport::notes() const {
-  if (boundaries == 0) return {};
-  std::string text = std::to_string(boundaries) + forCount(boundaries, " weir", " weirs") + " for ADCIRC with " +
-                     std::to_string(pairs) + forCount(pairs, " pair", " pairs") + " of nodes, " +
-                     amount("%.3g", gaps.least);
-  if (gaps.most > gaps.least) text += amount(" to %.3g", gaps.most);
-  text += " m apart";
-  if (walls > 0)
-    text += "; water does not pass the " + std::to_string(walls) + forCount(walls, " edge", " edges") +
-            " at their ends and where they meet";
-  return {text};
-}
 
 WeirReport openWeirs(Grid& grid, const std::vector<WeirSource>& sources, double min_angle_deg, const ItemLoop& loop) {
   WeirReport report;

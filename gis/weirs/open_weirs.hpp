@@ -1,25 +1,13 @@
 #pragma once
 
-#include <cstddef>
-#include <string>
 #include <vector>
 
 #include "core/item_loop.hpp"
 #include "gis/grid/grid.hpp"
 #include "gis/weirs/weir_crests.hpp"
-#include "gis/weirs/weir_gaps.hpp"
+#include "gis/weirs/weir_report.hpp"
 
 namespace coastmesh {
-
-struct WeirReport {
-  std::size_t boundaries = 0, pairs = 0;
-  std::size_t walls = 0;  // edges of these weirs that water does not pass, at their ends and where they meet
-  WeirGaps gaps;
-  std::vector<std::string> names;     // of the lines that they were, each once
-  std::vector<std::string> warnings;  // lines that stay edges
-
-  std::vector<std::string> notes() const;
-};
 
 // Makes boundaries of type 24 of the lines that are weirs and have a height: nodes inside a line are divided, those of
 // the front lie to the left of the line as the input has it. Both have the values of the node before, and lie a little

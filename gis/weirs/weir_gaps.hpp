@@ -1,17 +1,13 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
-#include <vector>
 
 #include "gis/grid/grid.hpp"
 #include "gis/weirs/weir_cuts.hpp"
+#include "gis/weirs/weir_report.hpp"
 
 namespace coastmesh {
-
-// The gap between the sides of a weir, in metres (in a plane: in its units).
-struct WeirGaps {
-  double least = 0.0, most = 0.0;
-};
 
 // Moves the nodes that one node was divided into apart: along the shore if their sector has one, otherwise into the
 // middle of their sector. The gap between two is a fiftieth of the shortest edge there, from 0.5 to 10 m, and less than

@@ -21,6 +21,8 @@
 #include "apps/job/step_outcome.hpp"
 #include "gis/flood_plain/dry_sides.hpp"
 #include "gis/flood_plain/flood_options.hpp"
+#include "gis/flood_plain/low_land.hpp"
+#include "gis/flood_plain/plain_land.hpp"
 #include "gis/format/grid_io.hpp"
 #include "gis/size/size_depth.hpp"
 #include "gis/size/size_distance.hpp"
@@ -28,6 +30,9 @@
 #include "gis/size/size_field.hpp"
 #include "gis/size/size_raster.hpp"
 #include "gis/size/size_source.hpp"
+#include "gis/weirs/beds_at_weirs.hpp"
+#include "gis/weirs/weir_crests.hpp"
+#include "gis/weirs/weir_report.hpp"
 #include "tests/reference/folder.hpp"
 
 namespace coastmesh {
@@ -66,6 +71,85 @@ TEST_F(JobExamples, DrySides) {
   EXPECT_EQ(dry.edges, 2u);
   ASSERT_EQ(grid.boundaries.size(), 1u);
   EXPECT_EQ(grid.boundaries.front().role, BoundaryRole::Land);
+}
+
+// gis/flood_plain/plain_land.hpp: The land of a flood plain, whatever its height.
+TEST_F(JobExamples, PlainLand) {
+  Domain lake;  // a triangle in a plane
+  lake.pslg.points = lake.input_points = {{0, 0}, {9, 0}, {0, 9}};
+  for (VertexId i = 0; i < 3; ++i) lake.pslg.segments.push_back({i, (i + 1) % 3, 0, 0, kOutside});
+  //! [gis/flood_plain/plain_land.hpp]
+  const PlainLand land({lake});  // the waters of the coastline
+  const bool is_water = !land.isLand({2, 2});
+  Grid grid;
+  grid.nodes = {{1, 1}, {8, 8}, {2, 9}};
+  grid.triangles = {{0, 1, 2}};
+  const LandFlags flags = landFlags(grid, &land);  // the node at (1, 1) is water
+  //! [gis/flood_plain/plain_land.hpp]
+  EXPECT_TRUE(is_water);
+  EXPECT_FALSE(flags.isLandNode(0));
+  EXPECT_TRUE(flags.isLandNode(1));
+}
+
+// gis/flood_plain/low_land.hpp: Polders.
+TEST_F(JobExamples, LowLand) {
+  //! [gis/flood_plain/low_land.hpp]
+  Grid grid;
+  grid.nodes = {{0, 0}, {2, 0}, {1, 2}};
+  grid.triangles = {{0, 1, 2}};
+  grid.z = {-1.0, -2.0, 3.0};
+  const LowLand low = findLowLand(grid, {{1, 1, 1}, {1}});  // all of it is land of a flood plain
+  markStartDry(grid, low);                                  // an attribute for ADCIRC
+  //! [gis/flood_plain/low_land.hpp]
+  EXPECT_EQ(low.apart.size(), 2u);
+  EXPECT_EQ(low.lowest_m, 2.0);
+  ASSERT_EQ(grid.node_fields.size(), 1u);
+  EXPECT_EQ(grid.node_fields[0].values[2], 0.0);
+  EXPECT_NE(noteOf(low, true), "");
+}
+
+// gis/weirs/weir_crests.hpp: Heights of levees from the lines of a file.
+TEST_F(JobExamples, WeirCrests) {
+  //! [gis/weirs/weir_crests.hpp]
+  Coastline coastline;
+  Feature& levee = coastline.features.emplace_back();
+  levee.use = FeatureUse::Weir;
+  levee.lines = {{{0, 0}, {500, 0}}};
+  levee.attributes = {{"name", "west dike"}, {"height", "4.5"}};
+  const std::vector<WeirSource> weirs = weirSources(coastline, /*zero_m=*/0.5);
+  //! [gis/weirs/weir_crests.hpp]
+  ASSERT_TRUE(weirs.at(0).crest.has_value());
+  EXPECT_EQ(weirs[0].crest->height_m, 4.0);
+  EXPECT_EQ(weirs[0].name, "west dike");
+}
+
+// gis/weirs/weir_report.hpp: What became of levees.
+TEST_F(JobExamples, WeirReport) {
+  Grid grid;
+  //! [gis/weirs/weir_report.hpp]
+  FinishOptions options;
+  options.targets = {"adcirc"};
+  const FinishReport report = finishGrid(grid, options);
+  const bool has_weirs = report.weirs.pairs > 0;
+  const std::vector<std::string> notes = report.weirs.notes();
+  //! [gis/weirs/weir_report.hpp]
+  EXPECT_FALSE(has_weirs);
+  EXPECT_TRUE(notes.empty());
+}
+
+// gis/weirs/beds_at_weirs.hpp: Beds and crests that go together.
+TEST_F(JobExamples, WeirBeds) {
+  //! [gis/weirs/beds_at_weirs.hpp]
+  Grid grid;
+  grid.nodes = {{0, 0}, {2, 0}, {1, 2}};
+  grid.triangles = {{0, 1, 2}};
+  grid.z = {1.0, 1.0, -3.0};
+  Boundary& shore = grid.boundaries.emplace_back(Boundary{BoundaryRole::Land, false, {0, 1}, 3});
+  shore.weir = {0.5, 1.0, 0.5, 1.0};           // crests of 0.5 m, below their nodes
+  const WeirBeds beds = fitWeirsToBeds(grid);  // the nodes get the depth beside them
+  //! [gis/weirs/beds_at_weirs.hpp]
+  EXPECT_EQ(beds.lowered, 2u);
+  EXPECT_EQ(grid.z[0], -3.0);
 }
 
 // gis/flood_plain/flood_options.hpp: Land that is meshed besides the water.
