@@ -88,10 +88,10 @@ def check_netcdf4(path, mesh, crs):
         number = data["mesh2d_edge_line"]
         inside = [tuple(row - edges.start_index) for row, line in zip(edges[:], number[:]) if line > 0]
         expect("netCDF4: lines", sorted(tuple(map(int, edge)) for edge in inside), mesh.lines)
-        names = [bytes(row).rstrip(b"\0").decode() for row in data["mesh2d_line_name"][:]]
+        names = [str(name).rstrip("\0") for name in data["mesh2d_line_name"][:]]  # decoded by netCDF4
         expect("netCDF4: names of lines", sorted(names), sorted([WEIR_NAME, REGION_NAME]))
         expect("netCDF4: meanings", len(number.flag_meanings.split()), len(number.flag_values))
-        regions = [bytes(row).rstrip(b"\0").decode() for row in data["mesh2d_region_name"][:]]
+        regions = [str(name).rstrip("\0") for name in data["mesh2d_region_name"][:]]
         expect("netCDF4: regions", regions, [REGION_NAME])
         expect("netCDF4: triangles of regions", sorted(set(data["mesh2d_region"][:].tolist())), [0, 1])
     mapping = getattr(data["mesh2d_node_x"], "grid_mapping", None)
