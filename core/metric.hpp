@@ -35,6 +35,14 @@ inline double squaredDistanceToSegment(const Point& p, const Point& a, const Poi
 inline Point projectedOnLine(const Point& p, const Point& a, const Point& b) {
   return a + (dot(p - a, b - a) / squaredDistance(a, b)) * (b - a);
 }
+// How far along ab the point of it nearest to p lies, 0 to 1; 0 if a and b are one.
+inline double shareAlongSegment(const Point& p, const Point& a, const Point& b) {
+  const double square = squaredDistance(a, b);
+  return square > 0.0 ? std::clamp(dot(p - a, b - a) / square, 0.0, 1.0) : 0.0;
+}
+inline Point nearestOnSegment(const Point& p, const Point& a, const Point& b) {
+  return a + shareAlongSegment(p, a, b) * (b - a);
+}
 inline Point midpoint(const Point& a, const Point& b) { return {0.5 * (a.x + b.x), 0.5 * (a.y + b.y)}; }
 inline Point centroid(const Point& a, const Point& b, const Point& c) { return (1.0 / 3.0) * (a + b + c); }
 

@@ -1,25 +1,16 @@
 #include "gis/fields/field_source.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <tuple>
 #include <utility>
 
 #include "gis/fields/field_names.hpp"
+#include "gis/finite_number.hpp"
 #include "gis/lower_case.hpp"
 
 namespace coastmesh {
 
 namespace {
-
-std::optional<double> numberIn(const std::string& text) {
-  const char* const begin = text.data() + (text.starts_with('+') ? 1 : 0);
-  double number = 0.0;
-  const auto [stop, error] = std::from_chars(begin, text.data() + text.size(), number);
-  if (error != std::errc() || stop != text.data() + text.size() || !std::isfinite(number)) return std::nullopt;
-  return number;
-}
 
 // The raster and the table, which may be empty.
 std::pair<std::string, std::string> filesIn(const std::string& text) {
@@ -37,7 +28,7 @@ std::string addFieldSource(const std::string& text, std::vector<FieldSource>& so
   const std::string name = text.substr(0, equals), rest = text.substr(equals + 1);
   if (const std::string wrong = wrongFieldName(name); !wrong.empty())
     return "names an attribute, '" + name + "', that " + wrong;
-  FieldSource source{fullFieldName(name), numberIn(rest)};
+  FieldSource source{fullFieldName(name), finiteNumber(rest)};
   if (!source.number) std::tie(source.file, source.table) = filesIn(rest);
   if (!source.number && source.file.empty()) return "names a table, but no raster of classes";
   const auto hasNumber = [&](const FieldSource& other) { return other.name == source.name && other.number; };

@@ -47,7 +47,7 @@ double PassageSizes::mostAt(const Point& x) const {
   double most = std::numeric_limits<double>::infinity();
   tree_.visit(Box::of(x, x), [&](std::uint32_t item) {
     const auto& [a, b, size_a, size_b, elements] = pieces_[item];
-    const double share = std::clamp(dot(x - a, b - a) / squaredDistance(a, b), 0.0, 1.0);
+    const double share = shareAlongSegment(x, a, b);
     const double size = size_a + share * (size_b - size_a);
     const double off = std::sqrt(squaredDistanceToSegment(x, a, b)) - (0.5 * elements + kBeside) * size;
     most = std::min(most, size + std::max(0.0, off));

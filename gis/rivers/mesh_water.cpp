@@ -1,19 +1,8 @@
 #include "gis/rivers/mesh_water.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "core/metric.hpp"
 
 namespace coastmesh {
-
-namespace {
-
-Point nearestOnSegment(const Point& p, const Point& a, const Point& b) {
-  return a + std::clamp(dot(p - a, b - a) / squaredDistance(a, b), 0.0, 1.0) * (b - a);
-}
-
-}  // namespace
 
 MeshWater::MeshWater(const Grid& grid, const RiverPlane& plane, const Box& near, const ItemLoop& loop)
     : grid_(grid), plane_(plane), triangles_(grid, near, loop) {}

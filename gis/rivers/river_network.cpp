@@ -40,10 +40,6 @@ bool crossProperly(const Piece& p, const Piece& q) {
   return orient2d(p.a, p.b, q.a) * orient2d(p.a, p.b, q.b) < 0 && orient2d(q.a, q.b, p.a) * orient2d(q.a, q.b, p.b) < 0;
 }
 
-double shareAlong(const Point& p, const Point& a, const Point& b) {
-  return std::clamp(dot(p - a, b - a) / squaredDistance(a, b), 0.0, 1.0);
-}
-
 class NetworkBuilder {
  public:
   explicit NetworkBuilder(std::span<const PlaneRiver> rivers) : rivers_(rivers), marks_(rivers.size()) {
@@ -112,7 +108,7 @@ class NetworkBuilder {
       const std::uint32_t end = nodeOfEnd(piece.line, last);
       if (distance(place, places_[end]) <= reachOf(from, piece.line)) return end;
     }
-    const double share = shareAlong(place, piece.a, piece.b);
+    const double share = shareAlongSegment(place, piece.a, piece.b);
     return addMark(piece.line, piece.segment, share, piece.a + share * (piece.b - piece.a));
   }
 

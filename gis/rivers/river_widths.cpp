@@ -41,7 +41,7 @@ double RiverWidths::at(std::uint32_t line, const Point& place) const {
     const double distance = squaredDistanceToSegment(place, a, b);
     if (distance >= gap) return;
     gap = distance;
-    const double share = std::clamp(dot(place - a, b - a) / squaredDistance(a, b), 0.0, 1.0);
+    const double share = shareAlongSegment(place, a, b);
     width = river.widths[i] + share * (river.widths[i + 1] - river.widths[i]);
   });
   if (width > 0.0) return width;

@@ -39,12 +39,6 @@ class PointFilter {
 
 bool isBefore(const Point& a, const Point& b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); }
 
-Point nearestOn(const Point& p, const Point& a, const Point& b) {
-  const double length = squaredDistance(a, b);
-  const double share = length > 0.0 ? std::clamp(dot(p - a, b - a) / length, 0.0, 1.0) : 0.0;
-  return a + share * (b - a);
-}
-
 double squaredDistanceToBox(const Point& p, const Box& box) {
   const double x = std::max({box.xmin - p.x, 0.0, p.x - box.xmax}), y = std::max({box.ymin - p.y, 0.0, p.y - box.ymax});
   return x * x + y * y;
@@ -71,7 +65,7 @@ void findNearest(const std::vector<Point>& from, const std::vector<Point>& to, d
     const Point& p = from[k];
     if (squaredDistanceToBox(p, box) >= least) continue;
     for (std::size_t i = 0; i + 1 < to.size(); ++i) {
-      const Point q = nearestOn(p, to[i], to[i + 1]);
+      const Point q = nearestOnSegment(p, to[i], to[i + 1]);
       const double off = squaredDistance(p, q);
       if (off >= least || cross(to[i + 1] - to[i], p - to[i]) < 0.0 || !isToTheLeft(from, k, q)) continue;
       least = off;

@@ -247,7 +247,7 @@ std::optional<LinePiece> LineCutter::leadToShore(std::uint32_t node, SegmentId l
   Crossing foot{.at = x, .shore = kNone};
   shore_boxes_.visit(Box::of(x, x).grownBy(most), [&](std::uint32_t s) {
     const Point &p = shores_.points[edges_[s].first], &q = shores_.points[edges_[s].second];
-    const double along = std::clamp(dot(x - p, q - p) / squaredDistance(p, q), 0.0, 1.0);
+    const double along = shareAlongSegment(x, p, q);
     const Point at = along == 1.0 ? q : p + along * (q - p);
     const double off = distance(x, at);
     if (off > nearest || (off == nearest && foot.shore < s)) return;

@@ -54,8 +54,7 @@ class Shores {
         },
         [&](std::uint32_t s) {
           const Point &a = pslg_.points[shores_[s].a], &b = pslg_.points[shores_[s].b];
-          const double share = std::clamp(dot(x - a, b - a) / squaredDistance(a, b), 0.0, 1.0);
-          const Point p = a + share * (b - a);
+          const Point p = nearestOnSegment(x, a, b);
           if (squaredDistance(p, x) >= best) return;
           best = squaredDistance(p, x);
           place = p;

@@ -1,7 +1,6 @@
 #include "gis/weirs/weir_crests.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -9,6 +8,7 @@
 #include "gis/coast/feature_names.hpp"
 #include "gis/crs/lon_lat.hpp"
 #include "gis/error.hpp"
+#include "gis/finite_number.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/grid_lines.hpp"
 #include "gis/lower_case.hpp"
@@ -19,12 +19,10 @@ namespace {
 std::optional<double> numberOf(const Feature& feature, const std::string& attribute, double least) {
   for (const auto& [key, value] : feature.attributes) {
     if (lowerCase(key) != attribute || value.empty()) continue;
-    double number = 0.0;
-    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
-    const bool whole = error == std::errc() && end == value.data() + value.size() && std::isfinite(number);
-    if (!whole || number < least)
-      throw InputError(featureInWords(feature) + ": its " + key + " \"" + value + "\" is no number" +
-                       (std::isfinite(least) ? " of 0 or more" : ""));
+    const std::optional<double> number = finiteNumber(value);
+    if (!number || *number < least)
+      throw InputError(featureInWords(feature) + ": its attribute '" + key + "' is " + value + ", not a number" +
+                       (std::isfinite(least) ? " of 0 or more" : "") + "; correct it, or leave it empty");
     return number;
   }
   return std::nullopt;

@@ -100,7 +100,7 @@ TEST_F(Weirs, HeightsThatAreNoNumbersAreErrors) {
   write("bad.geojson", weirWith(R"("height": "high")"));
   const ProgramRun run = meshed({"--target", "adcirc", "-o", file("fort.14")}, "bad.geojson");
   EXPECT_NE(run.code, 0);
-  EXPECT_THAT(run.errors, HasSubstr("bad.geojson', feature 0: its height \"high\" is no number"));
+  EXPECT_THAT(run.errors, HasSubstr("bad.geojson', feature 0: its attribute 'height' is high, not a number"));
   // Heights are for ADCIRC alone.
   EXPECT_EQ(meshed({"-o", file("plain.nc")}, "bad.geojson").code, 0);
 }

@@ -292,5 +292,22 @@ TEST(DistanceToSegment, KeepsItsDigitsFarFromTheOrigin) {
   EXPECT_NEAR(std::sqrt(squaredDistanceToSegment(p, b, a)), expected, 1e-12 * expected);
 }
 
+TEST_F(RandomTriangles, NearestPointOfASegmentIsAtItsDistance) {
+  std::size_t inside = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const auto [a, b, p] = triangle();
+    const Point nearest = nearestOnSegment(p, a, b);
+    const double share = shareAlongSegment(p, a, b), length = distance(a, b);
+    EXPECT_GE(share, 0.0);
+    EXPECT_LE(share, 1.0);
+    EXPECT_NEAR(distance(a, nearest), share * length, 1e-12 * (length + 10.0));
+    EXPECT_NEAR(distance(p, nearest), std::sqrt(squaredDistanceToSegment(p, a, b)), 1e-9 * (length + 1.0));
+    if (share > 0.0 && share < 1.0) ++inside;
+  }
+  EXPECT_GT(inside, 200u);
+  EXPECT_LT(inside, 1800u);
+  EXPECT_EQ(nearestOnSegment({3.0, 4.0}, {1.0, 2.0}, {1.0, 2.0}), (Point{1.0, 2.0}));
+}
+
 }  // namespace
 }  // namespace coastmesh

@@ -18,10 +18,11 @@ namespace coastmesh::testing {
 inline constexpr Target kAll[] = {Target::Adcirc,  Target::Schism, Target::Fvcom, Target::Telemac,
                                   Target::Dflowfm, Target::Swan,   Target::Mpas};
 
-// A sea of nearly equilateral triangles with an island; no corner has both its edges in one triangle.
-inline Grid soundGrid() {
+// A sea of nearly equilateral triangles of a kilometre, with an island or not; no corner has both its edges in one
+// triangle.
+inline Grid soundGrid(bool island = true) {
   const TriMesh mesh = lattice(
-      8, 8, [](int i, int j) { return i != 4 || j != 4; },
+      8, 8, [island](int i, int j) { return !island || i != 4 || j != 4; },
       [](int i, int j) {
         return Point{1000.0 * i - 500.0 * j, 866.0 * j};
       });

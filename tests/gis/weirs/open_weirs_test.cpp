@@ -28,21 +28,12 @@ using ::testing::IsEmpty;
 using testing::Kinds;
 using testing::kindsIn;
 
-constexpr int kSide = 8;
+constexpr int kSide = 8;  // of the sound grid, in cells
 std::uint32_t at(int i, int j) { return static_cast<std::uint32_t>(j * (kSide + 1) + i); }
 
-// A sea of nearly equilateral triangles of a kilometre; a cell of it is land if `island`.
+// With what meshes have of their triangles besides.
 Grid sea(bool island = false) {
-  const TriMesh mesh = testing::lattice(
-      kSide, kSide, [island](int i, int j) { return !island || i != 4 || j != 4; },
-      [](int i, int j) {
-        return Point{1000.0 * i - 500.0 * j, 866.0 * j};
-      });
-  Grid grid;
-  grid.nodes = mesh.points;
-  for (const Triangle& t : mesh.triangles) grid.triangles.push_back(t.v);
-  for (std::size_t i = 0; i < grid.nodes.size(); ++i) grid.z.push_back(-20.0 - 0.5 * static_cast<double>(i % 7));
-  grid.boundaries = findBoundaries(mesh);
+  Grid grid = testing::soundGrid(island);
   grid.area_m2 = triangleAreas(grid.nodes, grid.triangles, grid.crs);
   grid.min_angle_deg.assign(grid.triangles.size(), 59.0);
   return grid;
@@ -339,15 +330,16 @@ TEST(WeirSources, AreReadFromAttributes) {
   EXPECT_EQ(sources[0].crest->subcritical, 1.0);
   EXPECT_EQ(sources[0].crest->supercritical, 0.8);
   EXPECT_FALSE(sources[1].crest);
-  for (const auto& [value, text] :
-       {std::pair("high", "its HEIGHT \"high\" is no number"), std::pair("3,5", "its HEIGHT \"3,5\" is no number")}) {
+  for (const auto& [value, text] : {std::pair("high", "its attribute 'HEIGHT' is high, not a number"),
+                                    std::pair("3,5", "its attribute 'HEIGHT' is 3,5, not a number")}) {
     coastline.features[0].attributes[1].second = value;
     EXPECT_THAT([&] { weirSources(coastline, 0.0); },
                 ::testing::ThrowsMessage<InputError>(HasSubstr(std::string("'levees.gpkg', feature 7: ") + text)));
   }
   coastline.features[0].attributes = {{"height", "1"}, {"coef_sub", "-1"}};
-  EXPECT_THAT([&] { weirSources(coastline, 0.0); },
-              ::testing::ThrowsMessage<InputError>(HasSubstr("its coef_sub \"-1\" is no number of 0 or more")));
+  EXPECT_THAT(
+      [&] { weirSources(coastline, 0.0); },
+      ::testing::ThrowsMessage<InputError>(HasSubstr("its attribute 'coef_sub' is -1, not a number of 0 or more")));
 }
 
 // Of features with one name the closest counts, also where longitudes are a turn apart.
