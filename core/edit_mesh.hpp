@@ -69,6 +69,7 @@ class EditMesh : private LinkedTriangles {
   TriMesh releaseOn(const ItemLoop& loop, Renumbering& by);
 
   const Point& point(VertexId v) const { return points_[v]; }
+  std::span<const Point> points() const { return points_; }
   const Point& corner(TriId t, unsigned i) const { return points_[triangles[t].v[i]]; }
   bool isLive(TriId t) const { return triangles[t].v[0] != kNone; }
   bool isLiveVertex(VertexId v) const { return triangle_of_[v] != kNone; }

@@ -190,8 +190,10 @@ void mend(RefineRun& run, TriId t) {
   if (!isOutOfReach(run, t, shape)) insertPoint(run, t, shape.shortest);
 }
 
+// Number by number: `==` calls memcmp.
 bool isCurrent(const RefineRun& run, const BadTriangle& bad) {
-  return run.mesh.triangle(bad.triangle).v == bad.corners;
+  const Corners& now = run.mesh.triangle(bad.triangle).v;
+  return now[0] == bad.corners[0] && now[1] == bad.corners[1] && now[2] == bad.corners[2];
 }
 
 // In a piece, other pieces may leave vertices for what its share does not allow: its triangles wait for the next round.

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <set>
+#include <span>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -33,6 +34,27 @@ struct RefineVariant {
 
 RefineVariant usualVariant(const RefineOptions& options);
 
+// Blocks of some thousand vertices that are close together. Bad triangles of similar lengths are mended block by block,
+// so that the triangles around them stay in a core's cache.
+class VertexBlocks {
+ public:
+  VertexBlocks() = default;  // all vertices are one block
+  VertexBlocks(std::span<const Point> points, const Surface& surface);
+
+  std::uint32_t count() const { return count_; }
+  std::uint32_t of(VertexId v) const { return block_of_.empty() ? 0 : block_of_[v]; }
+  // Puts a vertex into the block of another one.
+  void put(VertexId v, VertexId beside) {
+    if (block_of_.empty()) return;
+    if (v >= block_of_.size()) block_of_.resize(v + 1);
+    block_of_[v] = block_of_[beside];
+  }
+
+ private:
+  std::uint32_t count_ = 1;
+  std::vector<std::uint16_t> block_of_;  // empty if there is one block
+};
+
 // The state of one refinement run, shared by the functions here, in mend_triangles and in repair.
 struct RefineRun {
   // `notes` are those of `noteInput`, or on a part of a larger mesh the known notes on its vertices.
@@ -57,7 +79,9 @@ struct RefineRun {
   std::vector<std::uint8_t> moves;  // number of relocations of each vertex
 
   BadQueue queue;
-  std::vector<TriId> touched;  // changed, and not yet examined
+  VertexBlocks blocks;
+  std::uint32_t steps_together;  // steps of lengths, sixteen an octave of the square, that a block is mended at once
+  std::vector<TriId> touched;    // changed, and not yet examined
   // For each fixed vertex whether it is on a frozen edge that the run must avoid; empty if there are none.
   std::vector<bool> frozen;
   std::unordered_map<TriId, Corners> deferred;
