@@ -49,7 +49,7 @@ int runConvert(const ConvertUsage& usage, Run& run) {
     outputs.writeGrids(grid, recorder.loop("write", control));
   });
   outputs.commit();
-  if (!usage.quiet) std::fputs(finishSummary(usage.finish, report).c_str(), stdout);
+  if (!usage.quiet) std::fputs((finishSummary(usage.finish, report) + outputs.openingsText(grid)).c_str(), stdout);
   return report.repairs.left.empty() ? kExitDone : kExitShort;
 }
 

@@ -45,7 +45,7 @@ int runMeshEdit(const MeshFile& mesh, const EditOutputs& asked,
       numbers->make([&](const std::string& path) { writeSources(edited.sources, grid, path, loop); });
   });
   outputs.commit();
-  if (!asked.quiet) std::fputs(edited.summary.c_str(), stdout);
+  if (!asked.quiet) std::fputs((edited.summary + outputs.openingsText(grid)).c_str(), stdout);
   return edited.complete() ? kExitDone : kExitShort;
 }
 

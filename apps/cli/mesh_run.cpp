@@ -378,7 +378,7 @@ int runMesh(const MeshRunUsage& usage, Run& run) {
   outputs.writeReport(meshReport(job, result, threadsAsked(job.parallel), run.warnings));
   // Made before the outputs are in place: nothing that may fail comes after.
   const bool silent = usage.quiet || usage.progress == "json" || usage.report == "-";
-  const std::string summary = any && !silent ? summaryOf(usage, job, result) : "";
+  const std::string summary = any && !silent ? summaryOf(usage, job, result) + outputs.openingsText(result.grid) : "";
   outputs.commit();
   if (kept.checkpoint && !lacks_memory) kept.checkpoint->finish();
   // Other shards may have meshes.

@@ -260,6 +260,15 @@ std::vector<std::string> RunOutputs::lossWarnings(const Grid& grid, LossesOf of)
   return warnings;
 }
 
+std::string RunOutputs::openingsText(const Grid& grid) const {
+  std::string text;
+  for (std::size_t i = 0; i < grids_.size(); ++i) {
+    const std::string openings = openingsIn(grid, grids_[i].path(), *formats_[i]);
+    if (!openings.empty()) text += openings + "\n";
+  }
+  return text;
+}
+
 std::vector<StagedFiles*> RunOutputs::made() {
   std::vector<StagedFiles*> made;
   for (StagedOutput& grid : grids_)

@@ -62,6 +62,8 @@ class RunOutputs {
   std::vector<std::string> numberWarnings(const Grid& grid) const;
   // A warning for each output that cannot hold all of the grid.
   std::vector<std::string> lossWarnings(const Grid& grid, LossesOf of) const;
+  // Lines for the summary on what models call open boundaries and rivers: see `openingsIn`.
+  std::string openingsText(const Grid& grid) const;
 
   // Moves everything written into place, after Interrupt::close(). Throws OutputError, Cancelled, and std::bad_alloc if
   // any allocation failed.

@@ -249,19 +249,42 @@ class TargetCheck {
     for (const std::uint32_t node : dry) add(TargetDefectKind::DryOpening, grid_.nodes[node], -1, node, grid_.z[node]);
   }
 
+  // FVCOM adds up marks of a triangle's nodes, 1 for the shore and 2 for open boundaries, and stops at more than 4. A
+  // triangle with two solid edges has no velocity, so that the node between them keeps its first level.
   void checkOpenCells() {
     const EdgeKinds kinds(grid_);
+    std::vector<bool> on_opening(grid_.nodes.size(), false), on_boundary(grid_.nodes.size(), false);
+    for (const EdgeRef e : boundary_edges_) {
+      const auto [from, to] = nodesOf(e);
+      on_boundary[from] = on_boundary[to] = true;
+      if (kinds.isOpen(from, to)) on_opening[from] = on_opening[to] = true;
+    }
     for (std::size_t first = 0, last = 0; first < boundary_edges_.size(); first = last) {
       const TriId t = triOf(boundary_edges_[first]);
       int open = 0, solid = 0;
+      bool faces_shore = false;
       for (; last < boundary_edges_.size() && triOf(boundary_edges_[last]) == t; ++last) {
         const auto [from, to] = nodesOf(boundary_edges_[last]);
-        const BoundaryKind* const kind = kinds.find(from, to);
-        ++(kind != nullptr && kind->role == BoundaryRole::Open ? open : solid);
+        const std::uint32_t apex = mesh_.apex(boundary_edges_[last]);
+        const bool is_open = kinds.isOpen(from, to);
+        ++(is_open ? open : solid);
+        faces_shore |= is_open && on_boundary[apex] && !on_opening[apex];
       }
       if (open > 1) add(TargetDefectKind::TwoOpenEdges, middle(t), t, -1, open);
-      if (open > 0 && solid > 0) add(TargetDefectKind::OpenAndSolid, middle(t), t);
+      if (open > 0 && (solid > 0 || faces_shore)) add(TargetDefectKind::OpenAndSolid, middle(t), t);
+      if (open > 0 || solid < 2) continue;
+      add(TargetDefectKind::OneNeighbour, middle(t), t);
+      defects_.back().advice = true;
     }
+    addForEach(mesh_.triangles.size(), [&](std::size_t t, std::vector<TargetDefect>& found) {
+      for (unsigned i = 0; i < 3; ++i) {
+        const EdgeRef e = edgeRef(static_cast<TriId>(t), i);
+        const auto [from, to] = nodesOf(e);
+        if (mesh_.twin(e) == kNone || !on_opening[from] || !on_opening[to]) continue;
+        found.push_back({TargetDefectKind::OpenBridge, middle(t), static_cast<std::int64_t>(t), -1, 0.0, {}});
+        break;
+      }
+    });
   }
 
   // TELEMAC also rejects a single solid node between openings, a wall of two edges: the first one is reported.

@@ -7,12 +7,12 @@ namespace coastmesh {
 namespace {
 
 constexpr std::array<std::string_view, kTargetDefectKinds> kKindNames{
-    "wrong count",     "broken edge",     "clockwise",      "overlapping triangles", "unused node",
-    "repeated node",   "hanging node",    "pinched node",   "orphan cell",           "unknown depth",
-    "dry opening",     "no boundary",     "stray boundary", "boundary twice",        "boundary turned",
-    "looped boundary", "wrong shore",     "two open edges", "open and solid edge",   "one neighbour",
-    "lone wall",       "valence",         "large angle",    "not orthogonal",        "small flow link",
-    "courant",         "round the globe", "quadrilateral"};
+    "wrong count",     "broken edge",  "clockwise",       "overlapping triangles", "unused node",
+    "repeated node",   "hanging node", "pinched node",    "orphan cell",           "unknown depth",
+    "dry opening",     "no boundary",  "stray boundary",  "boundary twice",        "boundary turned",
+    "looped boundary", "wrong shore",  "two open edges",  "open and solid",        "open bridge",
+    "one neighbour",   "lone wall",    "valence",         "large angle",           "not orthogonal",
+    "small flow link", "courant",      "round the globe", "quadrilateral"};
 
 }  // namespace
 

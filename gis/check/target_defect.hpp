@@ -28,7 +28,8 @@ enum class TargetDefectKind {
   LoopedBoundary,  // a loop that repeats its first node, which the model rejects
   WrongShore,      // an outer shore marked as an island, or the other way round
   TwoOpenEdges,    // a triangle with two open edges
-  OpenAndSolid,    // a triangle with an open edge and a solid one
+  OpenAndSolid,    // a triangle with an open edge, and a solid one or a node of the shore opposite
+  OpenBridge,      // a triangle with an inner edge between nodes of open boundaries
   OneNeighbour,    // a triangle with only one neighbour
   LoneWall,        // a wall between openings too short for codes at nodes: one edge, for TELEMAC two
   Valence,         // an interior node with too few or too many triangles
@@ -39,7 +40,7 @@ enum class TargetDefectKind {
   RoundTheGlobe,   // a triangle whose longitudes jump at ±180, for a model that takes differences of them as they are
   Quadrilateral,   // an element of four nodes, for a model of triangles
 };
-inline constexpr std::size_t kTargetDefectKinds = 28;
+inline constexpr std::size_t kTargetDefectKinds = 29;
 std::string_view toString(TargetDefectKind kind);
 
 struct TargetDefect {

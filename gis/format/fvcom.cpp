@@ -9,6 +9,7 @@
 #include "gis/format/grid_formats.hpp"
 #include "gis/grid/boundary_kinds.hpp"
 #include "gis/lower_case.hpp"
+#include "gis/places.hpp"
 
 namespace coastmesh {
 namespace {
@@ -167,6 +168,22 @@ Grid readFvcom(const std::string& path, const Crs& unsaid) {
   return grid;
 }
 
+// Rivers in the order of the grid: FVCOM's namelists name each by one of its nodes.
+std::string riverNodesText(const Grid& grid, const std::string& path) {
+  constexpr std::size_t kMostNamed = 12;
+  std::string text;
+  std::size_t rivers = 0;
+  for (const Boundary& boundary : grid.boundaries) {
+    if (boundary.role != BoundaryRole::River || ++rivers > kMostNamed) continue;
+    const std::uint32_t middle = boundary.nodes[boundary.nodes.size() / 2];
+    text += (rivers > 1 ? ", " : "") + (boundary.name.empty() ? "without a name" : "'" + boundary.name + "'") + ": " +
+            std::to_string(middle + 1) + " near " + pointText(grid.nodes[middle]);
+  }
+  if (rivers == 0) return {};
+  if (rivers > kMostNamed) text += ", and " + std::to_string(rivers - kMostNamed) + " more";
+  return "rivers by a node of '" + fileOfSet(path, "grd") + "', for RIVER_GRID_LOCATION: " + text;
+}
+
 }  // namespace
 
 FormatRecord fvcomFormat() {
@@ -176,17 +193,18 @@ FormatRecord fvcomFormat() {
     all.prj = prjBeside(fileOfSet(path, "grd"));
     return all;
   };
-  return {{.name = "fvcom",
-           .endings = {std::string_view(kGridEnding)},
-           .description = "FVCOM's _grd, _dep, _obc and _cor.dat, depth positive down",
-           .readable = true,
-           .writable = true,
-           .says_depth = true,
-           .needs_depths = true,
-           .places = NodePlaces::OneTurn,
-           .lengths_in_metres = true,
-           .marks_nodes = true},
-          {writeFvcom, readFvcom, files, nullptr, openNodesRemark}};
+  return {
+      {.name = "fvcom",
+       .endings = {std::string_view(kGridEnding)},
+       .description = "FVCOM's _grd, _dep, _obc and _cor.dat, depth positive down",
+       .readable = true,
+       .writable = true,
+       .says_depth = true,
+       .needs_depths = true,
+       .places = NodePlaces::OneTurn,
+       .lengths_in_metres = true,
+       .marks_nodes = true},
+      {.write = writeFvcom, .read = readFvcom, .files = files, .remark = openNodesRemark, .openings = riverNodesText}};
 }
 
 }  // namespace coastmesh

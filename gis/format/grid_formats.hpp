@@ -19,7 +19,8 @@ struct FormatFunctions {
   OutputFiles (*files)(const std::string& path) = nullptr;  // null: only `path`
   // For a format that shares its ending with another: returns whether `path` is of this format. Null: endings decide.
   bool (*holds)(const std::string& path) = nullptr;
-  std::string (*remark)(const std::string& path) = nullptr;  // see `remarkOnGrid`; null: there is none
+  std::string (*remark)(const std::string& path) = nullptr;                 // see `remarkOnGrid`; null: there is none
+  std::string (*openings)(const Grid&, const std::string& path) = nullptr;  // see `openingsIn`; null: nothing to say
 };
 
 struct FormatRecord {

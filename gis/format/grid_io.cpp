@@ -170,4 +170,9 @@ std::string remarkOnGrid(const std::string& path) {
   return remark != nullptr ? remark(path) : std::string();
 }
 
+std::string openingsIn(const Grid& grid, const std::string& path, const GridFormat& format) {
+  const auto openings = functionsOf(format).openings;
+  return openings != nullptr ? openings(grid, path) : std::string();
+}
+
 }  // namespace coastmesh

@@ -55,4 +55,8 @@ Grid readGrid(const std::string& path, const Crs& unsaid = {});
 // without; else empty. Throws InputError.
 std::string remarkOnGrid(const std::string& path);
 
+// A line for the user on what the model's other files call the grid's open boundaries and rivers, where that is to be
+// seen neither in the grid nor in `path`; else empty.
+std::string openingsIn(const Grid& grid, const std::string& path, const GridFormat& format);
+
 }  // namespace coastmesh

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <map>
 
 #include "gis/error.hpp"
 #include "gis/fields/field_names.hpp"
@@ -14,6 +15,7 @@
 #include "gis/grid/boundary_kinds.hpp"
 #include "gis/grid/loop_role.hpp"
 #include "gis/lower_case.hpp"
+#include "gis/places.hpp"
 
 namespace coastmesh {
 namespace {
@@ -242,6 +244,52 @@ void writeConditions(const BoundaryNodes& boundary, const std::string& path) {
   file.close();
 }
 
+// The number of TELEMAC's liquid boundary that holds each node, 0 on shores, as its subroutine FRONT2 counts them: they
+// begin where codes change, in the order of the .cli. If a loop's first edge is liquid, the boundary there is its
+// first, and what comes before that edge belongs to it too.
+std::vector<std::size_t> liquidNumbers(const Grid& grid, const BoundaryNodes& boundary) {
+  std::vector<std::size_t> number(grid.nodes.size(), 0);
+  const auto liquid = [&](std::size_t i) { return isLiquid(boundary.roles[i]); };
+  const auto numberAt = [&](std::size_t i) -> std::size_t& { return number[boundary.nodes[i]]; };
+  std::size_t last = 0, first = 0;  // in `boundary`: the loop's first node
+  for (const auto& loop : orderedLoops(grid)) {
+    const std::size_t end = first + loop.size(), before = last;
+    const bool begins = liquid(first) && liquid(first + 1);
+    if (begins) numberAt(first) = ++last;
+    for (std::size_t i = first + 1; i < end; ++i) {
+      if (!liquid(i)) continue;
+      if (!liquid(i - 1) || boundary.roles[i - 1] != boundary.roles[i]) ++last;
+      numberAt(i) = last;
+    }
+    if (!begins && liquid(first)) numberAt(first) = last;
+    if (begins && liquid(end - 1) && last > before + 1) {
+      for (std::size_t i = end; numberAt(i - 1) == last; --i) numberAt(i - 1) = before + 1;
+      --last;
+    }
+    first = end;
+  }
+  return number;
+}
+
+std::string liquidBoundariesText(const Grid& grid, const std::string& path) {
+  constexpr std::size_t kMostNamed = 12;
+  const std::vector<std::size_t> number = liquidNumbers(grid, boundaryNodesOf(grid, path));
+  std::map<std::size_t, std::string> names;
+  for (const Boundary& boundary : grid.boundaries) {
+    if (!isLiquid(boundary.role)) continue;
+    std::string& name = names[number[boundary.nodes.back()]];
+    if (!name.empty()) continue;  // several of the same codes in a row are one
+    name = boundary.name.empty() ? std::string(toString(boundary.role)) : "'" + boundary.name + "'";
+    name += " near " + pointText(grid.nodes[boundary.nodes[boundary.nodes.size() / 2]]);
+  }
+  if (names.size() < 2) return {};
+  std::string text = "liquid boundaries of '" + withEnding(path, ".cli") + "', in TELEMAC's order: ";
+  std::size_t count = 0;
+  for (const auto& [at, name] : names)
+    if (++count <= kMostNamed) text += (count > 1 ? ", " : "") + std::to_string(at) + " " + name;
+  return text + (count > kMostNamed ? ", and " + std::to_string(count - kMostNamed) + " more" : "");
+}
+
 // Writes TELEMAC's SELAFIN geometry in double precision (SERAFIND) with the variable BOTTOM, elevation in metres, one
 // for each nodal attribute, such as BOTTOM FRICTION, and beside it the boundary conditions, `lake.slf` with `lake.cli`,
 // and the CRS in a .prj. Shores are walls (2 2 2), open boundaries levels (5 4 4), rivers discharges (4 5 5). The file
@@ -273,7 +321,7 @@ FormatRecord telemacFormat() {
            .places = NodePlaces::OneTurn,
            .lengths_in_metres = true,
            .marks_nodes = true},
-          {writeTelemac, readTelemac, files}};
+          {.write = writeTelemac, .read = readTelemac, .files = files, .openings = liquidBoundariesText}};
 }
 
 }  // namespace coastmesh

@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kEarthRadiusM = 6371220.0;  // the sphere of MPAS
 constexpr const char* kOpenCell = "openBoundaryCell";
+constexpr const char* kBoundaryCell = "boundaryCell";
 
 // The circumcentre of a triangle in a plane.
 SphereVector circumcentreInPlane(const SphereVector& a, const SphereVector& b, const SphereVector& c) {
@@ -72,14 +73,17 @@ void define(NetcdfWriter& file, const std::string& name, int type, const std::ve
 
 // Triangles as input of MPAS' mesh converter: MPAS' cells are the nodes, its vertices the circumcentres of triangles,
 // `cellsOnVertex` the corners, counted from 1. On a sphere of 6371.22 km with unchanged latitudes, or in the plane. In
-// addition, `bottomDepth` (positive down) if there are depths and `openBoundaryCell` if boundaries are open; the
-// converter leaves these out. Throws OutputError, also if some depths are unknown.
+// addition, `bottomDepth` (positive down) if there are depths, `boundaryCell` if the mesh has a boundary and
+// `openBoundaryCell` if parts of it are open; the converter leaves these out. Throws OutputError, also if some depths
+// are unknown.
 void writeMpas(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   requireZ(grid, path);
   const bool sphere = !grid.crs.isPlane();
   const std::vector<SphereVector> cells = cellsOf(grid), vertices = verticesOf(grid, cells, path, loop);
   const std::vector<double> densities = densitiesOf(grid);
-  std::vector<std::int32_t> open(grid.nodes.size(), 0);
+  std::vector<std::int32_t> on_boundary(grid.nodes.size(), 0), open(grid.nodes.size(), 0);
+  for (const auto& nodes : boundaryLoops(grid, loop))
+    for (const std::uint32_t node : nodes) on_boundary[node] = 1;
   for (const Boundary& boundary : grid.boundaries)
     if (boundary.role == BoundaryRole::Open)
       for (const std::uint32_t node : boundary.nodes) open[node] = 1;
@@ -103,6 +107,8 @@ void writeMpas(const Grid& grid, const std::string& path, const ItemLoop& loop) 
   define(file, "meshDensity", NC_DOUBLE, {cell}, cells.size(), [&densities](std::size_t i) { return densities[i]; });
   if (!grid.z.empty())
     define(file, "bottomDepth", NC_DOUBLE, {cell}, cells.size(), [&grid](std::size_t i) { return 0.0 - grid.z[i]; });
+  if (std::ranges::count(on_boundary, 1) > 0)
+    define(file, kBoundaryCell, NC_INT, {cell}, cells.size(), [&](std::size_t i) { return on_boundary[i]; });
   if (std::ranges::count(open, 1) > 0)
     define(file, kOpenCell, NC_INT, {cell}, cells.size(), [&open](std::size_t i) { return open[i]; });
   file.endDefinitions();

@@ -83,6 +83,32 @@ const BoundaryKind* kindOf(const RepairView& view, const PatchEdit& edit, std::u
   return at == view.links.kinds.end() ? nullptr : &at->second;
 }
 
+void flagBoundaryNodes(GridLinks& links, std::size_t nodes) {
+  links.on_boundary.assign(nodes, false);
+  links.on_opening.assign(nodes, false);
+  for (const auto& [edge, kind] : links.kinds) {
+    links.on_boundary[edge[0]] = links.on_boundary[edge[1]] = true;
+    if (kind.role == BoundaryRole::Open) links.on_opening[edge[0]] = links.on_opening[edge[1]] = true;
+  }
+}
+
+NodeMark markOf(const RepairView& view, const PatchEdit& edit, std::uint32_t node) {
+  bool on_boundary = node < view.links.on_boundary.size() && view.links.on_boundary[node];
+  for (const auto& [edge, kind] : edit.made) {
+    if (edge[0] != node && edge[1] != node) continue;
+    if (kind.role == BoundaryRole::Open) return NodeMark::Open;
+    on_boundary = true;
+  }
+  if (!on_boundary) return NodeMark::Inner;
+  if (node >= view.links.on_opening.size() || !view.links.on_opening[node]) return NodeMark::Shore;
+  if (edit.gone.empty()) return NodeMark::Open;
+  const auto isOpenStill = [&](std::uint32_t other) {
+    const BoundaryKind* const kind = kindOf(view, edit, node, other);
+    return kind != nullptr && kind->role == BoundaryRole::Open;
+  };
+  return std::ranges::any_of(boundaryNeighbours(view, node), isOpenStill) ? NodeMark::Open : NodeMark::Shore;
+}
+
 std::optional<PatchEdit> flipOf(const RepairView& view, const GridPatch& patch, std::uint32_t a, std::uint32_t b) {
   const std::optional<PatchEdge> left = findSide(view, patch, a, b), right = findSide(view, patch, b, a);
   if (!left || !right) return std::nullopt;

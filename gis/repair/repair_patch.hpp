@@ -31,6 +31,7 @@ struct GridLinks {
   std::vector<std::vector<std::uint32_t>> triangles_at;  // one list a node
   BoundaryKinds kinds;                                   // of boundary edges
   std::vector<bool> on_boundary;                         // one flag a node
+  std::vector<bool> on_opening;                          // of open boundaries; one flag a node
   std::set<NodePair> line_edges;                         // by `edgeKey`, also of quadrilaterals; these must stay
   std::vector<NodePair> quad_edges;                      // of `edgesOfQuads`; these must stay whole
   std::vector<bool> asked;                               // one flag a node, or empty; these must stay
@@ -38,6 +39,9 @@ struct GridLinks {
   bool isOfQuad(const NodePair& key) const { return std::ranges::binary_search(quad_edges, key); }
   bool isAsked(std::uint32_t node) const { return node < asked.size() && asked[node]; }
 };
+
+// Sets `on_boundary` and `on_opening` from `kinds`.
+void flagBoundaryNodes(GridLinks& links, std::size_t nodes);
 
 class CrsMap;
 class ShoreIndex;
@@ -115,6 +119,10 @@ GridPatch patchRound(const RepairView& view, std::span<const std::uint32_t> midd
 
 // The boundary kind of the edge after the edit; null for an inner edge.
 const BoundaryKind* kindOf(const RepairView& view, const PatchEdit& edit, std::uint32_t a, std::uint32_t b);
+
+// A node's part of the boundary after the edit.
+enum class NodeMark { Inner, Shore, Open };
+NodeMark markOf(const RepairView& view, const PatchEdit& edit, std::uint32_t node);
 
 // Flips the edge between two triangles of the patch. Returns nullopt if the edge must stay, or lacks one of the
 // triangles.

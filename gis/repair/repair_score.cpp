@@ -184,6 +184,20 @@ bool isUpright(const EditedView& edited, const GridCorners& v, const std::array<
   return orientationOnGround(on_ground[0], on_ground[1], on_ground[2], crs) > 0;
 }
 
+// What FVCOM rejects of a triangle with these boundary edges; see `checkTarget`.
+int fvcomDefects(const EditedView& edited, const GridCorners& v, int open, int solid) {
+  int defects = (open > 1 ? 1 : 0) + (open == 0 && solid == 2 ? 1 : 0);
+  std::array<NodeMark, 3> marks{};
+  for (unsigned i = 0; i < 3; ++i) marks[i] = markOf(edited.view, edited.edit, v[i]);
+  const bool has_shore = std::ranges::count(marks, NodeMark::Shore) > 0;
+  defects += open > 0 && (solid > 0 || has_shore) ? 1 : 0;
+  bool has_bridge = false;
+  for (unsigned i = 0; i < 3; ++i)
+    has_bridge |= marks[i] == NodeMark::Open && marks[next3(i)] == NodeMark::Open &&
+                  kindOf(edited.view, edited.edit, v[i], v[next3(i)]) == nullptr;
+  return defects + (has_bridge ? 1 : 0);
+}
+
 int triangleDefects(const EditedView& edited, const GridCorners& v, std::uint32_t source,
                     const std::array<Point, 3>& p) {
   const RepairView& view = edited.view;
@@ -202,7 +216,7 @@ int triangleDefects(const EditedView& edited, const GridCorners& v, std::uint32_
     else
       ++solid;
   }
-  if (view.isFor(Target::Fvcom)) defects += (open > 1 ? 1 : 0) + (open > 0 && solid > 0 ? 1 : 0);
+  if (view.isFor(Target::Fvcom)) defects += fvcomDefects(edited, v, open, solid);
   const int neighbours = 3 - open - solid;
   if (view.isFor(Target::Fesom)) defects += neighbours > 0 && neighbours < kFesomFewestNeighbours;
   return defects + (neighbours == 0);

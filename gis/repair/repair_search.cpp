@@ -87,8 +87,11 @@ void offerMoves(Contest& contest, const RepairView& view, std::uint32_t node) {
   forEachMove(view, node, kMoves, [&contest](const PatchEdit& edit) { contest.offer(edit); });
 }
 
-// True if a shore may lose its corners for the sake of FESOM2: splits, its other repair, halve edges and angles.
-bool mayCutShore(const RepairView& view) { return view.shores != nullptr && view.isFor(Target::Fesom); }
+// True if a shore may lose its corners for a model that needs two neighbours there: splits, the other repair, halve
+// edges and angles.
+bool mayCutShore(const RepairView& view) {
+  return view.shores != nullptr && (view.isFor(Target::Fesom) || view.isFor(Target::Fvcom));
+}
 
 // True if some of the boundary edges that the edit removes are shore: it takes off no corner of a frame.
 bool isOfShore(const RepairView& view, const PatchEdit& edit) {
@@ -117,7 +120,7 @@ std::optional<PatchEdit> bestReshaping(const RepairView& view, std::span<const s
     const GridCorners& v = view.grid.triangles[t];
     for (unsigned i = 0; i < 3; ++i) edges.insert(edgeKey(v[i], v[next3(i)]));
   }
-  Contest contest(view, patch);
+  Contest contest(view, patch, reach.least_angle_deg);
   for (const std::uint32_t node : reach.movable) offerMoves(contest, view, node);
   for (const auto& [a, b] : edges) {
     if (const auto flip = flipOf(view, patch, a, b)) contest.offer(*flip);

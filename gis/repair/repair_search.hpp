@@ -15,10 +15,11 @@ namespace coastmesh {
 struct SearchReach {
   std::span<const double> shares;          // where edges are split
   std::span<const std::uint32_t> movable;  // nodes that may be moved a little
+  double least_angle_deg = 0.0;            // smaller angles are made only of such angles
 };
 
-// Moves a node, or flips or splits an edge of `inside`; for FESOM2, cuts off a corner of a shore that may move too.
-// REQUIRES: `patch` surrounds `inside` and the triangles of the movable nodes (`patchRound`).
+// Moves a node, or flips or splits an edge of `inside`; for FESOM2 and FVCOM, cuts off a corner of a shore that may
+// move. REQUIRES: `patch` surrounds `inside` and the triangles of the movable nodes (`patchRound`).
 std::optional<PatchEdit> bestReshaping(const RepairView& view, std::span<const std::uint32_t> inside,
                                        const SearchReach& reach, const GridPatch& patch);
 

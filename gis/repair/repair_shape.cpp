@@ -358,6 +358,12 @@ void reshapeTriangle(RepairState& state, const FoundDefect& found) {
     if (cut.done || !cut.made) return;
   }
   const std::vector<std::uint32_t> inside = withNeighbours(state.links.mesh, std::array{t});
+  if (found.defect.advice) {  // not worth short edges or small angles
+    const double least_angle_deg = state.options.min_angle_deg - kAngleSlackDeg;
+    const Attempt attempt = reshape(state, inside, {{}, movableCorners(state, inside), least_angle_deg}, found);
+    state.hopeless_triangles[t] = attempt.made && !attempt.done;
+    return;
+  }
   Attempt attempt = of_corner ? reshapeCorner(state, inside, found) : reshape(state, inside, {kShares, {}}, found);
   if (attempt.made && !attempt.done)
     attempt = reshape(state, inside, {kFarShares, movableCorners(state, inside)}, found);

@@ -144,8 +144,7 @@ void startRound(RepairState& state, TriMesh mesh) {
   links.triangles_at.resize(grid.nodes.size());
   for (std::uint32_t t = 0; t < grid.triangles.size(); ++t)
     for (const std::uint32_t node : grid.triangles[t]) links.triangles_at[node].push_back(t);
-  links.on_boundary.assign(grid.nodes.size(), false);
-  for (const auto& [edge, kind] : links.kinds) links.on_boundary[edge[0]] = links.on_boundary[edge[1]] = true;
+  flagBoundaryNodes(links, grid.nodes.size());
   links.line_edges.clear();
   for (const GridLine& line : grid.lines)
     for (const auto& [a, b] : edgesOf({BoundaryRole::Land, line.closed, line.nodes}))

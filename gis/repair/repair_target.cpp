@@ -38,12 +38,15 @@ RunControl roundOf(const RunControl& control, int round) {
   return stageControl(control, {at(round), at(round + 1)});
 }
 
+// Advice that repairs heed.
+bool isRepairedThough(const TargetDefect& advice) { return advice.kind == TargetDefectKind::OneNeighbour; }
+
 std::vector<FoundDefect> findDefects(const Grid& grid, const LinkedGrid& linked, std::span<const Target> targets,
                                      const RepairOptions& options, const ItemLoop& loop) {
   std::vector<FoundDefect> found;
   for (const Target target : targets)
     for (TargetDefect& defect : checkTarget(grid, linked, target, {.overlaps = false}, loop))
-      if (!defect.advice) found.push_back({target, std::move(defect)});
+      if (!defect.advice || isRepairedThough(defect)) found.push_back({target, std::move(defect)});
   if (options.time_step_s > 0.0 && !grid.z.empty())
     for (TargetDefect& defect : checkTimeStep(grid, options.time_step_s, loop))
       found.push_back({{}, std::move(defect)});
@@ -130,6 +133,7 @@ void mend(RepairState& state, const FoundDefect& found) {
       return lowerDryOpening(state, found);
     case TargetDefectKind::TwoOpenEdges:
     case TargetDefectKind::OpenAndSolid:
+    case TargetDefectKind::OpenBridge:
     case TargetDefectKind::OneNeighbour:
     case TargetDefectKind::LargeAngle:
     case TargetDefectKind::NotOrthogonal:
@@ -254,7 +258,7 @@ bool relax(RepairState& state, const RunControl& control) {
 
 void reportLeft(std::vector<FoundDefect> defects, RepairReport& report) {
   for (FoundDefect& found : defects)
-    if (found.target) report.left.emplace_back(*found.target, std::move(found.defect));
+    if (found.target && !found.defect.advice) report.left.emplace_back(*found.target, std::move(found.defect));
 }
 
 // A flag for each node: true at one of these places.

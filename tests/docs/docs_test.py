@@ -153,6 +153,9 @@ class GuideTest(unittest.TestCase):
                     archive.extractall(plugins)
                 folder.environment["XDG_DATA_HOME"] = os.path.join(folder.path, ".local/share")
                 folder.environment.pop("PYTHONPATH")
+            if words == ["mpas-tools"] and not shutil.which("MpasMeshConverter.x"):
+                print(f"{name}: not run, there are no MPAS-Tools:\n{text}")
+                continue
             if words == ["mpi"] and not folder.takeMpi():
                 print(f"{name}: not run, there is no program with Open MPI:\n{text}")
                 continue

@@ -48,15 +48,14 @@ GridLinks linksOf(const Grid& grid) {
   links.triangles_at.resize(grid.nodes.size());
   for (std::uint32_t t = 0; t < grid.triangles.size(); ++t)
     for (const std::uint32_t node : grid.triangles[t]) links.triangles_at[node].push_back(t);
-  links.on_boundary.assign(grid.nodes.size(), false);
   const EdgeKinds kinds(grid);
   for (const auto& loop : boundaryLoops(grid)) {
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const std::uint32_t a = loop[i], b = loop[(i + 1) % loop.size()];
       links.kinds[edgeKey(a, b)] = *kinds.find(a, b);
-      links.on_boundary[a] = true;
     }
   }
+  flagBoundaryNodes(links, grid.nodes.size());
   return links;
 }
 
