@@ -35,4 +35,12 @@ std::string roundAmount(double number, int digits) {
   return std::abs(rounded) < kWhole || std::abs(rounded) > kMost ? text : amount("%.0f", rounded);
 }
 
+std::string atMost(double number) {
+  std::string text = amount("%.3g", number);
+  const double rounded = std::strtod(text.c_str(), nullptr);
+  if (rounded <= number) return text;
+  const double unit = std::pow(10.0, std::floor(std::log10(number)) - 2.0);  // of the third digit
+  return amount("%.3g", rounded - unit);
+}
+
 }  // namespace coastmesh

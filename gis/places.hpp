@@ -17,5 +17,7 @@ std::string roughPlaceInWords(const Point& place);
 std::string amount(const char* format, double number);
 // With so many significant digits, and no exponent up to ten millions: "95000".
 std::string roundAmount(double number, int digits);
+// A positive number with three significant digits, rounded down: what may at most be used.
+std::string atMost(double number);
 
 }  // namespace coastmesh

@@ -332,10 +332,10 @@ std::string stepText(const StepReport& step, bool plane) {
       amount("shortest edge %.4g", step.shortest_edge_m) + (plane ? " at " : " m at ") + pointText(step.shortest_edge);
   if (!step.has_depths) return text + "; without depths there is no time step";
   if (!std::isfinite(step.step_s)) return text + "; nothing is under water, so there is no time step";
-  text += amount("; time step by CFL %.3g s at ", step.step_s) + pointText(step.step_place);
+  text += "; time step by CFL " + atMost(step.step_s) + " s at " + pointText(step.step_place);
   if (step.flood_m == 0.0) return text;
-  return text + amount("; with the water %.3g m higher,", step.flood_m) +
-         amount(" over most of the land, %.3g s at ", step.flooded_step_s) + pointText(step.flooded_place);
+  return text + amount("; with the water %.3g m higher,", step.flood_m) + " over most of the land, " +
+         atMost(step.flooded_step_s) + " s at " + pointText(step.flooded_place);
 }
 
 }  // namespace coastmesh

@@ -302,13 +302,6 @@ std::string meshSummary(const MeshJob& job, const MeshJobResult& result) {
     text += "\n";
   }
   text += stepText(result.step.step, result.crs.isPlane()) + "\n";
-  const auto isOpenRing = [](const Boundary& boundary) {
-    return boundary.closed && boundary.role == BoundaryRole::Open;
-  };
-  if (const auto rings = std::ranges::count_if(result.grid.boundaries, isOpenRing); rings > 0)
-    text += grouped(static_cast<std::uint64_t>(rings)) +
-            forCount(rings, " open boundary is a ring, which", " open boundaries are rings, each of which") +
-            " fort.14 and hgrid.gr3 hold as two that share their ends\n";
   text += cleaningText(result.edits);
   text += finishSummary(job.finish, result.finish);
   text += partitionText(result.partition);

@@ -55,7 +55,7 @@ FormatRecord adcircFormat() {
            .needs_depths = true,
            .places = NodePlaces::OneTurn,
            .lengths_in_metres = true},
-          {writeAdcirc, readAdcirc, files}};
+          {.write = writeAdcirc, .read = readAdcirc, .files = files, .openings = openRingsText}};
 }
 
 }  // namespace coastmesh

@@ -292,6 +292,18 @@ std::vector<double> readGr3Values(const std::string& path, const Grid& grid) {
   return values;
 }
 
+std::string openRingsText(const Grid& grid, const std::string& path) {
+  const auto isOpenRing = [](const Boundary& boundary) {
+    return boundary.closed && boundary.role == BoundaryRole::Open;
+  };
+  const auto rings = std::ranges::count_if(grid.boundaries, isOpenRing);
+  if (rings == 0) return {};
+  return std::to_string(rings) +
+         forCount(static_cast<std::uint64_t>(rings), " open boundary is a ring, which '",
+                  " open boundaries are rings, each of which '") +
+         path + "' holds as two that share their ends";
+}
+
 Grid readFort14(const std::string& path, Crs crs, std::vector<std::int64_t>* ids) {
   ListReader file(path);
   Grid grid;

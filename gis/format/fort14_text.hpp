@@ -14,11 +14,14 @@ namespace coastmesh {
 enum class Fort14Kind { Adcirc, Schism };
 
 // Title, nodes at `places` with their depth (positive down), elements, then open and land boundaries. ADCIRC gets the
-// halves of quadrilaterals. Loops other than
-// islands are two linked segments, since neither program accepts a segment that ends where it starts. A river is a flux
-// segment for ADCIRC and an open one for SCHISM. REQUIRES: every z is known.
+// halves of quadrilaterals. Loops other than islands are two linked segments, since neither program accepts a segment
+// that ends where it starts. A river is a flux segment for ADCIRC and an open one for SCHISM. REQUIRES: every z is
+// known.
 void writeFort14(TextWriter& file, const Grid& grid, std::span<const Point> places, Fort14Kind kind,
                  const ItemLoop& loop);
+
+// A line for the user if the file holds open boundaries that are rings; else empty. See `openingsIn`.
+std::string openRingsText(const Grid& grid, const std::string& path);
 
 // A value at each node in the layout of hgrid.gr3, without boundaries, as SCHISM reads friction and the like. REQUIRES:
 // every value is known.

@@ -92,7 +92,7 @@ FormatRecord schismFormat() {
            .needs_depths = true,
            .places = NodePlaces::OneTurn,
            .lengths_in_metres = true},
-          {writeSchism, readSchism, files}};
+          {.write = writeSchism, .read = readSchism, .files = files, .openings = openRingsText}};
 }
 
 }  // namespace coastmesh

@@ -184,7 +184,7 @@ TEST_F(Frame, ARingOfOpenBoundaryIsSaidToBeTwo) {
                                            "--size-shore", "10000",  "-o",       file("sea.14")};
   const ProgramRun run = runProgram(arguments);
   ASSERT_EQ(run.code, 0) << run.errors;
-  EXPECT_THAT(run.output, HasSubstr("1 open boundary is a ring, which fort.14 and hgrid.gr3 hold as two"));
+  EXPECT_THAT(run.output, HasSubstr("1 open boundary is a ring, which '" + file("sea.14") + "' holds as two"));
   const Fort14 grid = read(file("sea.14"));
   ASSERT_EQ(grid.open.size(), 2u);
   EXPECT_EQ(grid.open[0].front(), grid.open[1].back());
