@@ -37,6 +37,15 @@ std::string depthWarning(const Grid& grid, const Grid& inserted, const std::stri
                             : "only '" + name + "' has depths: unknown for all other nodes";
 }
 
+// Rasters give depths to new nodes only: between two meshes without any they would be the only ones.
+void requireAnyDepths(const Grid& grid, const std::string& name, const Grid& inserted, const std::string& inserted_name,
+                      const DepthOptions& options) {
+  if (!grid.z.empty() || !inserted.z.empty() || options.files.empty()) return;
+  throw InputError("'" + name + "' and '" + inserted_name +
+                   "' have no depths, and --bathymetry gives them to new nodes only: leave it out, and then give all "
+                   "of the mesh depths, with coastmesh convert --bathymetry");
+}
+
 // Which nodal attributes only one of the meshes has.
 std::vector<std::string> fieldWarnings(const Grid& grid, const std::string& name, const Grid& inserted,
                                        const std::string& inserted_name) {
@@ -57,6 +66,7 @@ InsertedMesh putIn(Grid& grid, const std::string& name, const MeshToInsert& mesh
   Grid inserted = mesh.read();
   findMissingBoundaries(inserted);
   matchCrs(inserted, grid, mesh.name);
+  requireAnyDepths(grid, name, inserted, mesh.name, options.depth);
   if (const std::string warning = depthWarning(grid, inserted, mesh.name); !warning.empty()) warn(warning);
   for (const std::string& warning : fieldWarnings(grid, name, inserted, mesh.name)) warn(warning);
   InsertedMesh done{mesh.name, elementCount(inserted, grouped), elementNumbers(inserted), {}};

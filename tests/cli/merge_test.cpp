@@ -147,6 +147,11 @@ TEST_F(Merge, RefusesAndWritesNothing) {
   refused({coarse, coarse}, 3, "covers all");
   refused({coarse, file("none.nc")}, 3, "none.nc");
   refused({coarse, fine, "--numbers", file("n.csv"), "--target", "adcirc"}, 2, "--numbers");
+  // Depths for a few nodes between two meshes without any.
+  ASSERT_EQ(runProgram({"mesh", lake(), "-o", file("bare.nc"), "--size-max", "250"}).code, 0);
+  ASSERT_EQ(runProgram({"mesh", lake(), "-o", file("bare_fine.nc"), "--size-max", "60"}).code, 0);
+  ASSERT_EQ(runProgram({"cut", file("bare_fine.nc"), box(), "-o", file("bare_part.nc")}).code, 0);
+  refused({file("bare.nc"), file("bare_part.nc"), "--bathymetry", dem()}, 3, "convert --bathymetry");
   const ProgramRun over = runProgram({"merge", coarse, fine, "-o", fine, "--overwrite"});
   EXPECT_EQ(over.code, 2) << over.errors;
 }
