@@ -14,6 +14,7 @@
 #include "gis/elements/elements.hpp"
 #include "gis/error.hpp"
 #include "gis/fields/node_fields.hpp"
+#include "gis/fields/plain_field.hpp"
 #include "gis/for_count.hpp"
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/model/fill_depths.hpp"
@@ -107,13 +108,18 @@ std::string setRiverDepths(LaidRivers& laid, const Grid& mesh, const DepthOption
   return grouped(unknown) + forCount(unknown, " node of rivers has", " nodes of rivers have") + " no depth";
 }
 
-// The mesh's attributes where rivers lie in it; further on along rivers those of their neighbours, or the default.
+// The mesh's attributes where rivers lie in it; further on along rivers those of their neighbours, or the default. A
+// river is water, also in a flood plain.
 void setRiverFields(Grid& rivers, const Grid& mesh, const ItemLoop& loop) {
   if (mesh.node_fields.empty()) return;
   const MeshTriangles triangles(mesh, boxAround(rivers.nodes, loop), loop);
   for (const NodeField& field : mesh.node_fields) {
     NodeField& made =
         rivers.node_fields.emplace_back(NodeField{field.name, field.unit, field.component, field.usual, {}});
+    if (field.name == kFloodPlain) {
+      made.values.assign(rivers.nodes.size(), 0.0);
+      continue;
+    }
     for (const Point& place : rivers.nodes) made.values.push_back(roundedValue(triangles.valueAt(field.values, place)));
     fillFromNeighbours(rivers, made.values, roundedValue, loop);
     for (double& value : made.values)
@@ -142,7 +148,8 @@ void keepValues(Grid& grid, const MergedMesh& merged, bool keeps_depths) {
     if (merged.nodes[i].mesh != kNone) continue;
     if (keeps_depths && !grid.z.empty()) keep(before.zAt(grid.nodes[i]), grid.z[i]);
     for (NodeField& field : grid.node_fields)
-      if (const NodeField* const known = findField(gone, field.name, field.component))
+      if (const NodeField* const known = findField(gone, field.name, field.component);
+          known != nullptr && field.name != kFloodPlain)  // which has been settled with the depths
         keep(roundedValue(before.valueAt(known->values, grid.nodes[i])), field.values[i]);
   }
 }

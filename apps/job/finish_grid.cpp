@@ -12,6 +12,8 @@
 #include "apps/job/mesh_area.hpp"
 #include "core/quality.hpp"
 #include "core/run_control.hpp"
+#include "gis/fields/node_fields.hpp"
+#include "gis/fields/plain_field.hpp"
 #include "gis/follow/water_notes.hpp"
 #include "gis/for_count.hpp"
 #include "gis/grid/local_plane.hpp"
@@ -89,12 +91,33 @@ std::string summaryOf(const FieldReport& field) {
          std::to_string(field.unknown) + " unknown\n";
 }
 
+// The land of a flood plain: by the coastline that was meshed, else by an attribute that the grid has.
+LandFlags landOf(const Grid& grid, const FinishOptions& options, const ItemLoop& loop) {
+  if (options.plain != nullptr) return landFlags(grid, options.plain, loop);
+  LandFlags flags;
+  flags.nodes = landNodes(grid);
+  if (flags.nodes.empty()) return flags;
+  for (const auto& corners : grid.triangles)
+    flags.triangles.push_back(
+        std::ranges::any_of(corners, [&flags](std::uint32_t v) { return flags.nodes[v] != 0; }) ? 1 : 0);
+  return flags;
+}
+
+// The attribute that the grid is to have of rasters is for its depths already.
+void readPlain(Grid& grid, const FinishOptions& options, const RunControl& control, const ItemLoop& loop) {
+  if (options.plain != nullptr || grid.triangles.empty()) return;
+  std::vector<FieldSource> sources = options.fields;
+  std::erase_if(sources, [](const FieldSource& source) { return source.name != kFloodPlain; });
+  if (!sources.empty())
+    setFields(grid, sources, options.depth.method, options.depth.fill, RunControl{control.cancelled, {}}, loop);
+}
+
 // Depths open no boundary on the land of a flood plain, whatever its height.
 BoundaryReport boundariesOf(Grid& grid, const FinishOptions& options, const ItemLoop& loop) {
-  const bool by_depth = options.plain != nullptr && options.boundaries.opensByDepth() && !grid.z.empty();
+  const bool by_depth = options.boundaries.opensByDepth() && !grid.z.empty();
   if (!by_depth) return assignBoundaries(grid, options.boundaries, loop);
   const std::vector<double> heights = grid.z;
-  const LandFlags land = landFlags(grid, options.plain, loop);
+  const LandFlags land = landOf(grid, options, loop);
   for (std::size_t v = 0; v < grid.z.size(); ++v)
     if (land.isLandNode(v)) grid.z[v] = std::max(grid.z[v], 0.0);
   BoundaryReport report = assignBoundaries(grid, options.boundaries, loop);
@@ -102,28 +125,38 @@ BoundaryReport boundariesOf(Grid& grid, const FinishOptions& options, const Item
   return report;
 }
 
-// Finds the flood plain's land below the water, which ADCIRC gets an attribute for, unless the user gives it.
-void markLowLand(Grid& grid, const FinishOptions& options, const std::vector<Target>& targets, const ItemLoop& loop,
-                 FinishReport& report) {
-  if (options.plain == nullptr) return;
-  report.low = findLowLand(grid, landFlags(grid, options.plain, loop));
-  const bool given = std::ranges::find(options.fields, kStartsDry, &FieldSource::name) != options.fields.end();
+// Finds the flood plain's land below the water, which ADCIRC gets an attribute for, unless the user gives it, or the
+// grid has it. The land itself is an attribute too, for edits of the grid.
+void markLand(Grid& grid, const FinishOptions& options, const std::vector<Target>& targets, const ItemLoop& loop,
+              FinishReport& report) {
+  if (options.plain == nullptr && !hasPlain(grid)) return;
+  const auto isGiven = [&options](std::string_view name) {
+    return std::ranges::find(options.fields, name, &FieldSource::name) != options.fields.end();
+  };
+  const LandFlags land = landOf(grid, options, loop);
+  if (!isGiven(kFloodPlain)) markPlain(grid, land.nodes);
+  report.low = findLowLand(grid, land);
+  const bool has_it = options.plain == nullptr && findField(grid, std::string(kStartsDry)) != nullptr;
   const bool for_adcirc = std::ranges::find(targets, Target::Adcirc) != targets.end();
-  report.starts_dry = for_adcirc && !given && !report.low.apart.empty();
+  report.starts_dry = for_adcirc && !isGiven(kStartsDry) && !has_it && !report.low.apart.empty();
   if (report.starts_dry) markStartDry(grid, report.low);
 }
 
 // Weirs between pairs of nodes are walls to other models, so these keep the edges.
-void openWeirsOf(Grid& grid, const std::vector<WeirSource>& weirs, std::span<const Target> targets,
-                 double min_angle_deg, const ItemLoop& loop, FinishReport& report) {
+void openWeirsOf(Grid& grid, const FinishOptions& options, std::span<const Target> targets, double min_angle_deg,
+                 const RunControl& control, const ItemLoop& loop, FinishReport& report) {
   if (std::ranges::find(targets, Target::Adcirc) == targets.end()) return;
-  const auto hasCrest = [](const WeirSource& weir) { return weir.crest.has_value(); };
-  if (targets.size() == 1)
-    report.weirs = openWeirs(grid, weirs, min_angle_deg, loop);
-  else if (std::ranges::any_of(weirs, hasCrest))
+  const auto hasCrest = [&options](const WeirSource& weir) {
+    return weir.crest.height_m.has_value() || !options.crests.files.empty();
+  };
+  if (targets.size() == 1) {
+    report.crests = findRasterCrests(grid, options.weirs, options.crests, RunControl{control.cancelled, {}}, loop);
+    report.weirs = openWeirs(grid, options.weirs, min_angle_deg, loop, report.crests);
+  } else if (std::ranges::any_of(options.weirs, hasCrest)) {
     report.weirs.warnings.push_back(
         "weirs stay edges of the mesh: it is for other models besides ADCIRC, which would "
         "get walls; give --target adcirc alone for weirs with pairs of nodes");
+  }
   report.beds = fitWeirsToBeds(grid);
 }
 
@@ -139,6 +172,7 @@ std::vector<std::string> FinishReport::notes() const {
                   pointText(dry.place));
   if (std::string note = noteOf(low, starts_dry); !note.empty()) all.push_back(std::move(note));
   if (dropped.waters > 0 && dropped.share <= kMuchWater) all.push_back(textOf(dropped));
+  all.insert(all.end(), crests.notes.begin(), crests.notes.end());
   std::ranges::move(weirs.notes(), std::back_inserter(all));
   return all;
 }
@@ -166,6 +200,7 @@ std::vector<std::string> FinishReport::warnings() const {
     all.push_back(std::to_string(apart) + forCount(apart, " water has", " waters have") +
                   " no connection to an open boundary; check names their places, and --coast follow with --keep-water "
                   "open leaves them out");
+  all.insert(all.end(), crests.warnings.begin(), crests.warnings.end());
   all.insert(all.end(), weirs.warnings.begin(), weirs.warnings.end());
   return all;
 }
@@ -180,10 +215,12 @@ FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunContr
   const std::vector<Target> targets = targetsNamed(options.targets);
   DepthOptions depth = options.depth;
   depth.keep_known = hasDepths(grid);
-  if (options.plain != nullptr) depth.landOf = [&](const Grid& of) { return landFlags(of, options.plain, loop).nodes; };
+  readPlain(grid, options, control, loop);
+  depth.has_land = depth.has_land || hasPlain(grid);
+  depth.landOf = [&](const Grid& of) { return landOf(of, options, loop).nodes; };
   if (!grid.triangles.empty()) report.depth = setDepths(grid, depth, of_depths, loop);
   if (options.close_dry && !options.depth.files.empty())
-    report.dry = closeDrySides(grid, options.depth.has_land, landFlags(grid, options.plain, loop), loop);
+    report.dry = closeDrySides(grid, options.depth.has_land, landOf(grid, options, loop), loop);
   if (!grid.triangles.empty()) report.boundaries = boundariesOf(grid, options, loop);
   if (options.drop_apart) report.dropped = dropApartWaters(grid, options.grazed, loop);
   // The report is of the water that is left.
@@ -215,11 +252,11 @@ FinishReport finishGrid(Grid& grid, const FinishOptions& options, const RunContr
   // Of the nodes that there are in the end.
   if (!grid.triangles.empty())
     report.fields = setFields(grid, options.fields, options.depth.method, options.depth.fill, control, loop);
-  markLowLand(grid, options, targets, loop, report);
+  markLand(grid, options, targets, loop, report);
   if (report.mended) report.lost = lossOf(before_m2, grid, loop);
   std::ranges::set_difference(asked, nodesAmong(grid, asked), std::back_inserter(report.lost_asked), lexLess);
   if (!targets.empty() && !isOneWater(grid, loop)) report.apart = apartWaters(grid, loop).size();
-  openWeirsOf(grid, options.weirs, targets, how.min_angle_deg, loop, report);
+  openWeirsOf(grid, options, targets, how.min_angle_deg, control, loop, report);
   return report;
 }
 

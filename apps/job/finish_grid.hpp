@@ -14,6 +14,7 @@
 #include "gis/model/set_fields.hpp"
 #include "gis/repair/repair_target.hpp"
 #include "gis/weirs/beds_at_weirs.hpp"
+#include "gis/weirs/raster_crests.hpp"
 #include "gis/weirs/weir_crests.hpp"
 #include "gis/weirs/weir_report.hpp"
 
@@ -32,6 +33,7 @@ struct FinishOptions {
   bool close_dry = false;
   const PlainLand* plain = nullptr;  // tells the land of a flood plain from the water; null: the mesh has none
   std::vector<WeirSource> weirs{};   // those of the lines in the mesh; ADCIRC gets boundaries of them
+  CrestRasters crests{};             // terrain at weirs without a height of their own
 
   bool any() const {
     return !depth.files.empty() || !fields.empty() || boundaries.any() || !targets.empty() || repair.time_step_s > 0.0;
@@ -58,6 +60,7 @@ struct FinishReport {
   RepairLoss lost;
   DroppedWaters dropped;
   std::size_t apart = 0;  // such waters that are left, if targets are given
+  RasterCrests crests;
   WeirReport weirs;
   WeirBeds beds;                  // at weirs, for ADCIRC
   std::vector<Point> lost_asked;  // places of `RepairOptions::asked` that were nodes before, and are not now

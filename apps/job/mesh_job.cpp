@@ -210,6 +210,8 @@ FinishOptions finishOptionsOf(const MeshJob& job, const JobInput& input) {
   finish.boundaries.frame = job.input.frame.box;
   if (std::ranges::count(finish.targets, kTargetNames[static_cast<std::size_t>(Target::Adcirc)]) > 0)
     finish.weirs = weirSources(input.coastline(), finish.depth.water_level_m);
+  finish.crests.zero_m = finish.depth.water_level_m;
+  for (const std::string& file : finish.crests.files) readRasterGeometry(file);  // refused before it takes time
   return finish;
 }
 

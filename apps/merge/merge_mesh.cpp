@@ -68,6 +68,7 @@ MergedMesh mergeMesh(Grid& grid, Grid&& inserted, const MergeOptions& options, c
   remesh.sizes.gradation = options.gradation;
   remesh.mesh = options.mesh;
   remesh.depth = options.depth;
+  remesh.before = &result.merged.gone;
   for (const MergeSource& source : result.merged.triangles) remesh.stay.push_back(source.mesh == 1 ? 1 : 0);
   result.band = remeshGrid(grid, std::move(band.taken), remesh, control, loop);
   measureUnknown(grid, loop);

@@ -1,6 +1,7 @@
 #include "apps/remesh/remesh_grid.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -12,11 +13,15 @@
 #include "apps/remesh/shore_near.hpp"
 #include "gis/elements/quads.hpp"
 #include "gis/error.hpp"
+#include "gis/fields/node_fields.hpp"
+#include "gis/fields/plain_field.hpp"
+#include "gis/geometry/box.hpp"
 #include "gis/grid/ground_orientation.hpp"
 #include "gis/grid/linked_grid.hpp"
 #include "gis/places.hpp"
 #include "gis/remesh/grow_part.hpp"
 #include "gis/remesh/remesh_patch.hpp"
+#include "gis/rivers/mesh_triangles.hpp"
 
 namespace coastmesh {
 
@@ -145,12 +150,28 @@ MeshedPart meshGrowing(const Grid& grid, const LinkedGrid& linked, std::vector<s
   return best ? std::move(*best) : std::move(last);
 }
 
+// New nodes in triangles on the land of a flood plain are on land, also beside the coast.
+void keepPlain(Grid& grid, const ReplaceReport& replaced, const Grid* before, const ItemLoop& loop) {
+  NodeField* const plain = findField(grid, std::string(kFloodPlain));
+  if (plain == nullptr) return;
+  const NodeField* const known = before != nullptr ? findField(*before, plain->name) : nullptr;
+  std::optional<MeshTriangles> triangles;
+  if (known != nullptr) triangles.emplace(*before, boxAround(before->nodes, loop), loop);
+  for (std::size_t i = 0; i < grid.nodes.size(); ++i) {
+    if (replaced.nodes[i] != kNone) continue;
+    const double there = triangles ? triangles->valueAt(known->values, grid.nodes[i]) : plain->values[i];
+    plain->values[i] = (std::isnan(there) ? plain->values[i] : there) > 0.0 ? 1.0 : 0.0;
+  }
+}
+
 // Sets the depths of new nodes from rasters.
 DepthReport setNewDepths(Grid& grid, const ReplaceReport& replaced, const DepthOptions& options,
                          const RunControl& control, const ItemLoop& loop) {
   Grid part;
   part.crs = grid.crs;
   if (grid.z.empty()) grid.z.assign(grid.nodes.size(), std::numeric_limits<double>::quiet_NaN());
+  const std::vector<std::uint8_t> land = landNodes(grid);
+  std::vector<std::uint8_t> part_land;
   std::vector<std::uint32_t> number(grid.nodes.size(), kNone), nodes;
   for (std::size_t t = 0; t < grid.triangles.size(); ++t) {
     if (replaced.triangles[t] != kNone) continue;
@@ -161,6 +182,7 @@ DepthReport setNewDepths(Grid& grid, const ReplaceReport& replaced, const DepthO
         nodes.push_back(node);
         part.nodes.push_back(grid.nodes[node]);
         part.z.push_back(grid.z[node]);
+        if (!land.empty()) part_land.push_back(land[node]);
       }
       node = number[node];
     }
@@ -168,6 +190,7 @@ DepthReport setNewDepths(Grid& grid, const ReplaceReport& replaced, const DepthO
   DepthOptions own = options;
   own.keep_known = true;
   own.keep_land = true;
+  own.landOf = [&part_land](const Grid&) { return part_land; };
   DepthReport report = setDepths(part, own, control, loop);
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (replaced.nodes[nodes[i]] == kNone) grid.z[nodes[i]] = part.z[i];
@@ -219,6 +242,7 @@ RemeshReport remeshGrid(Grid& grid, std::vector<std::uint8_t> taken, const Remes
   }
   report.rim.share = changed / triangles;
   report.replaced = replacePatches(grid, patches, std::move(made), loop);
+  keepPlain(grid, report.replaced, options.before, loop);
   if (!options.depth.files.empty())
     report.depth = setNewDepths(grid, report.replaced, options.depth, stageControl(control, {kMeshing, 1.0}), loop);
   const std::vector<std::uint32_t>& sources = report.replaced.triangles;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "gis/grid/grid.hpp"
 #include "gis/model/depth.hpp"
 #include "gis/size/size_source.hpp"
 #include "parallel/mesh_regions.hpp"
@@ -21,6 +22,9 @@ struct RemeshOptions {
   // Empty, or a flag for each triangle: it stays in any case. Then all that are wanted are replaced, also those that
   // `tidyCut` would leave out.
   std::vector<std::uint8_t> stay{};
+  // Triangles that were here before, of which the grid has some no more: they tell what of the new nodes is on the land
+  // of a flood plain. Null: the grid's own triangles do.
+  const Grid* before = nullptr;
 };
 
 }  // namespace coastmesh

@@ -91,9 +91,11 @@ void declareInputOptions(OptionTable& table, InputOptions& options) {
       "point in the water, in the input's CRS: mesh this side of the coasts");
   table.texts({"--constraints", "Lines and points to keep"}, options.constraints, kVectorFile, false,
               "lines and points in the water that become edges and vertices of the mesh");
-  table.texts({"--weirs", "Weirs"}, options.weirs, kVectorFile, false,
-              "lines in the water that become edges of the mesh, marked as weirs if the output can hold lines; with "
-              "--target adcirc alone, those with an attribute height become its weirs between pairs of nodes");
+  table.texts(
+      {"--weirs", "Weirs"}, options.weirs, kVectorFile, false,
+      "lines in the water that become edges of the mesh, marked as weirs if the output can hold lines; with "
+      "--target adcirc alone, those with an attribute height, or a crest in --weir-heights, become its weirs between "
+      "pairs of nodes");
   table.texts({"--regions", "Regions to mark"}, options.regions, kVectorFile, false,
               "polygons whose name is given to the triangles inside");
   table.flag({"--dissolve", "Join polygons that share an edge"}, options.dissolve,

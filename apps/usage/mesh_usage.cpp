@@ -39,6 +39,25 @@ void chooseLargestAngle(MeshUsage& usage) {
   usage.job.notes.push_back("no angle above 89 degrees is asked for, as MPAS needs it; give --max-angle to say else");
 }
 
+void declareCrests(OptionTable& table, FinishOptions& finish) {
+  constexpr double kFarthest = 1000.0;  // metres: beyond it there are other levees and hills
+  const auto isForAdcirc = [&finish] {
+    const std::vector<Target> targets = targetsNamed(finish.targets);
+    return targets.size() == 1 && targets.front() == Target::Adcirc;
+  };
+  table
+      .texts({"--weir-heights", "Heights of weirs"}, finish.crests.files, kRasterFile, false,
+             "raster of heights, positive up, with the crests of weirs that have no attribute height: at each pair of "
+             "nodes the lowest crest up to half-way to the next; can be repeated, the first with a value at a place is "
+             "used")
+      .needs({"--weirs"})
+      .needs(isForAdcirc, "without --target adcirc alone");
+  table
+      .number({"--weir-search", "Search for crests"}, finish.crests.search_m, "M", {0.0, kFarthest},
+              "distance from the lines within which the highest terrain is the crest")
+      .needs({"--weir-heights"});
+}
+
 }  // namespace
 
 void declareMeshOptions(OptionTable& table, MeshUsage& usage) {
@@ -86,6 +105,7 @@ void declareMeshOptions(OptionTable& table, MeshUsage& usage) {
   declarePinches(table, usage.job.input);
   declareFinishOptions(table, usage.job.finish);
   table.section(Section::Domain);
+  declareCrests(table, usage.job.finish);
   table.number(
       {"--flood-height", "Height of the flood plain"}, usage.flood_height_m, "M",
       {0.0, std::numeric_limits<double>::infinity(), true},
@@ -118,6 +138,14 @@ void requireGlobe(const InputOptions& input, const SizeOptions& sizes) {
     throw OptionError("--domain globe keeps coasts as they are: leave out --coast follow");
 }
 
+// Throws OptionError if a raster of depths, positive down, is to have crests.
+void requireHeights(const FinishOptions& finish) {
+  for (const std::string& file : finish.crests.files)
+    if (finish.depth.positive_down && std::ranges::find(finish.depth.files, file) != finish.depth.files.end())
+      throw OptionError("--weir-heights " + file +
+                        " holds depths, as --depth-sign down says of it: give a raster of heights, positive up");
+}
+
 // To be called after sizes are settled.
 void settleFlood(const MeshUsage& usage, MeshJob& job) {
   if (!std::isfinite(usage.flood_height_m)) return;
@@ -133,6 +161,7 @@ void settle(MeshUsage& usage) {
   settleSizing(usage.sizing, usage.job.finish.depth, sizeChoice(usage.job), usage.job.sizes);
   std::ranges::move(notesOnOverriddenSizes(usage.sizing, usage.job.sizes), std::back_inserter(usage.job.notes));
   requireGlobe(usage.job.input, usage.job.sizes);
+  requireHeights(usage.job.finish);
   settleFlood(usage, usage.job);
   usage.job.mesh.refine.algorithm = named<Algorithm>(kAlgorithmNames, usage.algorithm);
   usage.job.mesh.refine.goal = named<QualityGoal>(kGoalNames, usage.quality);

@@ -9,6 +9,7 @@
 #include "gis/error.hpp"
 #include "gis/fields/field_names.hpp"
 #include "gis/fields/node_fields.hpp"
+#include "gis/fields/plain_field.hpp"
 #include "gis/file/list_reader.hpp"
 #include "gis/file/text_reader.hpp"
 #include "gis/file/text_writer.hpp"
@@ -75,9 +76,9 @@ struct Header {
   bool was_read = false;
 };
 
-Header readHeader(ListReader& file) {
+Header readHeader(ListReader& file, std::string name) {
   constexpr std::uint64_t kMostValues = 1000;
-  Header header{nameLine(file), {}, {}};
+  Header header{std::move(name), {}, {}};
   if (!file.text().nextPhysicalLine()) file.fail("it ends within the attribute " + header.name);
   header.unit = std::string(trimmed(file.text().line()));
   file.needStatement();
@@ -121,28 +122,41 @@ void readValues(ListReader& file, const IdMap& index, std::vector<Header>& heade
   }
 }
 
+void writeHeader(TextWriter& file, const Attribute& attribute) {
+  const NodeField& field = *attribute.fields.front();
+  file << field.name << '\n' << oneLine(field.unit, "unitless") << '\n' << attribute.fields.size() << '\n';
+  for (std::size_t k = 0; k < attribute.usual.size(); ++k) file << (k > 0 ? " " : "") << attribute.usual[k];
+  file << '\n';
+}
+
+void writeValues(TextWriter& file, const Attribute& attribute, std::size_t nodes, const ItemLoop& loop) {
+  std::vector<std::uint32_t> others;
+  for (std::uint32_t node = 0; node < nodes; ++node)
+    if (!attribute.isUsual(node)) others.push_back(node);
+  file << attribute.fields.front()->name << '\n' << others.size() << '\n';
+  file.rows(loop, others.size(), [&](TextBlock& text, std::size_t i) {
+    text << others[i] + 1;
+    for (const NodeField* field : attribute.fields) text << ' ' << 0.0 + field->values[others[i]];
+    text << '\n';
+  });
+}
+
 }  // namespace
 
 void writeFort13(const std::string& path, const Grid& grid, const ItemLoop& loop) {
-  const std::vector<Attribute> attributes = attributesOf(grid);
+  std::vector<Attribute> attributes = attributesOf(grid);
+  const auto own = std::ranges::stable_partition(
+      attributes, [](const Attribute& attribute) { return attribute.fields.front()->name != kFloodPlain; });
   TextWriter file(path);
-  file << oneLine(grid.title, "coastmesh") << '\n' << grid.nodes.size() << '\n' << attributes.size() << '\n';
-  for (const Attribute& attribute : attributes) {
-    const NodeField& field = *attribute.fields.front();
-    file << field.name << '\n' << oneLine(field.unit, "unitless") << '\n' << attribute.fields.size() << '\n';
-    for (std::size_t k = 0; k < attribute.usual.size(); ++k) file << (k > 0 ? " " : "") << attribute.usual[k];
-    file << '\n';
-  }
-  for (const Attribute& attribute : attributes) {
-    std::vector<std::uint32_t> others;
-    for (std::uint32_t node = 0; node < grid.nodes.size(); ++node)
-      if (!attribute.isUsual(node)) others.push_back(node);
-    file << attribute.fields.front()->name << '\n' << others.size() << '\n';
-    file.rows(loop, others.size(), [&](TextBlock& text, std::size_t i) {
-      text << others[i] + 1;
-      for (const NodeField* field : attribute.fields) text << ' ' << 0.0 + field->values[others[i]];
-      text << '\n';
-    });
+  file << oneLine(grid.title, "coastmesh") << '\n'
+       << grid.nodes.size() << '\n'
+       << attributes.size() - own.size() << '\n';
+  const std::span<const Attribute> all(attributes), counted = all.first(all.size() - own.size());
+  for (const Attribute& attribute : counted) writeHeader(file, attribute);
+  for (const Attribute& attribute : counted) writeValues(file, attribute, grid.nodes.size(), loop);
+  for (const Attribute& attribute : all.last(own.size())) {
+    writeHeader(file, attribute);
+    writeValues(file, attribute, grid.nodes.size(), loop);
   }
   file.close();
 }
@@ -161,12 +175,18 @@ void readFort13(const std::string& path, const std::vector<std::int64_t>& ids, G
   const std::uint64_t count = file.count();
   std::vector<Header> headers;
   for (std::uint64_t i = 0; i < count; ++i) {
-    Header header = readHeader(file);
+    Header header = readHeader(file, nameLine(file));
     if (std::ranges::find(headers, header.name, &Header::name) != headers.end())
       file.fail("the attribute " + header.name + " is there twice");
     headers.push_back(std::move(header));
   }
   for (std::uint64_t i = 0; i < count; ++i) readValues(file, index, headers, grid);
+  if (file.text().nextLine() && trimmed(file.text().line()) == kFloodPlain) {
+    if (std::ranges::find(headers, kFloodPlain, &Header::name) != headers.end())
+      file.fail("the attribute " + std::string(kFloodPlain) + " is there twice");
+    headers.push_back(readHeader(file, std::string(kFloodPlain)));
+    readValues(file, index, headers, grid);
+  }
   if (std::ranges::find(headers, kNodeNumbers, &Header::name) != headers.end())
     grid.notes.push_back("condensed_nodes of '" + path +
                          "' are left out: they are numbers of nodes, which edits would not follow");

@@ -11,7 +11,9 @@ namespace coastmesh {
 
 // ADCIRC's nodal attributes: a title, the numbers of nodes and attributes; for each attribute its name, unit, number of
 // values for a node, and default ones; for each its name again, and the nodes that have others. The default is the
-// field's usual value, else the most frequent one. REQUIRES: the grid has fields, all known. Throws OutputError.
+// field's usual value, else the most frequent one. `kFloodPlain` stands behind the attributes that the file counts,
+// where ADCIRC does not read: its log calls names that it does not know errors. REQUIRES: the grid has fields, all
+// known. Throws OutputError.
 void writeFort13(const std::string& path, const Grid& grid, const ItemLoop& loop);
 
 // Adds the attributes of the file to a grid whose nodes have the numbers `ids` in their files, in order. Numbers of

@@ -24,11 +24,12 @@ std::string pathOfField(const std::string& path, const std::string& word) {
   return (beside.parent_path() / ((stem == "hgrid" ? word : stem + '_' + word) + ".gr3")).string();
 }
 
-// The files of friction that SCHISM knows; it has many others, of which most are no attributes of the mesh.
-constexpr std::array<const char*, 3> kFrictions{"manning", "drag", "rough"};
+// The files of friction that SCHISM knows, and that of flood plains, which is for edits of the mesh. SCHISM has many
+// others, of which most are no attributes of the mesh.
+constexpr std::array<const char*, 4> kFields{"manning", "drag", "rough", "flood_plain"};
 
 void readFields(const std::string& path, Grid& grid) {
-  for (const char* const word : kFrictions) {
+  for (const char* const word : kFields) {
     const std::string beside = pathOfField(path, word);
     if (!std::filesystem::exists(beside)) continue;
     const FieldName& known = *findFieldName(word);

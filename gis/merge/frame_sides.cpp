@@ -11,6 +11,7 @@
 
 #include "core/metric.hpp"
 #include "core/predicates.hpp"
+#include "gis/fields/plain_field.hpp"
 #include "gis/geometry/box.hpp"
 #include "gis/geometry/box_tree.hpp"
 #include "gis/grid/boundary_chains.hpp"
@@ -34,7 +35,7 @@ class Surroundings {
  public:
   Surroundings(const Grid& grid, const TriMesh& mesh, std::span<const std::uint8_t> is_far, const Outline& outline,
                const ItemLoop& loop)
-      : grid_(grid), mesh_(mesh) {
+      : grid_(grid), mesh_(mesh), land_(landNodes(grid)) {
     const auto boxOf = [&](TriId t) {
       Box box;
       for (const VertexId v : mesh.triangles[t].v) box.add(mesh.points[v]);
@@ -70,11 +71,12 @@ class Surroundings {
     return std::max({distance(a, b), distance(b, c), distance(c, a)});
   }
 
-  // Linear between the corners.
-  bool isAboveWater(TriId t, const Point& p) const {
+  // On the land of a flood plain, or above the water, linear between the corners.
+  bool isOnLand(TriId t, const Point& p) const {
+    const auto& v = mesh_.triangles[t].v;
+    if (!land_.empty() && (land_[v[0]] != 0 || land_[v[1]] != 0 || land_[v[2]] != 0)) return true;
     if (grid_.z.empty()) return false;
     const auto [a, b, c] = cornersOf(t);
-    const auto& v = mesh_.triangles[t].v;
     const double sum =
         cross(b - p, c - p) * grid_.z[v[0]] + cross(c - p, a - p) * grid_.z[v[1]] + cross(a - p, b - p) * grid_.z[v[2]];
     return sum > 0.0;  // counter-clockwise, so that weights are positive
@@ -88,6 +90,7 @@ class Surroundings {
 
   const Grid& grid_;
   const TriMesh& mesh_;
+  const std::vector<std::uint8_t> land_;  // see `landNodes`
   std::vector<TriId> near_;
   BoxTree tree_;
 };
@@ -126,7 +129,10 @@ class SideFinder {
  public:
   SideFinder(const Grid& grid, const TriMesh& mesh, std::span<const std::uint8_t> is_far, const Grid& inserted,
              const TriMesh& inserted_mesh, const Outline& outline, const ItemLoop& loop)
-      : inserted_(inserted), outline_(outline), other_(grid, mesh, is_far, outline, loop) {
+      : inserted_(inserted),
+        inserted_land_(landNodes(inserted)),
+        outline_(outline),
+        other_(grid, mesh, is_far, outline, loop) {
     const auto shores = shoreTriangles(inserted, inserted_mesh);
     const std::vector<Outline::Edge>& edges = outline.edges();
     beyond_.resize(edges.size());
@@ -169,10 +175,17 @@ class SideFinder {
     const Point there = middle + (beyond.reach / beyond.length) * outwards;
     const std::optional<TriId> farther = other_.triangleAt(there);
     beyond.goes_on = farther.has_value();
-    beyond.is_land = farther && other_.isAboveWater(*farther, there);
-    beyond.is_plain = farther && (beyond.is_land || other_.isAboveWater(*beside, middle)) && !inserted_.z.empty() &&
-                      inserted_.z[edge.a] + inserted_.z[edge.b] + inserted_.z[third] > 0.0;
+    beyond.is_land = farther && other_.isOnLand(*farther, there);
+    beyond.is_plain =
+        farther && (beyond.is_land || other_.isOnLand(*beside, middle)) && isOnLand({edge.a, edge.b, third});
     return beyond;
+  }
+
+  // The same for a triangle of the inserted mesh.
+  bool isOnLand(const std::array<std::uint32_t, 3>& corners) const {
+    const auto isLand = [this](std::uint32_t node) { return inserted_land_[node] != 0; };
+    if (!inserted_land_.empty() && std::ranges::any_of(corners, isLand)) return true;
+    return !inserted_.z.empty() && inserted_.z[corners[0]] + inserted_.z[corners[1]] + inserted_.z[corners[2]] > 0.0;
   }
 
   // True if an edge goes on straight in the next.
@@ -254,6 +267,7 @@ class SideFinder {
   }
 
   const Grid& inserted_;
+  const std::vector<std::uint8_t> inserted_land_;  // see `landNodes`
   const Outline& outline_;
   const Surroundings other_;
   std::vector<Beyond> beyond_;          // by edge; nothing for other edges than shores

@@ -56,6 +56,16 @@ RasterSample blend(const std::array<double, 4>& values, const Corner& corner) {
   return {sum / weights, weights > kAll ? 1.0 : weights};
 }
 
+RasterSample highestOf(const std::array<double, 4>& values, const Corner& /*corner*/) {
+  double highest = -std::numeric_limits<double>::infinity();
+  for (const double value : values)
+    if (value > highest) highest = value;
+  return std::isinf(highest) ? RasterSample{} : RasterSample{highest, 1.0};
+}
+
+// Makes one value of the four pixels around a place.
+using OfFour = RasterSample (*)(const std::array<double, 4>& values, const Corner& corner);
+
 // A place in the raster: its tile, and its number.
 struct Visit {
   StoredTile tile;
@@ -156,7 +166,7 @@ std::vector<std::array<double, 4>> cornersByReaders(const RasterBand& raster, co
 }
 
 // Samples the visits of one tile, `first` up to `last`.
-void sampleTile(const RasterBand& raster, const Visits& visits, std::size_t first, std::size_t last,
+void sampleTile(const RasterBand& raster, const Visits& visits, std::size_t first, std::size_t last, OfFour of_four,
                 std::vector<RasterSample>& samples) {
   std::int64_t left = std::numeric_limits<std::int64_t>::max(), right = -left, top = left, bottom = -left;
   for (std::size_t k = first; k < last; ++k) {
@@ -179,41 +189,58 @@ void sampleTile(const RasterBand& raster, const Visits& visits, std::size_t firs
                                               ? values[static_cast<std::size_t>(row * window.columns + column)]
                                               : std::numeric_limits<double>::quiet_NaN();
     }
-    samples[visits[k].index] = blend(four, corner);
+    samples[visits[k].index] = of_four(four, corner);
   }
+}
+
+// Tile by tile; several at the same time.
+std::vector<RasterSample> sampleTiles(const RasterBand& raster, const Visits& visits, std::size_t count, OfFour of_four,
+                                      const ItemLoop& loop, const RunControl& control) {
+  constexpr std::size_t kWorthAShare = 1 << 15;
+  std::vector<RasterSample> samples(count);
+  forEachTile(raster, visits.ends(), kWorthAShare, loop, control,
+              [&](const RasterBand& own, std::size_t first, std::size_t last) {
+                sampleTile(own, visits, first, last, of_four, samples);
+              });
+  return samples;
 }
 
 }  // namespace
 
-std::vector<Point> pixelsOf(const Grid& grid, const RasterBand& raster, const ItemLoop& loop) {
-  const bool as_is = grid.crs.isPlane() || raster.crs().isPlane() || sameCrs(grid.crs, raster.crs());
+std::vector<Point> pixelsOf(const Crs& crs, std::span<const Point> places, const RasterBand& raster,
+                            const ItemLoop& loop) {
+  const bool as_is = crs.isPlane() || raster.crs().isPlane() || sameCrs(crs, raster.crs());
   std::optional<CrsMap> map;
-  if (!as_is) map.emplace(toOgr(grid.crs), toOgr(raster.crs()));
-  const RasterGeometry seen = asSeenFrom(grid.crs, raster.geometry());
-  const auto pixelOf = [&](const Point& node) { return seen.pixelOf(map ? map->forward(node) : node); };
+  if (!as_is) map.emplace(toOgr(crs), toOgr(raster.crs()));
+  const RasterGeometry seen = asSeenFrom(crs, raster.geometry());
+  const auto pixelOf = [&](const Point& place) { return seen.pixelOf(map ? map->forward(place) : place); };
   std::vector<Point> pixels;
-  reserveOn(loop, pixels, grid.nodes.size());
-  pixels.resize(grid.nodes.size());
-  forEachByStretches(loop, pixels.size(), [&](std::size_t i) { pixels[i] = pixelOf(grid.nodes[i]); });
+  reserveOn(loop, pixels, places.size());
+  pixels.resize(places.size());
+  forEachByStretches(loop, pixels.size(), [&](std::size_t i) { pixels[i] = pixelOf(places[i]); });
   return pixels;
+}
+
+std::vector<Point> pixelsOf(const Grid& grid, const RasterBand& raster, const ItemLoop& loop) {
+  return pixelsOf(grid.crs, grid.nodes, raster, loop);
 }
 
 std::vector<RasterSample> sampleBilinear(const RasterBand& raster, std::span<const Point> pixels,
                                          std::span<const std::uint32_t> which, const PixelReaders* readers,
                                          const ItemLoop& loop, const RunControl& control) {
   const Visits visits(raster, pixels, which, loop);
+  if (readers == nullptr || !raster.geometry().is_exact)
+    return sampleTiles(raster, visits, which.size(), blend, loop, control);
   std::vector<RasterSample> samples(which.size());
-  if (readers == nullptr || !raster.geometry().is_exact) {
-    constexpr std::size_t kWorthAShare = 1 << 15;
-    forEachTile(raster, visits.ends(), kWorthAShare, loop, control,
-                [&](const RasterBand& own, std::size_t first, std::size_t last) {
-                  sampleTile(own, visits, first, last, samples);
-                });
-    return samples;
-  }
   const std::vector<std::array<double, 4>> corners = cornersByReaders(raster, visits, *readers, loop);
   for (std::size_t k = 0; k < visits.size(); ++k) samples[visits[k].index] = blend(corners[k], visits.corner(k));
   return samples;
+}
+
+std::vector<RasterSample> sampleHighest(const RasterBand& raster, std::span<const Point> pixels,
+                                        std::span<const std::uint32_t> which, const ItemLoop& loop,
+                                        const RunControl& control) {
+  return sampleTiles(raster, Visits(raster, pixels, which, loop), which.size(), highestOf, loop, control);
 }
 
 }  // namespace coastmesh

@@ -29,31 +29,60 @@ struct LineCrest {
 };
 using Crests = std::map<std::uint32_t, LineCrest>;  // by line
 
-std::string lineInWords(const Grid& grid, const GridLine& line) {
-  return (line.name.empty() ? "the weir" : "weir '" + line.name + "'") + " from " +
-         roughPlaceInWords(grid.nodes[line.nodes.front()]);
+// Divides lines without a height of their own where the rasters' crests begin and end.
+void divideAtCrests(Grid& grid, const std::vector<WeirSource>& sources, const RasterCrests& rasters) {
+  std::vector<GridLine> lines;
+  for (GridLine& line : grid.lines) {
+    const WeirSource* const source = line.kind == LineKind::Weir ? sourceOf(grid, line, sources) : nullptr;
+    std::vector<NodePair> edges = edgesOf(line);
+    const auto unknown = std::ranges::stable_partition(
+        edges, [&](const NodePair& edge) { return rasters.of_edges.contains(edgeKey(edge[0], edge[1])); });
+    if (source == nullptr || source->crest.height_m || unknown.empty() || unknown.size() == edges.size()) {
+      lines.push_back(std::move(line));
+      continue;
+    }
+    for (const auto& some : {std::vector(edges.begin(), unknown.begin()), std::vector(unknown.begin(), edges.end())})
+      std::ranges::move(linesAlong(some, line.kind, line.name), std::back_inserter(lines));
+  }
+  grid.lines = std::move(lines);
 }
 
 // The crests of the weirs that have one.
-Crests crestsOf(const Grid& grid, const std::vector<WeirSource>& sources, WeirReport& report) {
+Crests crestsOf(const Grid& grid, const std::vector<WeirSource>& sources, const RasterCrests& rasters,
+                WeirReport& report) {
   Crests crests;
   for (std::uint32_t l = 0; l < grid.lines.size(); ++l) {
     const GridLine& line = grid.lines[l];
     if (line.kind != LineKind::Weir) continue;
     const WeirSource* const source = sourceOf(grid, line, sources);
-    if (source != nullptr && source->crest)
-      crests.emplace(l, LineCrest{*source->crest, !runsAsSource(grid, line, *source)});
-    else
-      report.warnings.push_back(lineInWords(grid, line) + " stays edges of the mesh: it has no attribute '" +
-                                kWeirHeight + "', in metres, for ADCIRC");
+    const bool in_rasters = rasters.of_edges.contains(edgeKey(line.nodes[0], line.nodes[1]));
+    if (source != nullptr && (source->crest.height_m || in_rasters))
+      crests.emplace(l, LineCrest{source->crest, !runsAsSource(grid, line, *source)});
+    else if (!rasters.searched)
+      report.warnings.push_back(lineInWords(grid, line, nullptr) + " stays edges of the mesh: it has no attribute '" +
+                                kWeirHeight + "', in metres, for ADCIRC; --weir-heights takes crests from a raster");
   }
   return crests;
 }
 
+// The crest at an end of an edge.
+struct EndCrest {
+  WeirCrest crest;
+  double height_m = 0.0;
+  bool of_raster = false;
+};
+
+// The crest of a pair of nodes between two edges: where a raster has both, water passes over the lower one, as it does
+// within an edge; lines with heights of their own end there.
+const EndCrest& crestBetween(const EndCrest& before, const EndCrest& after) {
+  if (before.of_raster && after.of_raster) return before.height_m < after.height_m ? before : after;
+  return before.height_m > after.height_m ? before : after;
+}
+
 class WeirOpening {
  public:
-  WeirOpening(Grid& grid, const TriMesh& mesh, const WeirCuts& cuts, const Crests& crests)
-      : grid_(grid), mesh_(mesh), cuts_(cuts), crests_(crests), before_(grid) {
+  WeirOpening(Grid& grid, const TriMesh& mesh, const WeirCuts& cuts, const Crests& crests, const RasterCrests& rasters)
+      : grid_(grid), mesh_(mesh), cuts_(cuts), crests_(crests), rasters_(rasters), before_(grid) {
     for (std::uint32_t node = 0; node < grid.nodes.size(); ++node) origin_.push_back(node);
     for (const WeirRun& run : cuts.runs)
       for (const EdgeRef e : run.edges) of_weirs_.insert(edgeKey(mesh.origin(e), mesh.target(e)));
@@ -118,8 +147,12 @@ class WeirOpening {
     return {v[next3(indexOf(e))], v[prev3(indexOf(e))]};
   }
 
-  const WeirCrest& crestOf(EdgeRef e) const {
-    return crests_.at(cuts_.line_of.at(edgeKey(mesh_.origin(e), mesh_.target(e)))).crest;
+  EndCrest crestAt(EdgeRef e, bool at_target) const {
+    const NodePair key = edgeKey(mesh_.origin(e), mesh_.target(e));
+    const WeirCrest& crest = crests_.at(cuts_.line_of.at(key)).crest;
+    if (crest.height_m) return {crest, *crest.height_m, false};
+    const std::uint32_t node = at_target ? mesh_.target(e) : mesh_.origin(e);
+    return {crest, rasters_.of_edges.at(key)[node == key[0] ? 0 : 1], true};
   }
 
   void addBoundary(const WeirRun& run, WeirReport& report) {
@@ -131,9 +164,10 @@ class WeirOpening {
       const bool is_end = i == count && !run.closed;
       weir.nodes.push_back(present(after)[is_end ? 1 : 0]);
       weir.back_nodes.push_back(present(mesh_.twin(after))[is_end ? 0 : 1]);
-      const bool first_is_higher = crestOf(before).height_m > crestOf(after).height_m;
-      const WeirCrest& crest = crestOf(first_is_higher ? before : after);
-      weir.weir.insert(weir.weir.end(), {crest.height_m, crest.subcritical, crest.supercritical});
+      const EndCrest of_before = crestAt(i == 0 && !run.closed ? after : before, i > 0 || run.closed);
+      const EndCrest of_after = is_end ? of_before : crestAt(after, false);
+      const EndCrest& chosen = crestBetween(of_before, of_after);
+      weir.weir.insert(weir.weir.end(), {chosen.height_m, chosen.crest.subcritical, chosen.crest.supercritical});
     }
     ++report.boundaries;
     report.pairs += run.closed ? count : count + 1;
@@ -158,6 +192,7 @@ class WeirOpening {
   const TriMesh& mesh_;  // before
   const WeirCuts& cuts_;
   const Crests& crests_;
+  const RasterCrests& rasters_;
   const EdgeKinds before_;
   std::set<NodePair> of_weirs_;                                   // edges that water flows over, by the nodes before
   std::vector<std::uint32_t> origin_;                             // by node: the one before
@@ -166,10 +201,12 @@ class WeirOpening {
 
 }  // namespace
 
-WeirReport openWeirs(Grid& grid, const std::vector<WeirSource>& sources, double min_angle_deg, const ItemLoop& loop) {
+WeirReport openWeirs(Grid& grid, const std::vector<WeirSource>& sources, double min_angle_deg, const ItemLoop& loop,
+                     const RasterCrests& rasters) {
   WeirReport report;
   if (sources.empty()) return report;
-  const Crests crests = crestsOf(grid, sources, report);
+  if (!rasters.of_edges.empty()) divideAtCrests(grid, sources, rasters);
+  const Crests crests = crestsOf(grid, sources, rasters, report);
   if (crests.empty()) return report;
   std::vector<std::uint32_t> lines;
   for (const auto& [line, crest] : crests) {
@@ -180,13 +217,13 @@ WeirReport openWeirs(Grid& grid, const std::vector<WeirSource>& sources, double 
   std::vector<ClosedLine> closed;
   const WeirCuts cuts = planWeirCuts(grid, mesh, std::move(lines), closed);
   for (const auto& [line, place, why] : closed)
-    report.warnings.push_back(lineInWords(grid, grid.lines[line]) + " stays edges of the mesh at " +
+    report.warnings.push_back(lineInWords(grid, grid.lines[line], nullptr) + " stays edges of the mesh at " +
                               roughPlaceInWords(place) + ": " + why);
   if (cuts.line_of.empty()) return report;
   std::set<std::string> names;
   for (const auto& [edge, line] : cuts.line_of) names.insert(grid.lines[line].name);
   report.names.assign(names.begin(), names.end());
-  WeirOpening(grid, mesh, cuts, crests).run(min_angle_deg, loop, report);
+  WeirOpening(grid, mesh, cuts, crests, rasters).run(min_angle_deg, loop, report);
   requireConsistent(grid, loop);
   return report;
 }

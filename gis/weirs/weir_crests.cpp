@@ -6,12 +6,13 @@
 
 #include "core/metric.hpp"
 #include "gis/coast/feature_names.hpp"
-#include "gis/crs/lon_lat.hpp"
 #include "gis/error.hpp"
 #include "gis/finite_number.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/grid_lines.hpp"
 #include "gis/lower_case.hpp"
+#include "gis/places.hpp"
+#include "gis/weirs/line_view.hpp"
 
 namespace coastmesh {
 namespace {
@@ -28,34 +29,16 @@ std::optional<double> numberOf(const Feature& feature, const std::string& attrib
   return std::nullopt;
 }
 
-std::optional<WeirCrest> crestOf(const Feature& feature, double zero_m) {
-  const auto height = numberOf(feature, kWeirHeight, -std::numeric_limits<double>::infinity());
-  const auto subcritical = numberOf(feature, kWeirSubcritical, 0.0);
-  const auto supercritical = numberOf(feature, kWeirSupercritical, 0.0);
-  if (!height) return std::nullopt;
-  const WeirCrest usual;
-  return WeirCrest{*height - zero_m, subcritical.value_or(usual.subcritical),
-                   supercritical.value_or(usual.supercritical)};
+WeirCrest crestOf(const Feature& feature, double zero_m) {
+  WeirCrest crest;
+  crest.height_m = numberOf(feature, kWeirHeight, -std::numeric_limits<double>::infinity());
+  if (crest.height_m) *crest.height_m -= zero_m;
+  crest.subcritical = numberOf(feature, kWeirSubcritical, 0.0).value_or(crest.subcritical);
+  crest.supercritical = numberOf(feature, kWeirSupercritical, 0.0).value_or(crest.supercritical);
+  return crest;
 }
 
-// Seen from a place: longitudes the short way round, and as long as latitudes there.
-class View {
- public:
-  View(const Point& from, bool geographic)
-      : from_(from), geographic_(geographic), shrink_(geographic ? std::cos(toRadians(from.y)) : 1.0) {}
-
-  Point of(const Point& p) const {
-    const double dx = p.x - from_.x;
-    return {shrink_ * (geographic_ ? std::remainder(dx, 360.0) : dx), p.y - from_.y};
-  }
-
- private:
-  Point from_;
-  bool geographic_;
-  double shrink_;
-};
-
-double squaredDistanceTo(const WeirSource& source, const View& view) {
+double squaredDistanceTo(const WeirSource& source, const LineView& view) {
   double least = std::numeric_limits<double>::infinity();
   for (const std::vector<Point>& line : source.lines)
     for (std::size_t i = 1; i < line.size(); ++i)
@@ -65,16 +48,22 @@ double squaredDistanceTo(const WeirSource& source, const View& view) {
 
 }  // namespace
 
+std::string lineInWords(const Grid& grid, const GridLine& line, const WeirSource* source) {
+  std::string text = line.name.empty() ? "the weir" : "weir '" + line.name + "'";
+  if (source != nullptr && !source->feature.empty()) text += " (" + source->feature + ")";
+  return text + " from " + roughPlaceInWords(grid.nodes[line.nodes.front()]);
+}
+
 std::vector<WeirSource> weirSources(const Coastline& coastline, double zero_m) {
   std::vector<WeirSource> sources;
   for (const Feature& feature : coastline.features)
     if (feature.use == FeatureUse::Weir)
-      sources.push_back({lineNameOf(feature), feature.lines, crestOf(feature, zero_m)});
+      sources.push_back({lineNameOf(feature), feature.lines, crestOf(feature, zero_m), featureInWords(feature)});
   return sources;
 }
 
 const WeirSource* sourceOf(const Grid& grid, const GridLine& line, const std::vector<WeirSource>& sources) {
-  std::vector<View> views;
+  std::vector<LineView> views;
   for (const auto& [a, b] : edgesOf(line))
     views.emplace_back(placeBetween(grid.crs, grid.nodes[a], grid.nodes[b], 0.5), grid.crs.geographic);
   const WeirSource* closest = nullptr;
@@ -92,7 +81,7 @@ const WeirSource* sourceOf(const Grid& grid, const GridLine& line, const std::ve
 
 bool runsAsSource(const Grid& grid, const GridLine& line, const WeirSource& source) {
   const Point &from = grid.nodes[line.nodes[0]], &to = grid.nodes[line.nodes[1]];
-  const View view(placeBetween(grid.crs, from, to, 0.5), grid.crs.geographic);
+  const LineView view(placeBetween(grid.crs, from, to, 0.5), grid.crs.geographic);
   double least = std::numeric_limits<double>::infinity(), along = 0.0;
   for (const std::vector<Point>& points : source.lines) {
     for (std::size_t i = 1; i < points.size(); ++i) {

@@ -45,8 +45,8 @@ class FloodPlainRun : public ProgramTest {
     double lon = 0.0, lat = 0.0, depth = 0.0;
     bool open = false;
   };
-  std::vector<Node> nodes() const {
-    std::istringstream text(readText(file("fort.14")));
+  std::vector<Node> nodes(const std::string& name = "fort.14") const {
+    std::istringstream text(readText(file(name)));
     std::string title, rest;
     std::getline(text, title);
     std::size_t elements = 0, count = 0, number = 0, segments = 0, open = 0;
@@ -141,14 +141,13 @@ class PolderRun : public FloodPlainRun {
     options.insert(options.end(), more.begin(), more.end());
     return mesh(options);
   }
-  // The nodes of fort.13 that do not have the default of its only attribute, which is 0.
-  std::set<std::size_t> startDry(const std::string& name = "fort.13") const {
+  // The nodes of a fort.13 that do not have the default of an attribute, which is 0.
+  std::set<std::size_t> nodesWith(const std::string& attribute, const std::string& name = "fort.13") const {
     std::istringstream text(readText(file(name)));
     std::string line;
+    for (int found = 0; found < 2 && std::getline(text, line);) found += line == attribute;
+    EXPECT_EQ(line, attribute);
     std::size_t count = 0, number = 0;
-    constexpr int kHeader = 8;  // lines: the last has the attribute's name again
-    for (int i = 0; i < kHeader; ++i) std::getline(text, line);
-    EXPECT_EQ(line, "surface_submergence_state");
     text >> count;
     std::set<std::size_t> nodes;
     double value = 0.0;
@@ -157,6 +156,17 @@ class PolderRun : public FloodPlainRun {
       nodes.insert(number);
     }
     return nodes;
+  }
+  std::set<std::size_t> startDry(const std::string& name = "fort.13") const {
+    return nodesWith("surface_submergence_state", name);
+  }
+  // In the middle of the polder, off the rivers of `RiversAreWaterInAPlain`.
+  std::vector<double> polderDepths(const std::string& name) const {
+    std::vector<double> depths;
+    for (const Node& node : nodes(name))
+      if (node.lon > 0.122 && node.lon < 0.147 && (node.lat < 50.045 || node.lat > 50.055))
+        depths.push_back(node.depth);
+    return depths;
   }
 };
 
@@ -193,7 +203,87 @@ TEST_F(PolderRun, APolderIsLand) {
     EXPECT_GT(in_polder, 30u);
     EXPECT_GT(open, 10u);
     EXPECT_EQ(startDry(), low);
+    const std::set<std::size_t> plain = nodesWith("flood_plain");
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      if (found[i].lon > 0.104 || found[i].lon < 0.097) {
+        EXPECT_EQ(plain.contains(i + 1), found[i].lon > 0.1);
+      }
+    }
   }
+}
+
+constexpr double kPolderDepth = 1.0, kLeastDepth = 3.0;
+
+// Files of the mesh tell land from water.
+TEST_F(PolderRun, EditsLeaveIt) {
+  ASSERT_EQ(meshPolder("follow", {}).code, 0);
+  const std::vector<std::string> deeper{"--bathymetry", dem(polder), "--depth-method", "average", "--min-depth", "3"};
+  const auto edited = [&](std::vector<std::string> arguments, const std::string& name) {
+    arguments.insert(arguments.end(), deeper.begin(), deeper.end());
+    arguments.insert(arguments.end(), {"-o", file(name), "--quiet"});
+    const ProgramRun run = runProgram(arguments);
+    EXPECT_EQ(run.code, 0) << run.errors;
+    return polderDepths(name);
+  };
+  const auto isNear = ::testing::Each(::testing::DoubleNear(kPolderDepth, 1e-6));
+  const std::size_t before = polderDepths("fort.14").size();
+  EXPECT_THAT(edited({"convert", file("fort.14")}, "converted.14"),
+              ::testing::AllOf(::testing::SizeIs(before), isNear));
+  const std::vector<std::string> part{"--bbox=0.08,50.02,0.15,50.08", "--size", "250"};
+  const std::vector<double> finer = edited({"remesh", file("fort.14"), part[0], part[1], part[2]}, "finer.14");
+  EXPECT_GT(finer.size(), before + 15);
+  EXPECT_THAT(finer, isNear);
+  for (const Node& node : nodes("finer.14")) {
+    if (node.lon < 0.097) {
+      EXPECT_GE(node.depth, kLeastDepth);
+    }
+  }
+  EXPECT_GT(nodesWith("flood_plain", "finer.13").size(), nodesWith("flood_plain").size() + 20);
+  // And again, through other formats.
+  for (const char* const name : {"finer.nc", "finer.gr3"}) {
+    ASSERT_EQ(runProgram({"convert", file("finer.14"), "-o", file(name), "--quiet"}).code, 0);
+    EXPECT_THAT(edited({"remesh", file(name), part[0], part[1], "400", "--overwrite"}, "again.14"), isNear);
+  }
+  // What the file does not tell is water.
+  std::filesystem::remove(file("fort.13"));
+  EXPECT_THAT(edited({"remesh", file("fort.14"), part[0], part[1], part[2]}, "drowned.14"),
+              ::testing::Contains(kLeastDepth));
+  // A raster of the land tells it.
+  std::string land = "ncols 2\nnrows 1\nxllcorner -0.3\nyllcorner 49.9\ncellsize 0.4\n0 1\n";
+  write("land.asc", land);
+  EXPECT_THAT(edited({"convert", file("fort.14"), "--attribute", "flood_plain=" + file("land.asc")}, "told.14"),
+              isNear);
+  EXPECT_THAT(edited({"remesh", file("told.14"), part[0], part[1], part[2]}, "finer2.14"), isNear);
+}
+
+TEST_F(PolderRun, NestsAndRiversLeaveIt) {
+  ASSERT_EQ(meshPolder("follow", {"-o", file("outer.nc")}).code, 0);
+  const std::vector<std::string> deeper{"--bathymetry", dem(polder), "--min-depth", "3", "--quiet"};
+  const auto edited = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), deeper.begin(), deeper.end());
+    const ProgramRun run = runProgram(arguments);
+    EXPECT_EQ(run.code, 0) << run.errors;
+    return run;
+  };
+  const auto isNear = ::testing::Each(::testing::DoubleNear(kPolderDepth, 1e-6));
+  edited({"mesh", file("land.geojson"), "--domain", "outside", "--bbox", "0.06,50.03,0.135,50.07", "--flood-height",
+          "5", "--size-shore", "200", "--size-max", "400", "--coast", "follow", "-o", file("nest.nc")});
+  const ProgramRun merged = edited({"merge", file("outer.nc"), file("nest.nc"), "-o", file("both.14")});
+  EXPECT_THAT(merged.errors, Not(HasSubstr("stay closed")));  // though its sides lie below the water
+  const std::vector<double> both = polderDepths("both.14");
+  EXPECT_GT(both.size(), polderDepths("fort.14").size() + 20);
+  EXPECT_THAT(both, isNear);
+  // A river from the polder to the sea, 100 m wide.
+  write("river.geojson", R"({"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {}, "geometry":
+    {"type": "LineString", "coordinates": [[0.14, 50.05], [0.12, 50.05], [0.095, 50.05]]}}]})");
+  edited(
+      {"rivers", file("outer.nc"), file("river.geojson"), "--width", "100", "--extent", "all", "-o", file("river.14")});
+  EXPECT_THAT(polderDepths("river.14"), isNear);
+  std::size_t in_river = 0;
+  for (const Node& node : nodes("river.14"))
+    in_river +=
+        node.lon > 0.122 && node.lon < 0.138 && std::abs(node.lat - 50.05) < 0.0006 && node.depth == kLeastDepth;
+  EXPECT_GT(in_river, 10u);
 }
 
 TEST_F(PolderRun, RemeshingKeepsWhatStartsDry) {
@@ -213,11 +303,11 @@ TEST_F(PolderRun, DepthsOpenNoBoundaryOnLand) {
     }
 }
 
-TEST_F(PolderRun, OnlyAdcircGetsAnAttribute) {
+TEST_F(PolderRun, OnlyAdcircIsToldWhatStartsDry) {
   const ProgramRun run = meshPolder("follow", {"--target", "schism"});
   ASSERT_EQ(run.code, 0) << run.errors;
   EXPECT_THAT(run.output + run.errors, HasSubstr("models start them wet"));
-  EXPECT_FALSE(std::filesystem::exists(file("fort.13")));
+  EXPECT_THAT(readText(file("fort.13")), Not(HasSubstr("surface_submergence_state")));
 }
 
 TEST_F(PolderRun, TheUsersAttributeIsKept) {
@@ -281,7 +371,10 @@ TEST_F(Nest, IsJoinedAcrossThePlainToo) {
 TEST_F(Nest, SidesThatStayClosedAreNamed) {
   // The outer mesh's depths say that all of it is water.
   const std::string deep = dem([](double, double) { return -20.0; });
-  ASSERT_EQ(runProgram({"convert", file("outer.nc"), "--bathymetry", deep, "-o", file("deep.nc"), "--quiet"}).code, 0);
+  ASSERT_EQ(runProgram({"convert", file("outer.nc"), "--bathymetry", deep, "--attribute", "flood_plain=0", "-o",
+                        file("deep.nc"), "--quiet"})
+                .code,
+            0);
   const ProgramRun run = runProgram({"merge", file("deep.nc"), file("nest.nc"), "-o", file("both.nc")});
   ASSERT_EQ(run.code, 0) << run.errors;
   EXPECT_THAT(run.output, Not(HasSubstr("across land")));

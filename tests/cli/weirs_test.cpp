@@ -1,4 +1,4 @@
-// Lines of weirs with a height in files for ADCIRC.
+// Lines of weirs with a height, or a raster of heights, in files for ADCIRC.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -39,6 +39,35 @@ class Weirs : public ProgramTest {
                                        "--overwrite"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return runProgram(arguments);
+  }
+
+  // A pair of nodes of the only weir.
+  struct Pair {
+    double lon = 0.0, height = 0.0, coefficient = 0.0;
+  };
+  static std::vector<Pair> pairsIn(const std::string& path) {
+    std::istringstream text(readText(path));
+    std::string line;
+    std::size_t triangles = 0, nodes = 0;
+    std::getline(text, line);
+    text >> triangles >> nodes;
+    std::vector<double> lon(nodes + 1);
+    for (std::size_t i = 0; i < nodes; ++i) {
+      std::size_t number = 0;
+      double lat = 0.0, depth = 0.0;
+      text >> number;
+      text >> lon.at(number) >> lat >> depth;
+    }
+    std::vector<Pair> pairs;
+    while (std::getline(text, line) && line.find(" 24 = ") == std::string::npos) continue;
+    while (std::getline(text, line)) {
+      std::istringstream row(line);
+      std::size_t front = 0, back = 0;
+      Pair pair;
+      if (row >> front >> back >> pair.height >> pair.coefficient) pairs.push_back(pair);
+      if (row) pairs.back().lon = 0.5 * (lon.at(front) + lon.at(back));
+    }
+    return pairs;
   }
 
   // Rows that end so: pairs of nodes with their height and coefficients.
@@ -93,6 +122,68 @@ TEST_F(Weirs, WithoutAHeightStayEdgesWithAWarning) {
   EXPECT_EQ(run.code, 0) << run.errors;
   EXPECT_THAT(run.errors, HasSubstr("weir 'w1' from "));
   EXPECT_THAT(run.errors, HasSubstr("it has no attribute 'height', in metres, for ADCIRC"));
+  EXPECT_THAT(readText(file("fort.14")), Not(HasSubstr(" 24 = ")));
+}
+
+// The terrain rises to the east by 10 m for each degree: the crest of a pair is that half-way to the one west of it, to
+// the two pixels beside.
+TEST_F(Weirs, WithoutAHeightHaveThatOfARaster) {
+  write("bare.geojson", weirWith(R"("coef_sub": 0.9)"));
+  constexpr double kWest = -88.0, kPixel = 0.002, kRise = 10.0;
+  std::string rows;
+  for (int row = 0; row < 100; ++row) {
+    for (int column = 0; column < 200; ++column) rows += std::to_string(kRise * (column + 0.5) * kPixel) + " ";
+    rows += "\n";
+  }
+  write("crest.asc", "ncols 200\nnrows 100\nxllcorner -88\nyllcorner 47.5\ncellsize 0.002\n" + rows);
+  const auto made = [&](const std::string& level) {
+    const ProgramRun run = meshed(
+        {"--weir-heights", file("crest.asc"), "--target", "adcirc", "--water-level", level, "-o", file("fort.14")},
+        "bare.geojson");
+    EXPECT_EQ(run.code, 0) << run.errors;
+    EXPECT_THAT(run.output, HasSubstr("crests of weirs from rasters: "));
+    EXPECT_THAT(run.output, HasSubstr("the highest terrain within 30 m of their lines"));
+    return pairsIn(file("fort.14"));
+  };
+  const std::vector<Pair> pairs = made("0"), lower = made("0.25");
+  ASSERT_GE(pairs.size(), 4u);
+  ASSERT_EQ(lower.size(), pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    EXPECT_EQ(pairs[i].coefficient, 0.9);
+    EXPECT_NEAR(lower[i].height, pairs[i].height - 0.25, 1e-9);
+    if (i == 0) continue;
+    const double half_way = 0.5 * (pairs[i - 1].lon + pairs[i].lon);
+    EXPECT_NEAR(pairs[i].height, kRise * (half_way - kWest), 2.0 * kRise * kPixel) << i;
+    EXPECT_GT(pairs[i].lon, pairs[i - 1].lon);
+  }
+}
+
+TEST_F(Weirs, HeightsOfTheirOwnComeBeforeRasters) {
+  const ProgramRun run = meshed({"--weir-heights", file("bed.asc"), "--target", "adcirc", "-o", file("fort.14")});
+  EXPECT_EQ(run.code, 0) << run.errors;
+  EXPECT_THAT(run.errors, HasSubstr("--weir-heights has no effect: every weir in the mesh has a height of its own"));
+  EXPECT_GE(rowsEndingIn(file("fort.14"), " 2.5 0.9 1"), 3u);
+}
+
+TEST_F(Weirs, RastersOfHeightsThatCannotServe) {
+  write("bare.geojson", weirWith(R"("id": 1)"));
+  const auto with = [&](std::vector<std::string> more) {
+    for (const char* const each : {"--target", "adcirc", "-o"}) more.emplace_back(each);
+    more.push_back(file("fort.14"));
+    return meshed(more, "bare.geojson");
+  };
+  EXPECT_THAT(with({"--weir-heights", file("none.tif")}).errors, HasSubstr("none.tif"));
+  const ProgramRun depths = with({"--weir-heights", file("bed.asc"), "--depth-sign", "down"});
+  EXPECT_EQ(depths.code, 2);
+  EXPECT_THAT(depths.errors, HasSubstr("holds depths, as --depth-sign down says of it"));
+  EXPECT_THAT(meshed({"--weir-heights", file("bed.asc"), "-o", file("plain.14")}, "bare.geojson").errors,
+              HasSubstr("--weir-heights has no effect without --target adcirc alone"));
+  // A raster elsewhere leaves edges, which are named.
+  write("far.asc", "ncols 2\nnrows 2\nxllcorner 10\nyllcorner 45\ncellsize 2\n9 9\n9 9\n");
+  const ProgramRun far = with({"--weir-heights", file("far.asc")});
+  EXPECT_EQ(far.code, 0);
+  EXPECT_THAT(far.errors, HasSubstr("weir 'w1' ('" + file("bare.geojson") + "', feature 1) from -87."));
+  EXPECT_THAT(far.errors, HasSubstr("no raster of --weir-heights has a value within 30 m of it there"));
   EXPECT_THAT(readText(file("fort.14")), Not(HasSubstr(" 24 = ")));
 }
 

@@ -30,6 +30,8 @@ MESH = ["mesh", "INPUT", "--overwrite", "--threads", "THREADS", "--quiet"]
 WRITE = ["--overwrite", "--quiet"]
 SOURCE = [["mesh", "INPUT", "-o", "source.nc", "--quiet"]]
 RIVERS = pathlib.Path(__file__).resolve().parent / "river.geojson"  # into the lake of lake.geojson
+WEIRS = pathlib.Path(__file__).resolve().parent / "weir.geojson"  # in that lake
+CRESTS = pathlib.Path(__file__).resolve().parent / "crest.asc"  # terrain there
 KEPT = "kept"  # the folder of --checkpoint
 # For each case: the outputs, the command without them, and commands to run before it. INPUT is the file to mesh. KEPT
 # remains if a run ends early; a run that resumes from it must make the same files. The case `resumed` starts with the
@@ -41,6 +43,8 @@ CASES = {
                  "partmesh.txt"], MESH + ["--edits", "edits.gpkg", "--partition", "3"], []),
     "sized": (["m.nc", "m.14"], MESH + ["--size-shore", "4000", "--shore-rate", "0.2", "--size-max", "20000", "--coast",
                                         "follow", "--target", "adcirc"], []),
+    "weirs": (["m.14"], MESH + ["--size-max", "20000", "--weirs", "WEIRS", "--weir-heights", "CRESTS", "--target", "adcirc"],
+              []),
     "globe": (["m.nc"], ["mesh", "--domain", "globe", "--size", "2000000"] + MESH[2:], []),
     "png": (["m.png"], ["plot", "../source.nc", "--overwrite"], SOURCE),
     "svg": (["m.svg"], ["plot", "../source.nc", "--color", "angle", "--overwrite"], SOURCE),
@@ -91,7 +95,8 @@ class Sweep:
         self.found = collections.defaultdict(list)
         self.libraries = collections.Counter()
         outputs, command, before = CASES[case]
-        given = {"INPUT": str(input_file), "RIVERS": str(RIVERS), "THREADS": str(threads)}
+        given = {"INPUT": str(input_file), "RIVERS": str(RIVERS), "WEIRS": str(WEIRS), "CRESTS": str(CRESTS),
+                 "THREADS": str(threads)}
         for each in before:
             subprocess.run([program] + [given.get(word, word) for word in each], cwd=scratch, check=True)
         self.command = [*launcher, program] + [given.get(word, word) for word in command]

@@ -103,6 +103,7 @@ def write_inputs(folder):
         [[-87.4813, 41.6125], [-87.4697, 41.6170], [-87.46, 41.6185], [-87.46, 41.6195], [-87.4703, 41.6180],
          [-87.4807, 41.6135], [-87.4813, 41.6125]]])))
     put("line.geojson", collection(feature("LineString", [[-87.495, 41.613], [-87.482, 41.614]])))
+    put("ridge.asc", ascii_raster(-87.52, 41.58, 60, 60, 0.001, lambda x, y: 3 + 0.1 * y))
     put("region.geojson", collection(square(-87.496, 41.611, 0.004, {"name": "bay"})))
     put("points.geojson", collection(feature("Point", [-87.48, 41.611], {"size": 30.0})))
     put("other_points.geojson", collection(feature("Point", [-87.496, 41.605], {"size": 15.0})))
@@ -122,7 +123,7 @@ def write_inputs(folder):
     put("dem.asc", slope)
     put("part.asc", ascii_raster(-87.52, 41.58, 30, 60, 0.001, lambda x, y: -5 - 0.7 * x))
     put("sizes.asc", ascii_raster(-87.52, 41.58, 60, 60, 0.001, lambda x, y: 150))
-    for name in ("dem", "part", "sizes"):
+    for name in ("dem", "part", "sizes", "ridge"):
         put(name + ".prj", WGS84)
     put("angle.toml", "[mesh]\nsize-max = 150\n[check]\nmin-angle = 50\n[plot]\nsize = 300\n[info]\njson = true\n"
         "[convert]\nformat = '2dm'\n[clean]\nsimplify = 300\n[partition]\nformat = 'gmsh'\n[gather]\nformat = '2dm'\n[cut]\nformat = '2dm'\n[remesh]\nformat = '2dm'\n[merge]\nformat = '2dm'\n[rivers]\nformat = '2dm'\n")
@@ -132,6 +133,7 @@ def cases():
     depths = ["--bathymetry", "dem.asc"]
     sized = ["--size", "200"]
     stepped = [*depths, "--size", "60"]
+    weirs = ["--weirs", "line.geojson", "--target", "adcirc", "--size", "200"]
     box = ["--bbox", "-87.5,41.6,-87.48,41.62"]
     common = {"--config": Case("angle.toml"), "--overwrite": Case(exists=["out.nc"])}
     region = {
@@ -170,6 +172,8 @@ def cases():
     mesh = {
         **common, **region, **finish,
         "--flood-height": Case("5", extra=depths),
+        "--weir-heights": Case("ridge.asc", extra=weirs),
+        "--weir-search": Case("300", extra=[*weirs, "--weir-heights", "ridge.asc"]),
         "--output": Case("more.2dm"),
         "--format": Case("2dm"),
         "--min-angle": Case("15"),

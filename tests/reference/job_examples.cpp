@@ -31,6 +31,7 @@
 #include "gis/size/size_raster.hpp"
 #include "gis/size/size_source.hpp"
 #include "gis/weirs/beds_at_weirs.hpp"
+#include "gis/weirs/raster_crests.hpp"
 #include "gis/weirs/weir_crests.hpp"
 #include "gis/weirs/weir_report.hpp"
 #include "tests/reference/folder.hpp"
@@ -118,9 +119,23 @@ TEST_F(JobExamples, WeirCrests) {
   levee.attributes = {{"name", "west dike"}, {"height", "4.5"}};
   const std::vector<WeirSource> weirs = weirSources(coastline, /*zero_m=*/0.5);
   //! [gis/weirs/weir_crests.hpp]
-  ASSERT_TRUE(weirs.at(0).crest.has_value());
-  EXPECT_EQ(weirs[0].crest->height_m, 4.0);
+  EXPECT_EQ(weirs.at(0).crest.height_m, 4.0);
   EXPECT_EQ(weirs[0].name, "west dike");
+}
+
+// gis/weirs/raster_crests.hpp: Heights of levees from terrain.
+TEST_F(JobExamples, RasterCrests) {
+  //! [gis/weirs/raster_crests.hpp]
+  Grid grid;
+  grid.nodes = {{0, 0}, {500, 0}, {250, 400}, {250, -400}};
+  grid.triangles = {{0, 1, 2}, {0, 3, 1}};
+  grid.lines = {{LineKind::Weir, "west dike", false, {0, 1}}};
+  const std::vector<WeirSource> weirs{{"west dike", {{{0, 0}, {500, 0}}}, WeirCrest{.height_m = 4.5}}};
+  const RasterCrests crests = findRasterCrests(grid, weirs, CrestRasters{.files = {"lidar.tif"}, .search_m = 20}, {});
+  const bool has_any = !crests.of_edges.empty();  // the only weir has a height, and the raster is not read
+  //! [gis/weirs/raster_crests.hpp]
+  EXPECT_FALSE(has_any);
+  EXPECT_EQ(crests.warnings.size(), 1u);
 }
 
 // gis/weirs/weir_report.hpp: What became of levees.

@@ -56,7 +56,7 @@ struct Weirs {
     for (const std::uint32_t node : nodes) points.push_back(grid.nodes[node]);
     if (back) std::ranges::reverse(points);
     grid.lines.push_back(lineOfNodes(LineKind::Weir, name, nodes));
-    sources.push_back({name, {points}, crest});
+    sources.push_back({name, {points}, crest.value_or(WeirCrest{})});
   }
 };
 
@@ -325,11 +325,11 @@ TEST(WeirSources, AreReadFromAttributes) {
   const std::vector<WeirSource> sources = weirSources(coastline, 0.5);
   ASSERT_EQ(sources.size(), 2u);
   EXPECT_EQ(sources[0].name, "north");
-  ASSERT_TRUE(sources[0].crest);
-  EXPECT_EQ(sources[0].crest->height_m, 3.0);
-  EXPECT_EQ(sources[0].crest->subcritical, 1.0);
-  EXPECT_EQ(sources[0].crest->supercritical, 0.8);
-  EXPECT_FALSE(sources[1].crest);
+  EXPECT_EQ(sources[0].crest.height_m, 3.0);
+  EXPECT_EQ(sources[0].crest.subcritical, 1.0);
+  EXPECT_EQ(sources[0].crest.supercritical, 0.8);
+  EXPECT_EQ(sources[0].feature, "'levees.gpkg', feature 7");
+  EXPECT_FALSE(sources[1].crest.height_m);
   for (const auto& [value, text] : {std::pair("high", "its attribute 'HEIGHT' is high, not a number"),
                                     std::pair("3,5", "its attribute 'HEIGHT' is 3,5, not a number")}) {
     coastline.features[0].attributes[1].second = value;
