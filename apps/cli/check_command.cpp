@@ -27,6 +27,7 @@
 #include "gis/grid/one_turn.hpp"
 #include "gis/model/apart_waters.hpp"
 #include "gis/model/impossible_depths.hpp"
+#include "gis/model/time_step.hpp"
 #include "gis/places.hpp"
 #include "parallel/recorder.hpp"
 #include "parallel/workers.hpp"
@@ -164,6 +165,23 @@ std::vector<DefectRow> fileRows(const Grid& grid, const TriMesh& mesh, const std
   return rows;
 }
 
+// Advice if the time step holds for the still water, but not with the water over most of a flood plain.
+void adviseOfFlood(const Grid& grid, double time_step_s, std::vector<DefectRow>& rows, const ItemLoop& loop) {
+  const StepReport step = measureStep(grid, loop);
+  if (step.flood_m <= 0.0 || step.flooded_step_s >= time_step_s || step.step_s < time_step_s) return;
+  const double courant = time_step_s / step.flooded_step_s;
+  rows.push_back({"courant when flooded",
+                  {},
+                  step.flooded_place,
+                  -1,
+                  -1,
+                  courant,
+                  amount("%.3g", courant) +
+                      amount(" with the water %.3g m higher, over most of the land: ", step.flood_m) + "at most " +
+                      atMost(step.flooded_step_s) + " s",
+                  true});
+}
+
 bool isDefect(const DefectRow& row) { return !row.advice; }
 
 void printDefects(const CheckUsage& usage, const Grid& grid, const BoundCounts& bounds,
@@ -268,6 +286,8 @@ int runCheck(const CheckUsage& usage, Run& run) {
     if (targets.empty() && usage.target_check.time_step_s > 0.0)
       for (const TargetDefect& defect : checkTimeStep(grid, usage.target_check.time_step_s, loop))
         rows.push_back(rowOf(defect, {}));
+    if (usage.target_check.time_step_s > 0.0 && (targets.empty() || std::ranges::any_of(targets, isOfLongWaves)))
+      adviseOfFlood(grid, usage.target_check.time_step_s, rows, loop);
   });
   useElementNumbers(grid, rows);
   // Advice for all models comes after all defects.

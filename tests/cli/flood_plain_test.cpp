@@ -100,6 +100,24 @@ TEST_F(FloodPlainRun, TheMeshReachesTheContour) {
   EXPECT_GT(open, 10u);
 }
 
+// Fine triangles on land that lies just above the still water, coarse ones in the water.
+TEST_F(FloodPlainRun, CheckAdvisesOnTheStepOfTheFlood) {
+  const std::string heights = dem([](double lon, double) { return lon < 0.1 ? -1.0 : 8.0 * (lon - 0.1) / 0.1; });
+  ASSERT_EQ(mesh({"--bathymetry", heights, "--flood-height", "7", "--size", "500", "--target", "adcirc"}).code, 0);
+  const std::string info = runProgram({"info", file("fort.14"), "--json"}).output;
+  const auto step = nlohmann::json::parse(info)["step"];
+  const double still_s = step["time_step_s"], flooded_s = step["flooded"]["time_step_s"];
+  ASSERT_LT(flooded_s, 0.9 * still_s);
+  const auto advice = [&](double step_s) {
+    const ProgramRun run =
+        runProgram({"check", file("fort.14"), "--target", "adcirc", "--time-step", std::to_string(step_s)});
+    EXPECT_EQ(run.code, 0) << run.output;
+    return run.output.find("advice, courant when flooded: 1") != std::string::npos;
+  };
+  EXPECT_FALSE(advice(0.99 * flooded_s));
+  EXPECT_TRUE(advice(0.5 * (flooded_s + still_s)));
+}
+
 TEST_F(FloodPlainRun, ACoastThatIsKeptStaysALine) {
   const auto onCoast = [this] {
     const std::vector<Node> all = nodes();
