@@ -272,7 +272,7 @@ class TargetCheck {
       }
       if (open > 1) add(TargetDefectKind::TwoOpenEdges, middle(t), t, -1, open);
       if (open > 0 && (solid > 0 || faces_shore)) add(TargetDefectKind::OpenAndSolid, middle(t), t);
-      if (open > 0 || solid < 2) continue;
+      if (open > 0 || solid != 2) continue;
       add(TargetDefectKind::OneNeighbour, middle(t), t);
       defects_.back().advice = true;
     }

@@ -186,7 +186,7 @@ bool isUpright(const EditedView& edited, const GridCorners& v, const std::array<
 
 // What FVCOM rejects of a triangle with these boundary edges; see `checkTarget`.
 int fvcomDefects(const EditedView& edited, const GridCorners& v, int open, int solid) {
-  int defects = (open > 1 ? 1 : 0) + (open == 0 && solid == 2 ? 1 : 0);
+  int defects = open > 1 ? 1 : 0;
   std::array<NodeMark, 3> marks{};
   for (unsigned i = 0; i < 3; ++i) marks[i] = markOf(edited.view, edited.edit, v[i]);
   const bool has_shore = std::ranges::count(marks, NodeMark::Shore) > 0;
@@ -216,10 +216,14 @@ int triangleDefects(const EditedView& edited, const GridCorners& v, std::uint32_
     else
       ++solid;
   }
-  if (view.isFor(Target::Fvcom)) defects += fvcomDefects(edited, v, open, solid);
+  int advice = 0;
+  if (view.isFor(Target::Fvcom)) {
+    defects += fvcomDefects(edited, v, open, solid);
+    advice = open == 0 && solid == 2 ? 1 : 0;
+  }
   const int neighbours = 3 - open - solid;
   if (view.isFor(Target::Fesom)) defects += neighbours > 0 && neighbours < kFesomFewestNeighbours;
-  return defects + (neighbours == 0);
+  return kDefectWeight * (defects + (neighbours == 0 ? 1 : 0)) + advice;
 }
 
 std::ranges::minmax_result<double> anglesOf(const std::array<Point, 3>& p) {
@@ -337,7 +341,8 @@ bool isRoughlyBelow(const EditedView& edited, const EditScore& score, const Scor
     if (least_angle_deg > 0.0 && rough.hasAngleBelow(cosine * cosine)) return true;
     if (may_mend_more) continue;
     const double needed = neededLength(edited, triangle.v);
-    if (needed > 0.0 && rough.hasEdgeBelow(needed / view.step.metres_per_unit[triangle.source])) ++defects;
+    if (needed > 0.0 && rough.hasEdgeBelow(needed / view.step.metres_per_unit[triangle.source]))
+      defects += kDefectWeight;
     if (defects >= bar.defects) return true;
   }
   return false;
@@ -414,8 +419,8 @@ std::optional<EditScore> scoreAbove(const RepairView& view, const GridPatch& pat
     score.min_angle = std::min(score.min_angle, score.made_angle);
     if (!mayReach()) return std::nullopt;
   }
-  if (of_edges) score.defects += edgeDefectsAdded(edited, patch, replaced);
-  if (of_nodes) score.defects += badValencesAdded(view, edit, replaced);
+  if (of_edges) score.defects += kDefectWeight * edgeDefectsAdded(edited, patch, replaced);
+  if (of_nodes) score.defects += kDefectWeight * badValencesAdded(view, edit, replaced);
   return bar.isReachedBy(score) ? std::optional(score) : std::nullopt;
 }
 
@@ -434,7 +439,8 @@ bool moveMayMend(const RepairView& view, const PatchScale& scale, std::uint32_t 
     const double across = distance(p[next3(k)], p[prev3(k)]);
     const double longest = std::max({across, distance(p[k], p[next3(k)]), distance(p[k], p[prev3(k)])});
     const double needed = neededLength(now, std::array{v[next3(k)], v[prev3(k)]});
-    if (needed > 0.0 && longest < kLittle && across * view.step.metres_per_unit[t] < needed * (1.0 - kBent)) --to_mend;
+    if (needed > 0.0 && longest < kLittle && across * view.step.metres_per_unit[t] < needed * (1.0 - kBent))
+      to_mend -= kDefectWeight;
   }
   return to_mend > 0;
 }

@@ -11,10 +11,13 @@
 
 namespace coastmesh {
 
+// What a defect counts; one that is only advice counts 1.
+inline constexpr int kDefectWeight = 8;
+
 // The outcome of an edit of a patch. Edits are ranked by grade first, since another edit may repair the defects that
 // are left, then by fewest defects, then by fewest triangles with too short an edge, then by largest smallest angle.
 struct EditScore {
-  int defects = 0;         // change of the patch's defects; negative: fewer
+  int defects = 0;         // change of the patch's defects, weighted; negative: fewer
   double min_angle = 0.0;  // degrees, of the whole patch
   // Degrees: the smallest angle of the triangles that the edit makes, and of those that they replace.
   double made_angle = 180.0, replaced_angle = 180.0;
@@ -39,7 +42,7 @@ struct EditScore {
 inline constexpr int kTurnedOver = std::numeric_limits<int>::max();
 
 struct TriangleScore {
-  int defects = 0;
+  int defects = 0;                            // weighted
   double min_angle = 0.0, max_angle = 180.0;  // degrees
   bool is_short = false;                      // an edge is below the bound
 };

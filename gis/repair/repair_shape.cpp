@@ -331,6 +331,16 @@ bool isInCorner(const RepairState& state, std::uint32_t t) {
   return edges == 2;
 }
 
+// Advice is not worth short edges or small angles.
+void heedAdvice(RepairState& state, const FoundDefect& found) {
+  const auto t = static_cast<std::uint32_t>(found.defect.triangle);
+  if (state.hopeless_advice[t] || state.isTaken(t)) return;
+  const std::vector<std::uint32_t> inside = withNeighbours(state.links.mesh, std::array{t});
+  const double least_angle_deg = state.options.min_angle_deg - kAngleSlackDeg;
+  const Attempt attempt = reshape(state, inside, {{}, movableCorners(state, inside), least_angle_deg}, found);
+  state.hopeless_advice[t] = attempt.made && !attempt.done;
+}
+
 }  // namespace
 
 void unfoldTriangle(RepairState& state, const FoundDefect& found) {
@@ -349,6 +359,7 @@ void unfoldTriangle(RepairState& state, const FoundDefect& found) {
 }
 
 void reshapeTriangle(RepairState& state, const FoundDefect& found) {
+  if (found.defect.advice) return heedAdvice(state, found);
   const auto t = static_cast<std::uint32_t>(found.defect.triangle);
   if (state.hopeless_triangles[t] || state.isTaken(t)) return;
   const bool of_corner =
@@ -358,12 +369,6 @@ void reshapeTriangle(RepairState& state, const FoundDefect& found) {
     if (cut.done || !cut.made) return;
   }
   const std::vector<std::uint32_t> inside = withNeighbours(state.links.mesh, std::array{t});
-  if (found.defect.advice) {  // not worth short edges or small angles
-    const double least_angle_deg = state.options.min_angle_deg - kAngleSlackDeg;
-    const Attempt attempt = reshape(state, inside, {{}, movableCorners(state, inside), least_angle_deg}, found);
-    state.hopeless_triangles[t] = attempt.made && !attempt.done;
-    return;
-  }
   Attempt attempt = of_corner ? reshapeCorner(state, inside, found) : reshape(state, inside, {kShares, {}}, found);
   if (attempt.made && !attempt.done)
     attempt = reshape(state, inside, {kFarShares, movableCorners(state, inside)}, found);

@@ -45,6 +45,7 @@ void forgetNear(RepairState& state) {
   grow();
   grow();
   forget(state.hopeless_triangles);
+  forget(state.hopeless_advice);
   grow();
   for (const std::uint32_t node : near) state.hopeless_nodes[node] = false;
 }
@@ -115,7 +116,7 @@ void addRepair(RepairState& state, const FoundDefect& found, const Point& place,
 
 void startRepairs(RepairState& state, const RepairMemory* memory) {
   state.changed.assign(state.grid.triangles.size(), false);
-  state.hopeless_triangles = state.disturbed = state.stuck = state.changed;
+  state.hopeless_triangles = state.hopeless_advice = state.disturbed = state.stuck = state.changed;
   state.hopeless_nodes.assign(state.grid.nodes.size(), false);
   const Crs& crs = state.grid.crs;
   if (std::ranges::count(state.targets, Target::Mpas) > 0 && isProjectedForMpas(crs))
@@ -168,7 +169,8 @@ void startRound(RepairState& state) {
 
 void compact(RepairState& state) {
   const std::vector<std::uint32_t> triangle_index = removeTriangles(state.grid, state.dead);
-  for (std::vector<bool>* flags : {&state.changed, &state.disturbed, &state.hopeless_triangles, &state.stuck})
+  for (std::vector<bool>* flags :
+       {&state.changed, &state.disturbed, &state.hopeless_triangles, &state.hopeless_advice, &state.stuck})
     *flags = renumbered(*flags, triangle_index, state.grid.triangles.size(), false);
   state.metres_per_unit = renumbered(state.metres_per_unit, triangle_index, state.grid.triangles.size(), kUnmeasured);
   const std::vector<std::uint32_t> index = removeUnusedNodes(state.grid);

@@ -34,6 +34,8 @@ struct RepairState {
   // By triangle, and by node: a repair has failed. `disturbed` triangles have changed since: attempts near them are
   // repeated.
   std::vector<bool> hopeless_triangles{}, hopeless_nodes{}, disturbed{};
+  // By triangle: the same for advice, which is tried in fewer ways.
+  std::vector<bool> hopeless_advice{};
   // By triangle: no edit at its corners lets it reach the time step, as long as the triangles there do not change.
   std::vector<bool> stuck{};
 

@@ -50,6 +50,7 @@ std::vector<FoundDefect> findDefects(const Grid& grid, const LinkedGrid& linked,
   if (options.time_step_s > 0.0 && !grid.z.empty())
     for (TargetDefect& defect : checkTimeStep(grid, options.time_step_s, loop))
       found.push_back({{}, std::move(defect)});
+  std::ranges::stable_partition(found, [](const FoundDefect& one) { return !one.defect.advice; });
   return found;
 }
 

@@ -298,7 +298,7 @@ def cases():
              "--min-angle": Case("15"), "--max-angle": Case("90"), "--grade": Case("0.02"), "--target": Case("mpas"),
              "--numbers": Case("numbers.csv"), "--assume-crs": Case("EPSG:4326", input="bare.2dm")}
     for name in ("--bathymetry", "--depth-method", "--depth-sign", "--water-level", "--min-depth"):
-        merge[name] = Case(mesh[name].value, extra=mesh[name].extra)
+        merge[name] = Case(mesh[name].value, extra=mesh[name].extra, input="deep.nc")
     rivers = {**common, "--output": Case("more.2dm"), "--format": Case("2dm"), "--quiet": Case(), "--reach": Case("0"),
               "--width-column": Case("breadth"), "--depth-column": Case("bed", input="deep.nc"), 
               "--name-column": Case("other", extra=["--output", "out.gpkg"], because="a .nc has no names"),

@@ -82,15 +82,15 @@ Grid edited(Grid grid, const GridLinks& links, const PatchEdit& edit) {
   return grid;
 }
 
-// Kinds that flips and splits repair; triangles too few or too many around a node count one by one.
+// Weighted, of kinds that flips and splits repair; triangles too few or too many around a node count one by one.
 int defectsOf(const Grid& grid, Target target) {
   int count = 0;
   for (const TargetDefect& defect : checkTarget(grid, target)) {
     if (defect.kind == TargetDefectKind::Valence) {
       const int cells = static_cast<int>(defect.value);
-      count += target == Target::Fesom ? cells - 32 : std::max(4 - cells, cells - 10);
-    } else {
-      count += defect.kind != TargetDefectKind::LoneWall;
+      count += kDefectWeight * (target == Target::Fesom ? cells - 32 : std::max(4 - cells, cells - 10));
+    } else if (defect.kind != TargetDefectKind::LoneWall) {
+      count += defect.advice ? 1 : kDefectWeight;
     }
   }
   return count;
