@@ -48,8 +48,10 @@ int runConvert(const ConvertUsage& usage, Run& run) {
     Recorder recorder;
     outputs.writeGrids(grid, recorder.loop("write", control));
   });
+  const std::string summary =
+      usage.quiet ? std::string() : finishSummary(usage.finish, report) + outputs.openingsText(grid);
   outputs.commit();
-  if (!usage.quiet) std::fputs((finishSummary(usage.finish, report) + outputs.openingsText(grid)).c_str(), stdout);
+  std::fputs(summary.c_str(), stdout);
   return report.repairs.left.empty() ? kExitDone : kExitShort;
 }
 

@@ -44,8 +44,9 @@ int runMeshEdit(const MeshFile& mesh, const EditOutputs& asked,
     if (numbers != nullptr)
       numbers->make([&](const std::string& path) { writeSources(edited.sources, grid, path, loop); });
   });
+  const std::string summary = asked.quiet ? std::string() : edited.summary + outputs.openingsText(grid);
   outputs.commit();
-  if (!asked.quiet) std::fputs((edited.summary + outputs.openingsText(grid)).c_str(), stdout);
+  std::fputs(summary.c_str(), stdout);
   return edited.complete() ? kExitDone : kExitShort;
 }
 

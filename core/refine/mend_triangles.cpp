@@ -159,7 +159,7 @@ bool insertPoint(RefineRun& run, TriId t, unsigned apex) {
 
   const std::array<VertexId, 3> corners = mesh.triangle(t).v;
   const VertexId v = mesh.insertInCavity(candidate.place, patch, run.touched);
-  noteVertex(run, v, spacing);
+  noteVertex(run, v, spacing, corners[0]);
   // A point on the triangle's own circumcircle leaves it there, as obtuse as before. With sizes, optimisation mends it.
   if (run.options.size == nullptr && mesh.triangle(t).v == corners) run.touched.push_back(t);
   ++run.stats.by_type[static_cast<unsigned>(candidate.type)];

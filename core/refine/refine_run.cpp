@@ -134,13 +134,12 @@ double spacingAt(const RefineRun& run, const Point& x, const Patch& cavity) {
   return spacing;
 }
 
-void noteVertex(RefineRun& run, VertexId v, double spacing) {
+void noteVertex(RefineRun& run, VertexId v, double spacing, VertexId beside) {
   run.notes.spacing.resize(run.mesh.vertexSlots());
   run.moves.resize(run.mesh.vertexSlots());
   run.notes.spacing[v] = spacing;
   run.moves[v] = 0;
-  const Corners& corners = run.mesh.triangle(run.mesh.triangleOf(v)).v;
-  run.blocks.put(v, corners[corners[0] == v ? 1 : 0]);
+  run.blocks.put(v, beside);
 }
 
 void enqueueIfBad(RefineRun& run, TriId t) {

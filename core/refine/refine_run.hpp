@@ -43,7 +43,7 @@ class VertexBlocks {
 
   std::uint32_t count() const { return count_; }
   std::uint32_t of(VertexId v) const { return block_of_.empty() ? 0 : block_of_[v]; }
-  // Puts a vertex into the block of another one.
+  // Puts a vertex into the block of another one. REQUIRES: that is in one.
   void put(VertexId v, VertexId beside) {
     if (block_of_.empty()) return;
     if (v >= block_of_.size()) block_of_.resize(v + 1);
@@ -110,8 +110,8 @@ bool isDeferred(const RefineRun& run, TriId t);
 // the distance from fine input as fast as any good mesh can.
 double spacingAt(const RefineRun& run, const Point& x, const Patch& cavity);
 
-// Sets the notes on a new vertex.
-void noteVertex(RefineRun& run, VertexId v, double spacing);
+// Sets the notes on a new vertex; `beside` is one near it that was there before.
+void noteVertex(RefineRun& run, VertexId v, double spacing, VertexId beside);
 
 // Queues a triangle if it is bad; the same for all that were touched.
 void enqueueIfBad(RefineRun& run, TriId t);

@@ -145,7 +145,7 @@ void take(RefineRun& run, const Submesh& patch, const Solution& solution, const 
     for (VertexId f = 0; f < patch.parent.size(); ++f)
       spacing =
           std::min(spacing, patch.notes.spacing[f] + run.bound.surface.chord(patch.mesh.points[f], run.mesh.point(v)));
-    noteVertex(run, v, spacing);
+    noteVertex(run, v, spacing, patch.parent.front());
   }
   run.mesh.restoreDelaunay(touched);
   if (solution.short_triangles > 0) return;

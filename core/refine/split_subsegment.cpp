@@ -140,7 +140,7 @@ bool splitFor(RefineRun& run, EdgeRef edge, TriId t, unsigned apex) {
   const EdgeRef cleared = clearDiametralCircle(run, edge);
   const VertexId v = cleared == kNone ? kNone : mesh.splitSegment(cleared, place, run.touched);
   if (v != kNone) {
-    noteVertex(run, v, spacing);
+    noteVertex(run, v, spacing, a);
     ++run.stats.segment_splits;
     // The triangle that required the split may still exist and be bad.
     run.touched.push_back(t);

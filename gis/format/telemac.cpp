@@ -141,12 +141,11 @@ Grid readTelemac(const std::string& path, const Crs& unsaid) {
   return grid;
 }
 
-bool isLiquid(BoundaryRole role) { return role == BoundaryRole::Open || role == BoundaryRole::River; }
-
-// The boundary's nodes in TELEMAC's order, with their roles.
+// The boundary's nodes in TELEMAC's order, with their roles, loop by loop.
 struct BoundaryNodes {
   std::vector<std::uint32_t> nodes;
   std::vector<BoundaryRole> roles;
+  std::vector<std::size_t> ends;  // of the loops
 };
 
 // Outer loops before islands, each from its south-western node, as TELEMAC itself numbers them.
@@ -179,8 +178,9 @@ BoundaryNodes boundaryNodesOf(const Grid& grid, const std::string& path) {
       const BoundaryRole before = roleOf(loop[(i + loop.size() - 1) % loop.size()], node);
       const BoundaryRole after = roleOf(node, loop[(i + 1) % loop.size()]);
       boundary.nodes.push_back(node);
-      boundary.roles.push_back(isLiquid(before) ? before : isLiquid(after) ? after : BoundaryRole::Land);
+      boundary.roles.push_back(isOpening(before) ? before : isOpening(after) ? after : BoundaryRole::Land);
     }
+    boundary.ends.push_back(boundary.nodes.size());
   }
   return boundary;
 }
@@ -234,7 +234,7 @@ void writeConditions(const BoundaryNodes& boundary, const std::string& path) {
   TextWriter file(path);
   for (std::size_t i = 0; i < boundary.nodes.size(); ++i) {
     const BoundaryRole role = boundary.roles[i];
-    const bool liquid = isLiquid(role);
+    const bool liquid = isOpening(role);
     file << (role == BoundaryRole::Open ? "5 4 4"
              : liquid                   ? "4 5 5"
                                         : "2 2 2")
@@ -247,13 +247,13 @@ void writeConditions(const BoundaryNodes& boundary, const std::string& path) {
 // The number of TELEMAC's liquid boundary that holds each node, 0 on shores, as its subroutine FRONT2 counts them: they
 // begin where codes change, in the order of the .cli. If a loop's first edge is liquid, the boundary there is its
 // first, and what comes before that edge belongs to it too.
-std::vector<std::size_t> liquidNumbers(const Grid& grid, const BoundaryNodes& boundary) {
-  std::vector<std::size_t> number(grid.nodes.size(), 0);
-  const auto liquid = [&](std::size_t i) { return isLiquid(boundary.roles[i]); };
+std::vector<std::size_t> liquidNumbers(std::size_t nodes, const BoundaryNodes& boundary) {
+  std::vector<std::size_t> number(nodes, 0);
+  const auto liquid = [&](std::size_t i) { return isOpening(boundary.roles[i]); };
   const auto numberAt = [&](std::size_t i) -> std::size_t& { return number[boundary.nodes[i]]; };
   std::size_t last = 0, first = 0;  // in `boundary`: the loop's first node
-  for (const auto& loop : orderedLoops(grid)) {
-    const std::size_t end = first + loop.size(), before = last;
+  for (const std::size_t end : boundary.ends) {
+    const std::size_t before = last;
     const bool begins = liquid(first) && liquid(first + 1);
     if (begins) numberAt(first) = ++last;
     for (std::size_t i = first + 1; i < end; ++i) {
@@ -273,10 +273,12 @@ std::vector<std::size_t> liquidNumbers(const Grid& grid, const BoundaryNodes& bo
 
 std::string liquidBoundariesText(const Grid& grid, const std::string& path) {
   constexpr std::size_t kMostNamed = 12;
-  const std::vector<std::size_t> number = liquidNumbers(grid, boundaryNodesOf(grid, path));
+  const auto liquid = [](const Boundary& boundary) { return isOpening(boundary.role); };
+  if (std::ranges::count_if(grid.boundaries, liquid) < 2) return {};
+  const std::vector<std::size_t> number = liquidNumbers(grid.nodes.size(), boundaryNodesOf(grid, path));
   std::map<std::size_t, std::string> names;
   for (const Boundary& boundary : grid.boundaries) {
-    if (!isLiquid(boundary.role)) continue;
+    if (!liquid(boundary)) continue;
     std::string& name = names[number[boundary.nodes.back()]];
     if (!name.empty()) continue;  // several of the same codes in a row are one
     name = boundary.name.empty() ? std::string(toString(boundary.role)) : "'" + boundary.name + "'";

@@ -519,6 +519,17 @@ TEST(Refine, PutsNoVertexNearerThanTheResolution) {
   EXPECT_GE(least(0.01), 0.01);
 }
 
+// Enough for several blocks of vertices, at an angle at which repairs insert some together: a vertex may be counted to
+// the block of one that has none yet.
+TEST(Refine, ManyVerticesAreMendedByBlocks) {
+  const Pslg pslg = fractalCoast(3, 5, 4);
+  ASSERT_GT(pslg.points.size(), 8000u);
+  const RefineOptions options{.min_angle_deg = 42.0};
+  const Refined result = refined(pslg, options);
+  expectRefined(result.mesh, pslg, options, result.stats);
+  EXPECT_EQ(digestOf(result.mesh), digestOf(refined(pslg, options).mesh));
+}
+
 TEST(Refine, OptionsBeyondTheirRangesAreMisuse) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInfinity = std::numeric_limits<double>::infinity();
   std::vector<RefineOptions> wrong;
