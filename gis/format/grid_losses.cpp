@@ -10,6 +10,7 @@
 #include "core/metric.hpp"
 #include "gis/crs/geodesy.hpp"
 #include "gis/elements/quads.hpp"
+#include "gis/fields/plain_field.hpp"
 #include "gis/file/output_files.hpp"
 #include "gis/file/prj_file.hpp"
 #include "gis/grid/grid_lines.hpp"
@@ -66,16 +67,18 @@ bool anyName(const Grid& grid) {
       grid.features, [](const GridFeature& feature) { return !feature.source.empty() || !feature.attributes.empty(); });
 }
 
-// "the nodal attributes manning, canopy"
-std::string fieldsOf(const Grid& grid) {
+// "the nodal attributes manning, canopy". The land of a flood plain is none that the user gave.
+std::string fieldsOf(const Grid& grid, LossesOf of) {
   std::vector<std::string> names;
-  for (const NodeField& field : grid.node_fields)
+  for (const NodeField& field : grid.node_fields) {
+    if (of == LossesOf::Input && field.name == kFloodPlain) continue;
     if (names.empty() || names.back() != field.name) names.push_back(field.name);
+  }
   return names.empty() ? "" : "the nodal attribute" + std::string(names.size() == 1 ? " " : "s ") + joined(names, ", ");
 }
 
 // Describes what the grid has of a part; empty if nothing.
-std::string wordsFor(GridPart part, const Grid& grid, const GridFormat& format) {
+std::string wordsFor(GridPart part, const Grid& grid, const GridFormat& format, LossesOf of) {
   switch (part) {
     case GridPart::Title:
       return grid.title.empty() ? "" : "the title";
@@ -154,7 +157,7 @@ std::string wordsFor(GridPart part, const Grid& grid, const GridFormat& format) 
              typesOf(grid, isPartOfIsland) + ": a part of a shore gets the mainland's type, " + firstAt(first);
     }
     case GridPart::NodeFields:
-      return fieldsOf(grid);
+      return fieldsOf(grid, of);
   }
   return "";
 }
@@ -255,7 +258,7 @@ std::string lossesIn(const Grid& grid, const GridFormat& format, LossesOf of) {
   for (const GridPart part : kAllParts) {
     if (of == LossesOf::Input && std::ranges::find(kGivenParts, part) == kGivenParts.end()) continue;
     if (format.holds.has(part)) continue;
-    losses.push_back(wordsFor(part, grid, format));
+    losses.push_back(wordsFor(part, grid, format, of));
   }
   if (format.marks_nodes) losses.push_back(loneShoresOf(grid, format));
   if (format.of_water) losses.push_back(heightsOf(grid));

@@ -100,6 +100,16 @@ TEST_F(FloodPlainRun, TheMeshReachesTheContour) {
   EXPECT_GT(open, 10u);
 }
 
+// An attribute that no user gave is worth no warning; of edits it is.
+TEST_F(FloodPlainRun, FormatsWithoutAttributesLoseThePlain) {
+  const ProgramRun made = mesh(
+      {"--bathymetry", dem(slope), "--flood-height", "5", "--size", "800", "-o", file("a.2dm"), "-o", file("a.nc")});
+  ASSERT_EQ(made.code, 0) << made.errors;
+  EXPECT_THAT(made.errors, Not(HasSubstr("flood_plain")));
+  const ProgramRun converted = runProgram({"convert", file("a.nc"), "-o", file("b.2dm")});
+  EXPECT_THAT(converted.errors, HasSubstr("the nodal attribute flood_plain"));
+}
+
 // Fine triangles on land that lies just above the still water, coarse ones in the water.
 TEST_F(FloodPlainRun, CheckAdvisesOnTheStepOfTheFlood) {
   const std::string heights = dem([](double lon, double) { return lon < 0.1 ? -1.0 : 8.0 * (lon - 0.1) / 0.1; });

@@ -255,9 +255,7 @@ Grid channel(bool open_north) {
       [](int i, int j) {
         return Point{1000.0 * i - 500.0 * j, 866.0 * j};
       });
-  Grid grid;
-  grid.nodes = mesh.points;
-  for (const Triangle& t : mesh.triangles) grid.triangles.push_back(t.v);
+  Grid grid = testing::gridOf(mesh);
   grid.z.assign(grid.nodes.size(), -20.0);
   grid.boundaries = cutLoops(grid, boundaryLoops(grid), [&](std::uint32_t a, std::uint32_t b) {
     const double from = grid.nodes[a].y, to = grid.nodes[b].y;

@@ -18,6 +18,14 @@ namespace coastmesh::testing {
 inline constexpr Target kAll[] = {Target::Adcirc,  Target::Schism, Target::Fvcom, Target::Telemac,
                                   Target::Dflowfm, Target::Swan,   Target::Mpas};
 
+// The mesh's nodes and triangles, without depths and boundaries.
+inline Grid gridOf(const TriMesh& mesh) {
+  Grid grid;
+  grid.nodes = mesh.points;
+  for (const Triangle& t : mesh.triangles) grid.triangles.push_back(t.v);
+  return grid;
+}
+
 // A sea of nearly equilateral triangles of a kilometre, with an island or not; no corner has both its edges in one
 // triangle.
 inline Grid soundGrid(bool island = true) {
@@ -26,9 +34,7 @@ inline Grid soundGrid(bool island = true) {
       [](int i, int j) {
         return Point{1000.0 * i - 500.0 * j, 866.0 * j};
       });
-  Grid grid;
-  grid.nodes = mesh.points;
-  for (const Triangle& t : mesh.triangles) grid.triangles.push_back(t.v);
+  Grid grid = gridOf(mesh);
   for (std::size_t i = 0; i < grid.nodes.size(); ++i) grid.z.push_back(-20.0 - 0.5 * static_cast<double>(i % 7));
   grid.boundaries = findBoundaries(mesh);
   return grid;
