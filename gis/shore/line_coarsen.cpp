@@ -82,7 +82,7 @@ class Coarsener {
     const LineStep &one = chain[i], &other = chain[i + 1];
     const LineNode& between = nodes_[one.to];
     if (between.isAtShore() || (between.of != kNone && stays_[between.of] != 0)) return false;
-    if (one.is_back != other.is_back || lines_[one.of].tag != lines_[other.of].tag) return false;
+    if (lines_[one.of].tag != lines_[other.of].tag) return false;
     if (joined_.contains(endsOf(one.from, other.to)) || cutter_.areOnOneShore(one.from, other.to)) return false;
     const Point &a = at(one.from), &b = between.at, &c = at(other.to);
     if (a == c) return false;

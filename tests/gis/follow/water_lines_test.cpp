@@ -8,6 +8,7 @@
 #include <numeric>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/metric.hpp"
@@ -171,6 +172,26 @@ TEST(WaterLines, PiecesMuchShorterThanTheSizeBecomeOne) {
   bool keeps_corner = false;
   for (const auto& [a, b] : coarse.lines()) keeps_corner = keeps_corner || a == Point{90, 50.0 + 0.2 * std::sin(90.0)};
   EXPECT_TRUE(keeps_corner);
+}
+
+TEST(WaterLines, ShortPiecesBecomeOneWhicheverWayTheyRun) {
+  // As cleaning leaves a line that crosses something: points of crossings have higher numbers than those of the line.
+  const ShoreGraph drawn = graphOf(kBasin, {{10, 50}, {49, 50}, {50, 50}, {52, 50}, {90, 50}});
+  const ScaleTable scales(Projection::plane(), Box{0, 0, 100, 100});
+  for (unsigned backwards = 0; backwards < 16; ++backwards) {
+    ShoreGraph graph = drawn;
+    for (unsigned i = 0; i < 4; ++i)
+      if (Segment& s = graph.pslg.segments[kBasin.size() + i]; (backwards >> i & 1u) != 0) std::swap(s.a, s.b);
+    LostLines lost;
+    returnLines(graph, takeLines(graph), {ConstantSize(kSize), scales}, 1.0, lost);
+    double length = 0.0;
+    for (const Segment& s : graph.pslg.segments) {
+      const double piece = distance(graph.pslg.points[s.a], graph.pslg.points[s.b]);
+      EXPECT_GE(piece, 0.5 * kSize) << backwards;
+      if (!isBoundary(s)) length += piece;
+    }
+    EXPECT_DOUBLE_EQ(length, 80.0) << backwards;
+  }
 }
 
 TEST(WaterLines, PointsAskedForStayInLines) {
