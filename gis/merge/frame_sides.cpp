@@ -27,8 +27,8 @@ constexpr std::size_t kLeastEdges = 3;
 const double kMostTurn = std::sin(0.5 * std::numbers::pi / 180.0);
 // How far the outline may lie beyond a side, as a share of the side's length.
 constexpr double kBeyondSide = 0.01;
-// Shorter parts of the outline, in edges of the other mesh beside them, are not worth a word.
-constexpr double kWorthNaming = 2.0;
+// Parts of the outline that the other mesh would show, in its edges beside them.
+constexpr double kLong = 2.0;
 
 // The triangles of the other mesh near the outline.
 class Surroundings {
@@ -224,10 +224,18 @@ class SideFinder {
     if (side.size() < kLeastEdges || std::ranges::none_of(side, [&](std::uint32_t e) { return beyond_[e].goes_on; }))
       return;
     if (!isOfFrame(side)) return;
+    bool joins = std::ranges::any_of(side, [&](std::uint32_t e) { return outline_.edges()[e].joins; });
     for (const Edges& part : partsBeside(side, false)) {
-      if (isMostly(part, &Beyond::is_plain)) {
+      if (!isMostly(part, &Beyond::is_plain)) continue;
+      take(part, found_.joined);
+      joins = true;
+    }
+    for (const Edges& part : partsBeside(side, false)) {
+      if (!isMostly(part, &Beyond::goes_on)) continue;
+      // Elements of other sizes see other ridges and creeks beside a side that joins elsewhere.
+      if (joins && !isLong(part)) {
         take(part, found_.joined);
-      } else if (isMostly(part, &Beyond::goes_on)) {
+      } else {
         close(part);
       }
     }
@@ -252,13 +260,17 @@ class SideFinder {
     return 2.0 * of_it >= all;
   }
 
-  void close(const Edges& part) {
+  bool isLong(const Edges& part) const {
     double length = 0.0, reach = 0.0;
     for (const std::uint32_t e : part) {
       length += beyond_[e].length;
       reach = std::max(reach, beyond_[e].reach);
     }
-    if (length >= kWorthNaming * reach) take(part, found_.closed);
+    return length >= kLong * reach;
+  }
+
+  void close(const Edges& part) {
+    if (isLong(part)) take(part, found_.closed);
   }
 
   void take(const Edges& part, Edges& list) {

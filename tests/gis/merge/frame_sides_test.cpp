@@ -84,7 +84,7 @@ TEST(FrameSides, AnywhereInAPlainAreJoined) {
     frame.corner = {9.0 + 2.0 * share(random), 9.0 + 2.0 * share(random)};
     Grid grid = outerWith(plain);
     const MergeReport report = mergeAndCheck(grid, nestWith(frame, plain));
-    // But for a single edge at the coast, which may be half of the sea.
+    // But for a single edge beside the end of the other mesh.
     EXPECT_GE(report.joined + 1, 2u * static_cast<unsigned>(frame.columns + frame.rows));
     EXPECT_EQ(report.closed.length_m, 0.0);
     EXPECT_NEAR(areaOf(grid), 400.0, 1.0);
@@ -112,6 +112,27 @@ TEST(FrameSides, WithoutLandInBothAreNamed) {
   grid.z.clear();
   nest.z.clear();
   EXPECT_NEAR(mergeAndCheck(grid, nest).closed.length_m, 0.5 * kOnLand, 1e-9);
+}
+
+TEST(FrameSides, ShortPartsThatOnlyTheNestHasOnLandAreJoined) {
+  // A ridge at the nest's west side, which is open elsewhere, narrower than the other mesh shows.
+  for (const double width : {0.5, 1.5, 2.5, 3.5}) {
+    SCOPED_TRACE(width);
+    const auto onRidge = [&](const Point& p) { return p.x < 5.0 && std::abs(p.y - 9.55) < 0.5 * width + 0.01; };
+    const auto ridge = [&](const Point& p) { return onRidge(p) ? 0.5 : -5.0; };
+    Grid grid = outerWith(sea);
+    const Grid before = grid;
+    Grid nest = gridOf(kFrame);
+    setHeights(nest, ridge);
+    openWhere(nest, [&](const Point& p) { return !onRidge(p); });
+    const auto on_ridge = static_cast<std::size_t>(std::lround(width / kFrame.length));
+    const bool is_short = width < 2.0 * std::numbers::sqrt2;
+    const MergeReport report = mergeAndCheck(grid, nest);
+    EXPECT_EQ(report.joined_land, is_short ? on_ridge : 0u);
+    EXPECT_EQ(report.joined, is_short ? 64u : 64u - on_ridge);
+    EXPECT_NEAR(report.closed.length_m, is_short ? 0.0 : width, 1e-9);
+    EXPECT_EQ(shoresOf(grid) == shoresOf(before), is_short);
+  }
 }
 
 TEST(FrameSides, AnEndOfTheOtherMeshIsNone) {
