@@ -12,6 +12,7 @@
 #include "apps/job/mesh_area.hpp"
 #include "core/quality.hpp"
 #include "core/run_control.hpp"
+#include "gis/check/check_weirs.hpp"
 #include "gis/fields/node_fields.hpp"
 #include "gis/fields/plain_field.hpp"
 #include "gis/follow/water_notes.hpp"
@@ -158,6 +159,7 @@ void openWeirsOf(Grid& grid, const FinishOptions& options, std::span<const Targe
         "get walls; give --target adcirc alone for weirs with pairs of nodes");
   }
   report.beds = fitWeirsToBeds(grid);
+  for (TargetDefect& defect : checkWeirs(grid)) report.repairs.left.emplace_back(Target::Adcirc, std::move(defect));
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "core/quality.hpp"
 #include "core/tri_mesh.hpp"
 #include "gis/check/check_segments.hpp"
+#include "gis/check/check_weirs.hpp"
 #include "gis/check/flow_links.hpp"
 #include "gis/check/node_meets.hpp"
 #include "gis/check/target_limits.hpp"
@@ -92,6 +93,7 @@ class TargetCheck {
     if (options_.overlaps) checkOverlaps();
     if (target_ == Target::Adcirc || target_ == Target::Schism)
       std::ranges::move(checkSegments(grid_, mesh_, boundary_edges_, target_, loop_), std::back_inserter(defects_));
+    if (target_ == Target::Adcirc) std::ranges::move(checkWeirs(grid_), std::back_inserter(defects_));
     if (mindsDryOpenings(target_)) checkOpenings();
     if (target_ == Target::Fvcom) checkOpenCells();
     if (target_ == Target::Fvcom || target_ == Target::Telemac) checkLoneWalls();

@@ -12,7 +12,7 @@ constexpr std::array<std::string_view, kTargetDefectKinds> kKindNames{
     "dry opening",     "no boundary",  "stray boundary",  "boundary twice",        "boundary turned",
     "looped boundary", "wrong shore",  "two open edges",  "open and solid",        "open bridge",
     "one neighbour",   "lone wall",    "valence",         "large angle",           "not orthogonal",
-    "small flow link", "courant",      "round the globe", "quadrilateral"};
+    "small flow link", "courant",      "round the globe", "quadrilateral",         "bed above crest"};
 
 }  // namespace
 

@@ -39,8 +39,9 @@ enum class TargetDefectKind {
   Courant,         // a triangle whose Courant number is out of range for the time step
   RoundTheGlobe,   // a triangle whose longitudes jump at ±180, for a model that takes differences of them as they are
   Quadrilateral,   // an element of four nodes, for a model of triangles
+  BedAboveCrest,   // a node of a weir whose bed is higher than the crest
 };
-inline constexpr std::size_t kTargetDefectKinds = 29;
+inline constexpr std::size_t kTargetDefectKinds = 30;
 std::string_view toString(TargetDefectKind kind);
 
 struct TargetDefect {
@@ -48,7 +49,8 @@ struct TargetDefect {
   Point place;                 // in the grid's CRS
   std::int64_t triangle = -1;  // index, -1 if none
   std::int64_t node = -1;      // the same
-  // Degrees, metres above the water, triangles around a node, a cosine, a share (`FlowLink`), or a Courant number.
+  // Degrees, metres above the water or a crest, triangles around a node, a cosine, a share (`FlowLink`), or a Courant
+  // number.
   double value = 0.0;
   std::string text;     // of WrongCount, and of Overlap
   bool advice = false;  // the model runs, but not as well as it could

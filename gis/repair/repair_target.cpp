@@ -41,12 +41,16 @@ RunControl roundOf(const RunControl& control, int round) {
 // Advice that repairs heed.
 bool isRepairedThough(const TargetDefect& advice) { return advice.kind == TargetDefectKind::OneNeighbour; }
 
+// Crests and beds are made to fit one another when all else is done: see `fitWeirsToBeds`.
+bool isLeftToWeirs(const TargetDefect& defect) { return defect.kind == TargetDefectKind::BedAboveCrest; }
+
 std::vector<FoundDefect> findDefects(const Grid& grid, const LinkedGrid& linked, std::span<const Target> targets,
                                      const RepairOptions& options, const ItemLoop& loop) {
   std::vector<FoundDefect> found;
   for (const Target target : targets)
     for (TargetDefect& defect : checkTarget(grid, linked, target, {.overlaps = false}, loop))
-      if (!defect.advice || isRepairedThough(defect)) found.push_back({target, std::move(defect)});
+      if (!isLeftToWeirs(defect) && (!defect.advice || isRepairedThough(defect)))
+        found.push_back({target, std::move(defect)});
   if (options.time_step_s > 0.0 && !grid.z.empty())
     for (TargetDefect& defect : checkTimeStep(grid, options.time_step_s, loop))
       found.push_back({{}, std::move(defect)});
@@ -159,6 +163,7 @@ void mend(RepairState& state, const FoundDefect& found) {
     case TargetDefectKind::UnknownDepth:
     case TargetDefectKind::RoundTheGlobe:  // longitudes are already unwrapped if they can be
     case TargetDefectKind::Quadrilateral:  // split at first
+    case TargetDefectKind::BedAboveCrest:  // see `findDefects`
       return;
   }
 }

@@ -5,17 +5,20 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <set>
 
 #include "core/metric.hpp"
 #include "core/quality.hpp"
+#include "gis/check/check_target.hpp"
 #include "gis/crs/crs.hpp"
 #include "gis/error.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/grid_lines.hpp"
 #include "gis/model/apart_waters.hpp"
+#include "gis/repair/repair_target.hpp"
 #include "gis/weirs/beds_at_weirs.hpp"
 #include "tests/gis/check/target_samples.hpp"
 
@@ -393,6 +396,51 @@ TEST(BedsAtWeirs, AreBelowTheCrests) {
   EXPECT_THAT(raised.notes(),
               ElementsAre(HasSubstr("3 pairs of nodes of weirs, whose crests are raised to 0.1 m above it")));
   EXPECT_THAT(weirsOf(grid)[0].weir, ElementsAre(9.1, 1, 1, 9.1, 1, 1, 9.1, 1, 1));
+}
+
+TEST(BedsAtWeirs, AboveCrestsAreFoundOnBothShores) {
+  Grid grid = sea();
+  Weirs weirs;
+  weirs.add(grid, nodesFrom(2, 4, 1, 0, 4), WeirCrest{3.5});
+  openWeirs(grid, weirs.sources, 30.0);
+  const Boundary weir = weirsOf(grid)[0];
+  const auto found = [](const Grid& of) {
+    std::vector<TargetDefect> all = checkTarget(of, Target::Adcirc);
+    EXPECT_TRUE(std::ranges::all_of(
+        all, [](const TargetDefect& defect) { return defect.kind == TargetDefectKind::BedAboveCrest; }));
+    EXPECT_EQ(kindsIn(of, Target::Schism).count(TargetDefectKind::BedAboveCrest), 0u);
+    return all;
+  };
+  // As high as the crest is as high as ADCIRC takes.
+  for (const double z : {3.5, 3.75}) {
+    for (const std::uint32_t node : {weir.nodes[1], weir.back_nodes[1]}) {
+      Grid high = grid;
+      high.z[node] = z;
+      const std::vector<TargetDefect> all = found(high);
+      ASSERT_EQ(all.size(), z > 3.5 ? 1u : 0u);
+      if (all.empty()) continue;
+      EXPECT_EQ(all[0].node, node);
+      EXPECT_EQ(all[0].value, 0.25);
+      // Repairs, which refuse meshes with weirs, leave it to what fits them.
+      EXPECT_TRUE(repairForTargets(high, std::array{Target::Adcirc}, {}).left.empty());
+      EXPECT_EQ(fitWeirsToBeds(high).lowered, 1u);
+      EXPECT_TRUE(found(high).empty());
+    }
+  }
+  // Pipes are lower than the crest: height, coefficient and diameter follow it.
+  for (Boundary& boundary : grid.boundaries) {
+    if (boundary.weir.empty()) continue;
+    boundary.ibtype = 25;
+    boundary.weir.clear();
+    for (std::size_t i = 0; i < boundary.nodes.size(); ++i)
+      boundary.weir.insert(boundary.weir.end(), {3.5, 1.0, 1.0, -2.0, 1.0, 0.5});
+  }
+  EXPECT_TRUE(found(grid).empty());
+  grid.z[weir.back_nodes[2]] = -1.5;
+  const std::vector<TargetDefect> all = found(grid);
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_EQ(all[0].node, weir.back_nodes[2]);
+  EXPECT_EQ(all[0].value, 0.5);
 }
 
 }  // namespace
