@@ -228,6 +228,34 @@ std::vector<std::string> warningsOfLostPoints(const InputOptions& input, const C
   return all;
 }
 
+std::vector<std::string> notesOfLostWeirs(const InputOptions& input, const Coastline& coastline,
+                                          const MeshJobResult& result) {
+  constexpr std::size_t kMostNamed = 5;
+  std::vector<std::string> all;
+  const std::vector<std::string> idle = idleFiles(coastline, FeatureUse::Weir, input.weirs, result);
+  for (const std::string& file : input.weirs) {
+    if (std::ranges::find(idle, file) != idle.end()) continue;
+    std::string places;
+    std::size_t count = 0, lost = 0;
+    for (std::uint32_t f = 0; f < coastline.features.size(); ++f) {
+      const Feature& feature = coastline.features[f];
+      if (feature.use != FeatureUse::Weir || feature.lines.empty() || !isFrom(feature, file)) continue;
+      ++count;
+      if (result.took_part.contains(f) || ++lost > kMostNamed) continue;
+      const auto& line = feature.lines.front();
+      const std::string name(nameOf(feature.attributes));
+      places += (places.empty() ? "" : ", ") +
+                (name.empty() ? "feature " + std::to_string(feature.fid) : "'" + name + "'") + " at " +
+                pointText(line[line.size() / 2]);
+    }
+    if (lost == 0) continue;
+    all.push_back("--weirs " + file + ": " + std::to_string(lost) + " of " + std::to_string(count) +
+                  forCount(lost, " weirs lies outside of the mesh: ", " weirs lie outside of the mesh: ") + places +
+                  (lost > kMostNamed ? " and more" : ""));
+  }
+  return all;
+}
+
 std::vector<std::string> warningsOfIdleInputs(const MeshJob& job, const SizeInputs& sizes, const Coastline& coastline,
                                               const MeshJobResult& result) {
   const Grid& grid = result.grid;

@@ -23,6 +23,10 @@ void addStrayPoints(const JobInput& input, MeshJobResult& result);
 std::vector<std::string> warningsOfLostPoints(const InputOptions& input, const Coastline& coastline,
                                               const MeshJobResult& result);
 
+// A note for each file of --weirs of which some, but not all, within the frame lie outside of the mesh.
+std::vector<std::string> notesOfLostWeirs(const InputOptions& input, const Coastline& coastline,
+                                          const MeshJobResult& result);
+
 // A warning for each file given for sizes, passages, barriers, constraints, weirs or regions that has nothing near the
 // mesh (mostly its CRS is wrong, or it is of another place), and for each band that contains no depth of the mesh.
 std::vector<std::string> warningsOfIdleInputs(const MeshJob& job, const SizeInputs& sizes, const Coastline& coastline,

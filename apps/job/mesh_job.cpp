@@ -145,6 +145,7 @@ void warnOfIdleInputs(const MeshJob& job, const SizeInputs& sizes, const JobInpu
   result.idle_inputs = warningsOfIdleInputs(job, sizes, coastline, result);
   if (job.input.ready) return;
   std::ranges::move(warningsOfLostPoints(job.input, coastline, result), std::back_inserter(result.read.warnings));
+  std::ranges::move(notesOfLostWeirs(job.input, coastline, result), std::back_inserter(result.read.notes));
   std::ranges::move(warningsOfPolygons(job.input, coastline), std::back_inserter(result.read.warnings));
   std::ranges::move(result.idle_inputs, std::back_inserter(result.read.warnings));
   for (const auto& [text, regions] : result.idle)

@@ -216,6 +216,25 @@ TEST_F(IdleInputs, OfSeveralFilesTheIdleOnesAreNamed) {
   EXPECT_THAT(run.errors, ::testing::Not(HasSubstr("wet.geojson")));
 }
 
+TEST_F(IdleInputs, WeirsOnLandAreNamedInTheSummary) {
+  const auto line = [](const std::string& name, const std::string& places) {
+    return R"({"type":"Feature","properties":{"name":")" + name +
+           R"("},"geometry":{"type":"LineString","coordinates":)" + places + "}}";
+  };
+  const std::string wet = line("wet", "[[-87.8,47.7],[-87.6,47.7]]");
+  const std::string island = line("island", "[[-87.5,47.5],[-87.51,47.51],[-87.52,47.51]]");
+  const auto summaryOf = [&](const std::string& name, const std::string& features) {
+    const std::string path = write(name, R"({"type":"FeatureCollection","features":[)" + features + "]}");
+    const ProgramRun run = runProgram({"mesh", inputFile("lines/lake.geojson"), "--size", "5000", "--weirs", path, "-o",
+                                       file("lake.nc"), "--overwrite"});
+    EXPECT_EQ(run.code, 0) << run.errors;
+    return run.output;
+  };
+  EXPECT_THAT(summaryOf("both.geojson", wet + "," + island),
+              HasSubstr("both.geojson: 1 of 2 weirs lies outside of the mesh: 'island' at (-87.51, 47.51)"));
+  EXPECT_THAT(summaryOf("wet.geojson", wet), Not(HasSubstr("outside of the mesh")));
+}
+
 // What Triangle's files can say besides points, segments and holes is not meshed.
 TEST_F(IdleInputs, OfAPlaneGraphAreNamedOnce) {
   const auto warnings = [&](const std::string& attribute, const std::string& marker, const std::string& regions) {
