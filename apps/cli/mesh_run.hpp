@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/cli/commands.hpp"
+#include "apps/cli/partition_outputs.hpp"
 #include "apps/usage/mesh_usage.hpp"
 
 namespace coastmesh {
@@ -20,7 +21,7 @@ struct MeshRunUsage {
   std::string format;
   std::string report;
   std::string edits;
-  std::uint64_t parts = 0;
+  PartsUsage parts;
   std::string shard;  // "I/N"; empty: all
   bool per_feature = false;
   std::string name_field;  // of --per-feature; empty: numbers

@@ -18,7 +18,7 @@ namespace {
 
 struct PartitionUsage {
   MeshFile mesh;
-  std::uint64_t parts = 0;
+  PartsUsage parts;
   std::vector<std::string> outputs;
   std::string format;
   std::string report;
@@ -61,15 +61,18 @@ Command declarePartition(CLI::App& root) {
   auto usage = std::make_shared<PartitionUsage>();
   OptionTable table = commandOptions("partition", "Assign a mesh to the processes of a solver");
   declareMeshFile(table, "MESH", "mesh to read", usage->mesh);
-  table.integerArgument("N", usage->parts, 1, kMostParts, "number of processes");
+  table.integerArgument("N", usage->parts.parts, 1, kMostParts, "number of processes");
   declareGridOutputs(table, usage->outputs, usage->format);
   table.section(Section::Output);
+  declarePartWeights(table, usage->parts);
   table.output({"--report", "Report"}, usage->report, {.standard_output = true},
                "write a report as JSON; - prints it instead of the summary");
   table.flag({"--overwrite", "Replace files"}, usage->overwrite, "replace files that exist");
   table.section(Section::Run);
   table.flag({"--quiet", "No summary"}, usage->quiet, "print no summary");
   table.example("coastmesh partition hgrid.gr3 480 -o partition.prop", "for SCHISM on 480 processes");
+  table.example("coastmesh partition hgrid.gr3 480 --partition-levels vgrid.in -o partition.prop",
+                "for a three-dimensional SCHISM, each process with as many layers of water");
   table.example("coastmesh partition fort.14 64 -o partmesh.txt -o parts.nc",
                 "for ADCIRC's adcprep, and as a layer to view");
   return {{root, std::move(table)}, [usage](Run& run) { return runPartition(*usage, run); }};

@@ -17,12 +17,15 @@ Json figuresSection(const std::optional<PartitionFigures>& figures) {
           {"most", figures->most}};
 }
 
-std::string figuresText(const std::optional<PartitionFigures>& figures, std::uint32_t parts, const char* what) {
+std::string figuresText(const PartitionReport& report, const std::optional<PartitionFigures>& figures,
+                        const char* what) {
   if (!figures) return {};
+  const std::uint32_t parts = report.parts;
   char balance[40];
   std::snprintf(balance, sizeof balance, "balance %.4f", figures->balance);
   return grouped(parts) + forCount(parts, " part of ", " parts of ") + grouped(figures->least) + " to " +
-         grouped(figures->most) + ' ' + what + ", " + balance + "; " + grouped(figures->edge_cut) +
+         grouped(figures->most) + ' ' + what + ", " + balance +
+         (report.weight == "even" ? "" : " by " + report.weight) + "; " + grouped(figures->edge_cut) +
          forCount(figures->edge_cut, " edge cut; ", " edges cut; ") + grouped(figures->connected_parts) +
          forCount(figures->connected_parts, " part hangs", " parts hang") + " together\n";
 }
@@ -31,13 +34,15 @@ std::string figuresText(const std::optional<PartitionFigures>& figures, std::uin
 
 Json partitionSection(const PartitionReport& report) {
   if (report.parts == 0) return nullptr;
-  return {
-      {"parts", report.parts}, {"elements", figuresSection(report.elements)}, {"nodes", figuresSection(report.nodes)}};
+  return {{"parts", report.parts},
+          {"weight", report.weight},
+          {"elements", figuresSection(report.elements)},
+          {"nodes", figuresSection(report.nodes)}};
 }
 
 std::string partitionText(const PartitionReport& report) {
-  return figuresText(report.elements, report.parts, report.mixed ? "elements" : "triangles") +
-         figuresText(report.nodes, report.parts, "nodes");
+  return figuresText(report, report.elements, report.mixed ? "elements" : "triangles") +
+         figuresText(report, report.nodes, "nodes");
 }
 
 }  // namespace coastmesh

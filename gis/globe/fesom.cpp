@@ -6,6 +6,7 @@
 #include "gis/file/text_writer.hpp"
 #include "gis/for_count.hpp"
 #include "gis/format/grid_formats.hpp"
+#include "gis/globe/fesom_levels.hpp"
 #include "gis/grid/boundary_kinds.hpp"
 #include "gis/grid/geographic_nodes.hpp"
 
@@ -37,20 +38,6 @@ std::vector<NodeTag> tagsOf(const Grid& grid) {
   return tags;
 }
 
-// Level depths in metres, positive up: layers of 5 m down to 10 m and of 10 m down to 100 m; then each is 1.15 times as
-// thick as the one above, rounded to 5 m and at most 250 m, until the levels are deeper than all but trenches.
-std::vector<int> levelDepths() {
-  constexpr int kEvenDown = 100, kThickest = 250, kStep = 5, kDeepest = 6000;
-  std::vector<int> depths{0, 5};
-  for (int depth = 10; depth <= kEvenDown; depth += 10) depths.push_back(depth);
-  for (double thickness = 10.0; depths.back() < kDeepest;) {
-    thickness = std::min<double>(1.15 * thickness, kThickest);
-    depths.push_back(depths.back() + kStep * static_cast<int>(std::lround(thickness / kStep)));
-  }
-  for (int& depth : depths) depth = -depth;
-  return depths;
-}
-
 // FESOM2's mesh: `nod2d.out` (longitudes and latitudes in degrees, and the kind of each node), `elem2d.out`,
 // `aux3d.out` (level depths, then the depth at each node, negative under water). FESOM2 takes positive values for
 // depths too, and makes no water column shallower than its fifth level, so nodes above water are written with depth 0.
@@ -74,9 +61,9 @@ void writeFesom(const Grid& grid, const std::string& path, const ItemLoop& loop)
   });
   elements.close();
   TextWriter depths(fileOfSet(path, "aux3d"));
-  const std::vector<int> levels = levelDepths();
+  const std::vector<int> levels = fesomLevelDepths();
   depths << levels.size() << '\n';
-  for (const int level : levels) depths << level << '\n';
+  for (const int level : levels) depths << -level << '\n';
   depths.rows(loop, places.size(), [&](TextBlock& text, std::size_t i) {
     const bool below = !grid.z.empty() && grid.z[i] < 0.0;
     text << (below ? grid.z[i] : 0.0) << '\n';

@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 
 #include "tests/cli/program.hpp"
@@ -122,6 +124,100 @@ TEST_F(Partition, OfAMeshIsThatOfItsFile) {
   }
   ASSERT_EQ(runProgram({"convert", file("a.msh"), "-o", file("d.msh"), "--quiet"}).code, 0);
   EXPECT_EQ(readText(file("a.msh")), readText(file("d.msh")));
+}
+
+// The lake with depths from 7 m in the east to 21 m in the south-west, in longitudes and latitudes.
+class PartitionByWork : public Partition {
+ protected:
+  std::string deepLake() const {
+    std::string raster = "ncols 2\nnrows 2\nxllcorner -87.52\nyllcorner 41.58\ncellsize 0.03\n-20 -10\n-900 -10\n";
+    write("deep.asc", raster);
+    write("deep.prj",
+          "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,298.257223563]],"
+          "PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]]");
+    const ProgramRun run =
+        runProgram({"mesh", lake(), "-o", file("nod2d.out"), "-o", file("deep.nc"), "--size-max", "60", "--bathymetry",
+                    file("deep.asc"), "--attribute", "cost=" + file("deep.asc"), "--quiet", "--overwrite"});
+    EXPECT_EQ(run.code, 0) << run.errors;
+    return file("nod2d.out");
+  }
+  // The section of the report of a run that is to succeed.
+  Json partitioned(const std::vector<std::string>& options) const {
+    std::vector<std::string> arguments{"partition", file("nod2d.out"), "4", "--report", file("r.json"), "--overwrite"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const ProgramRun run = runProgram(arguments);
+    EXPECT_EQ(run.code, 0) << run.errors;
+    return Json::parse(readText(file("r.json")))["partition"];
+  }
+};
+
+// FESOM2 has layers of levels: those of the aux3d.out beside the folder are counted.
+TEST_F(PartitionByWork, Fesom2GetsTheSameLayersInAllParts) {
+  deepLake();
+  std::filesystem::create_directory(file("dist_4"));
+  const std::string parts = file("dist_4/rpart.out");
+  const auto sizes = [](const Json& report) {
+    return report["nodes"]["most"].get<double>() / report["nodes"]["least"].get<double>();
+  };
+  const Json layers = partitioned({"-o", parts});
+  EXPECT_EQ(layers["weight"], "layers");
+  EXPECT_LE(layers["nodes"]["balance"], 1.03);
+  EXPECT_GT(sizes(layers), 1.5);
+  const std::string by_layers = readText(parts);
+  const Json even = partitioned({"-o", parts, "--partition-weight", "even"});
+  EXPECT_EQ(even["weight"], "even");
+  EXPECT_LT(sizes(even), 1.2);
+  EXPECT_NE(readText(parts), by_layers);
+  // With the file given, and in the run that makes the mesh.
+  EXPECT_EQ(partitioned({"-o", parts, "--partition-levels", file("aux3d.out")}), layers);
+  EXPECT_EQ(readText(parts), by_layers);
+  ASSERT_EQ(runProgram({"mesh", lake(), "-o", file("nod2d.out"), "-o", parts, "--size-max", "60", "--bathymetry",
+                        file("deep.asc"), "--partition", "4", "--quiet", "--overwrite"})
+                .code,
+            0);
+  EXPECT_EQ(readText(parts), by_layers);
+  // Two levels: all nodes have the four layers that FESOM2 needs.
+  write("aux3d.out", std::regex_replace(readText(file("aux3d.out")),
+                                        std::regex("^[0-9]+\n(0\n)(-5\n)[^]*?(-6[0-9]{3}\n)"), "3\n$1$2$3"));
+  EXPECT_LT(sizes(partitioned({"-o", parts})), 1.2);
+}
+
+TEST_F(PartitionByWork, OtherFilesAreEvenUnlessLevelsOrAnAttributeAreGiven) {
+  deepLake();
+  const std::string parts = file("partition.prop");
+  EXPECT_EQ(partitioned({"-o", parts})["weight"], "even");
+  const std::string even = readText(parts);
+  write("vgrid.in",
+        "2\n12 6 30.\nZ levels\n1 -5000.\n2 -600.\n3 -400.\n4 -200.\n5 -100.\n6 -30.\nS levels\n"
+        "10. 1. 1.e-4\n6 -1.\n7 -0.8\n8 -0.6\n9 -0.4\n10 -0.2\n11 -0.1\n12 0.\n");
+  const Json layers = partitioned({"-o", parts, "--partition-levels", file("vgrid.in")});
+  EXPECT_EQ(layers["weight"], "layers");
+  EXPECT_LE(layers["elements"]["balance"], 1.03);
+  EXPECT_NE(readText(parts), even);
+  const ProgramRun run =
+      runProgram({"partition", file("deep.nc"), "4", "-o", parts, "--partition-weight", "cost", "--overwrite"});
+  EXPECT_EQ(run.code, 3);
+  EXPECT_THAT(run.errors, HasSubstr("cost: it is negative at node 1"));
+  ASSERT_EQ(runProgram({"convert", file("deep.nc"), "-o", file("even.nc"), "--attribute", "load=2", "--quiet"}).code,
+            0);
+  const ProgramRun loaded =
+      runProgram({"partition", file("even.nc"), "4", "-o", parts, "--partition-weight", "load", "--overwrite"});
+  EXPECT_EQ(loaded.code, 0) << loaded.errors;
+  EXPECT_THAT(loaded.output, HasSubstr(" by load; "));
+}
+
+TEST_F(PartitionByWork, WhatIsNoVerticalGridIsRefused) {
+  deepLake();
+  const auto refused = [&](const std::string& path, int code, const std::string& why) {
+    const ProgramRun run =
+        runProgram({"partition", file("nod2d.out"), "4", "-o", file("a.prop"), "--partition-levels", path});
+    EXPECT_EQ(run.code, code) << run.errors;
+    EXPECT_TRUE(isOneErrorLine(run.errors)) << run.errors;
+    EXPECT_THAT(run.errors, HasSubstr(why));
+  };
+  refused(write("levels.txt", "3\n"), 2, "neither a vgrid.in of SCHISM nor an aux3d.out of FESOM2");
+  refused(file("vgrid.in"), 3, "vgrid.in");
+  refused(write("vgrid.in", "1\n5\n3 3 3\n"), 3, "has the levels of 3 nodes, and the mesh has");
 }
 
 // Reads the sections about parts as Gmsh's manual describes them: every element is in a declared partitioned entity,

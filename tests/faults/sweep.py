@@ -32,6 +32,7 @@ SOURCE = [["mesh", "INPUT", "-o", "source.nc", "--quiet"]]
 RIVERS = pathlib.Path(__file__).resolve().parent / "river.geojson"  # into the lake of lake.geojson
 WEIRS = pathlib.Path(__file__).resolve().parent / "weir.geojson"  # in that lake
 CRESTS = pathlib.Path(__file__).resolve().parent / "crest.asc"  # terrain there
+LEVELS = pathlib.Path(__file__).resolve().parent / "aux3d.out"  # of FESOM2
 KEPT = "kept"  # the folder of --checkpoint
 # For each case: the outputs, the command without them, and commands to run before it. INPUT is the file to mesh. KEPT
 # remains if a run ends early; a run that resumes from it must make the same files. The case `resumed` starts with the
@@ -55,7 +56,7 @@ CASES = {
               SOURCE + [["mesh", "INPUT", "--size-max", "3000", "-o", "fine.nc", "--quiet"],
                         ["cut", "fine.nc", "--bbox=-180,-90,2.000,90", "-o", "part.nc", "--quiet"]]),
     "rivers": (["m.gpkg", "m.14"], ["rivers", "../source.nc", "RIVERS"] + WRITE, SOURCE),
-    "partition": (["partition.prop"], ["partition", "../source.nc", "3"] + WRITE, SOURCE),
+    "partition": (["partition.prop"], ["partition", "../source.nc", "3", "--partition-levels", "LEVELS"] + WRITE, SOURCE),
     "check": (["m.gpkg"], ["check", "../source.nc", "--input", "INPUT", "--min-angle", "40"] + WRITE, SOURCE),
     "clean": (["m.gpkg"], ["clean", "INPUT", "--report", REPORT] + WRITE, []),
     "ranks": (["m.nc", "m.14"], MESH + ["--size-max", "3000"], []),
@@ -95,7 +96,7 @@ class Sweep:
         self.found = collections.defaultdict(list)
         self.libraries = collections.Counter()
         outputs, command, before = CASES[case]
-        given = {"INPUT": str(input_file), "RIVERS": str(RIVERS), "WEIRS": str(WEIRS), "CRESTS": str(CRESTS),
+        given = {"INPUT": str(input_file), "RIVERS": str(RIVERS), "WEIRS": str(WEIRS), "CRESTS": str(CRESTS), "LEVELS": str(LEVELS),
                  "THREADS": str(threads)}
         for each in before:
             subprocess.run([program] + [given.get(word, word) for word in each], cwd=scratch, check=True)

@@ -102,6 +102,8 @@ def write_inputs(folder):
     put("banks.geojson", collection(feature("Polygon", [
         [[-87.4813, 41.6125], [-87.4697, 41.6170], [-87.46, 41.6185], [-87.46, 41.6195], [-87.4703, 41.6180],
          [-87.4807, 41.6135], [-87.4813, 41.6125]]])))
+    # Levels of FESOM2, without a mesh.
+    put("aux3d.out", "8\n0\n-2\n-5\n-8\n-12\n-18\n-25\n-60\n")
     put("line.geojson", collection(feature("LineString", [[-87.495, 41.613], [-87.482, 41.614]])))
     put("ridge.asc", ascii_raster(-87.52, 41.58, 60, 60, 0.001, lambda x, y: 3 + 0.1 * y))
     put("region.geojson", collection(square(-87.496, 41.611, 0.004, {"name": "bay"})))
@@ -214,6 +216,8 @@ def cases():
         "--cut": Case(name="--no-cut", extra=["--size-max", "11"], because="60,000 vertices are one piece"),
         "--mark-pieces": Case(),
         "--partition": Case("3"),
+        "--partition-weight": Case("cost", extra=["--partition", "3", "--attribute", "cost=1", "--size", "100"]),
+        "--partition-levels": Case("aux3d.out", extra=[*depths, "--partition", "3", "--size", "100"]),
         "--shard": Case("2/2", input="two.geojson"),
         "--per-feature": Case(extra=["--output", "lake-{}.nc"]),
         "--name-field": Case("name", extra=["--per-feature", "--output", "lake-{}.nc"]),
@@ -269,8 +273,12 @@ def cases():
     info = {"--config": Case("angle.toml"), "--surface": Case("plane", input="great.2dm"), "--json": Case(), "--assume-crs": Case("EPSG:4326", input="degrees.2dm")}
     partition = {**common, "--output": Case("more.prop"), "--format": Case("gmsh"), "--quiet": Case(),
                  "--report": Case("report2.json"), "--assume-crs": Case("EPSG:4326", input="bare.2dm")}
+    partition["--partition-weight"] = Case("cost", input="deep.nc")
+    partition["--partition-levels"] = Case("aux3d.out", input="deep.nc")
     gather = {"--config": Case("angle.toml"), "--output": Case("more.2dm"), "--format": Case("2dm"),
-              "--partition": Case("3"), "--report": Case("report2.json"), "--edits": Case("edits.gpkg"),
+              "--partition": Case("3"), "--partition-weight": Case("cost", extra=["--partition", "3"]),
+              "--partition-levels": Case("aux3d.out", extra=["--partition", "3"]),
+              "--report": Case("report2.json"), "--edits": Case("edits.gpkg"),
               "--progress": Case("json"), "--overwrite": Case(exists=["out.nc"]),
               "--skip-existing": Case(exists=["out.nc"]), "--quiet": Case(), "--threads": Case("1", report="threads")}
     cut = {**common, "--output": Case("more.2dm"), "--format": Case("2dm"), "--quiet": Case(),
@@ -417,8 +425,8 @@ def main():
         runs = Runs(inputs, work)
         frame = ["--bbox", "-87.51,41.603,-87.48,41.63"]
         for name, options in {"lake.nc": ["lake.geojson"], "two.nc": ["two.geojson"], "hourglass.nc": ["hourglass.geojson"],
-                              "deep.nc": ["lake.geojson", "--bathymetry", "dem.asc"],
-                              "bare.2dm": ["lake.geojson"], "lake.shard": [str(inputs / "lake.geojson")],
+                              "deep.nc": ["lake.geojson", "--bathymetry", "dem.asc", "--attribute", "cost=1"],
+                              "bare.2dm": ["lake.geojson"], "lake.shard": [str(inputs / "lake.geojson"), "--attribute", "cost=1"],
                               "framed.nc": ["lake.geojson", *frame]}.items():
             made = runs.run("mesh", options[0], [*options[1:], "--output", str(inputs / name)])
             if made[0] != 0:

@@ -37,6 +37,7 @@
 #include "gis/solver/mesh_graph.hpp"
 #include "gis/solver/partition_graph.hpp"
 #include "gis/solver/partition_grid.hpp"
+#include "gis/solver/vertical_levels.hpp"
 #include "tests/reference/folder.hpp"
 
 namespace coastmesh {
@@ -421,6 +422,20 @@ TEST_F(GisGridExamples, PartitionGrid) {
   EXPECT_EQ(grid.part_of.size(), grid.triangles.size());
   ASSERT_TRUE(report.elements.has_value());
   EXPECT_EQ(report.elements->connected_parts, 2u);
+}
+
+// gis/solver/vertical_levels.hpp: Parts with the same number of layers of water.
+TEST_F(GisGridExamples, VerticalLevels) {
+  //! [gis/solver/vertical_levels.hpp]
+  Grid grid = squares();
+  PartitionOptions options;
+  options.parts = 2;
+  options.nodes = true;
+  options.levels = VerticalLevels{{}, FesomLevels{{0, 5, 10, 20, 50, 100}}};
+  const PartitionReport report = partitionGrid(grid, options);
+  //! [gis/solver/vertical_levels.hpp]
+  EXPECT_EQ(report.weight, "layers");
+  EXPECT_EQ(grid.node_part_of.size(), grid.nodes.size());
 }
 
 }  // namespace
