@@ -14,7 +14,7 @@ namespace {
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // The names, and what units ADCIRC expects, are those of its user's manual on fort.13.
-constexpr std::array<FieldName, 19> kFields{{
+constexpr std::array<FieldName, 21> kFields{{
     {"mannings_n_at_sea_floor", "manning", "s/m^(1/3)", "Manning's n at the sea floor", "", kNone},
     {"quadratic_friction_coefficient_at_sea_floor", "drag", "1", "quadratic friction coefficient at the sea floor", "",
      kNone},
@@ -38,6 +38,9 @@ constexpr std::array<FieldName, 19> kFields{{
     {"initial_river_elevation", "", "m", "elevation of rivers at the start", "", kNone},
     {"internal_tide_friction", "", "s-1", "friction of internal tides", "", 0.0},
     {"bridge_pilings_friction_parameters", "", "", "friction of bridge pilings", "", 0.0},
+    // Of FVCOM.
+    {"sponge_radius", "", "m", "radius of the sponge at an open boundary", "", 0.0},
+    {"sponge_coefficient", "", "s2 m-2", "damping of the sponge at an open boundary", "", 0.0},
     // Of coastmesh: see plain_field.hpp.
     {"flood_plain", "", "1", "1 on the land of a flood plain", "", 0.0, true},
 }};

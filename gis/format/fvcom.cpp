@@ -1,11 +1,19 @@
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <functional>
+#include <limits>
 
+#include "gis/crs/geodesy.hpp"
 #include "gis/crs/geographic_map.hpp"
+#include "gis/error.hpp"
+#include "gis/fields/field_names.hpp"
+#include "gis/fields/node_fields.hpp"
 #include "gis/file/prj_file.hpp"
 #include "gis/file/text_reader.hpp"
 #include "gis/file/text_writer.hpp"
+#include "gis/for_count.hpp"
 #include "gis/format/grid_formats.hpp"
 #include "gis/grid/boundary_kinds.hpp"
 #include "gis/lower_case.hpp"
@@ -40,6 +48,46 @@ std::vector<std::uint32_t> openNodes(const Grid& grid) {
   return nodes;
 }
 
+// A node of the sponge, in which FVCOM damps currents: next to the node with all of the coefficient, at its radius no
+// longer.
+struct SpongeNode {
+  std::uint32_t node = 0;
+  double radius_m = 0.0, coefficient = 0.0;
+};
+
+constexpr std::array<const char*, 2> kSpongeFields{"sponge_radius", "sponge_coefficient"};
+
+bool hasSponge(const Grid& grid) {
+  return std::ranges::any_of(kSpongeFields, [&](const char* name) { return findField(grid, name) != nullptr; });
+}
+
+// A value of the sponge at an open node. Throws OutputError if there is no such attribute, and if it is unknown or
+// negative.
+double spongeValue(const Grid& grid, const char* name, std::uint32_t node, const std::string& path) {
+  const NodeField* const field = findField(grid, name);
+  if (field == nullptr)
+    throw OutputError("cannot write '" + path + "': a sponge needs " + name + " too; give --attribute " + name +
+                      "=VALUE");
+  const double value = field->values[node];
+  if (!(value >= 0.0))
+    throw OutputError("cannot write '" + path + "': " + name + (std::isnan(value) ? " is unknown" : " is negative") +
+                      " at node " + std::to_string(node + 1) + " at " + pointText(grid.nodes[node]) +
+                      ", on an open boundary");
+  return value;
+}
+
+// The open nodes that have a radius and a coefficient above 0.
+std::vector<SpongeNode> spongeOf(const Grid& grid, const std::string& path) {
+  std::vector<SpongeNode> sponge;
+  if (!hasSponge(grid)) return sponge;
+  for (const std::uint32_t node : openNodes(grid)) {
+    const SpongeNode one{node, spongeValue(grid, kSpongeFields[0], node, path),
+                         spongeValue(grid, kSpongeFields[1], node, path)};
+    if (one.radius_m > 0.0 && one.coefficient > 0.0) sponge.push_back(one);
+  }
+  return sponge;
+}
+
 // The value that a file has for each node.
 using NodeValue = std::function<double(std::size_t node)>;
 
@@ -70,10 +118,22 @@ void writeCells(const Grid& grid, const NodeValue& depth, const std::string& pat
   file.close();
 }
 
+// A grid without openings gets an empty sponge, since FVCOM always reads one. A grid with openings and no sponge gets
+// none: that is for its user to decide.
+void writeSponge(const Grid& grid, bool has_openings, const std::string& path) {
+  if (has_openings && !hasSponge(grid)) return;
+  const std::vector<SpongeNode> sponge = spongeOf(grid, path);
+  TextWriter file(path);
+  file << "Sponge Node Number = " << sponge.size() << '\n';
+  for (const SpongeNode& one : sponge) file << one.node + 1 << ' ' << one.radius_m << ' ' << one.coefficient << '\n';
+  file.close();
+}
+
 // Writes FVCOM's set: `lake_grd.dat` (cells and nodes), `lake_dep.dat` (depth, positive down), `lake_obc.dat` (nodes of
-// open boundaries, type 1) and `lake_cor.dat` (latitudes; in a plane 0, which means no rotation), with the CRS in a
-// .prj. `path` is the first of them; if it does not end in "_grd.dat", it names the set without its extension. Rivers
-// are written as shore, since FVCOM has them in its namelist. Throws OutputError, also if a depth is unknown.
+// open boundaries, type 1), `lake_cor.dat` (latitudes; in a plane 0, which means no rotation) and `lake_spg.dat` (the
+// sponge: see `writeSponge`), with the CRS in a .prj. `path` is the first of them; if it does not end in "_grd.dat", it
+// names the set without its extension. Rivers are written as shore, since FVCOM has them in its namelist. Throws
+// OutputError, also if a depth is unknown.
 void writeFvcom(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   requireZ(grid, path);
   const NodeValue depth = [&grid](std::size_t i) { return grid.z.empty() ? 0.0 : 0.0 - grid.z[i]; };
@@ -85,6 +145,7 @@ void writeFvcom(const Grid& grid, const std::string& path, const ItemLoop& loop)
   file << "OBC Node Number = " << open.size() << '\n';
   for (std::size_t i = 0; i < open.size(); ++i) file << i + 1 << ' ' << open[i] + 1 << ' ' << kOpenNodeType << '\n';
   file.close();
+  writeSponge(grid, !open.empty(), fileOfSet(path, "spg"));
   writePrjBeside(fileOfSet(path, "grd"), grid.crs);
 }
 
@@ -151,6 +212,26 @@ std::vector<bool> readOpenNodes(const std::string& path, const Grid& grid) {
   return is_open;
 }
 
+// Nodes without a sponge get 0 for both attributes.
+void readSponge(const std::string& path, Grid& grid) {
+  if (!std::filesystem::exists(path)) return;
+  TextReader file(path);
+  const std::uint64_t count = readCount(file, "Sponge Node Number");
+  if (count == 0) return;
+  std::array<NodeField, 2> fields;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const FieldName& known = *findFieldName(kSpongeFields[i]);
+    fields[i] = {std::string(known.name), std::string(known.unit), 0, known.usual, {}};
+    fields[i].values.assign(grid.nodes.size(), known.usual);
+  }
+  for (std::uint64_t i = 0; i < count; ++i) {
+    file.needLine();
+    const std::uint32_t node = readNode(file, grid);
+    for (NodeField& field : fields) field.values[node] = file.number();
+  }
+  grid.node_fields.assign(fields.begin(), fields.end());
+}
+
 std::string openNodesRemark(const std::string& path) {
   const std::string open = fileOfSet(path, "obc");
   if (std::filesystem::exists(open)) return {};
@@ -165,6 +246,7 @@ Grid readFvcom(const std::string& path, const Crs& unsaid) {
   if (std::ranges::all_of(grid.z, [](double z) { return z == 0.0; })) grid.z.clear();
   grid.crs = readPrjBeside(fileOfSet(path, "grd"), unsaid);
   grid.boundaries = boundariesOfOpenNodes(grid, readOpenNodes(fileOfSet(path, "obc"), grid));
+  readSponge(fileOfSet(path, "spg"), grid);
   return grid;
 }
 
@@ -184,19 +266,54 @@ std::string riverNodesText(const Grid& grid, const std::string& path) {
   return "rivers by a node of '" + fileOfSet(path, "grd") + "', for RIVER_GRID_LOCATION: " + text;
 }
 
+// How far the sponge reaches, in units of the longest edge at each of its nodes: it damps nothing within an element
+// whose middle is farther from the node.
+std::string spongeText(const Grid& grid, const std::string& path) {
+  const std::vector<SpongeNode> sponge = spongeOf(grid, path);
+  if (sponge.empty()) return {};
+  std::vector<double> radius_m(grid.nodes.size(), 0.0), longest_m(grid.nodes.size(), 0.0);
+  for (const SpongeNode& one : sponge) radius_m[one.node] = one.radius_m;
+  std::vector<std::array<std::uint32_t, 2>> edges;
+  std::vector<std::vector<Point>> sides;
+  for (const auto& corners : grid.triangles) {
+    for (unsigned i = 0; i < 3; ++i) {
+      const std::uint32_t a = corners[i], b = corners[next3(i)];
+      if (radius_m[a] == 0.0 && radius_m[b] == 0.0) continue;
+      edges.push_back({a, b});
+      sides.push_back({grid.nodes[a], grid.nodes[b]});
+    }
+  }
+  const std::vector<double> lengths = chainLengths(sides, grid.crs);
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    for (const std::uint32_t node : edges[e]) longest_m[node] = std::max(longest_m[node], lengths[e]);
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;
+  for (const SpongeNode& one : sponge) {
+    least = std::min(least, one.radius_m / longest_m[one.node]);
+    most = std::max(most, one.radius_m / longest_m[one.node]);
+  }
+  return "sponge in '" + fileOfSet(path, "spg") + "': " + std::to_string(sponge.size()) +
+         forCount(sponge.size(), " node, ", " nodes, ") + roundAmount(least, 2) + " to " + roundAmount(most, 2) +
+         " times as wide as the longest edge there";
+}
+
+std::string openingsText(const Grid& grid, const std::string& path) {
+  const std::string rivers = riverNodesText(grid, path), sponge = spongeText(grid, path);
+  return rivers + (rivers.empty() || sponge.empty() ? "" : "\n") + sponge;
+}
+
 }  // namespace
 
 FormatRecord fvcomFormat() {
   const auto files = [](const std::string& path) -> OutputFiles {
     OutputFiles all;
-    for (const char* which : {"grd", "dep", "obc", "cor"}) all.targets.push_back(fileOfSet(path, which));
+    for (const char* which : {"grd", "dep", "obc", "cor", "spg"}) all.targets.push_back(fileOfSet(path, which));
     all.prj = prjBeside(fileOfSet(path, "grd"));
     return all;
   };
   return {
       {.name = "fvcom",
        .endings = {std::string_view(kGridEnding)},
-       .description = "FVCOM's _grd, _dep, _obc and _cor.dat, depth positive down",
+       .description = "FVCOM's _grd, _dep, _obc, _cor and _spg.dat, depth positive down",
        .readable = true,
        .writable = true,
        .says_depth = true,
@@ -204,7 +321,7 @@ FormatRecord fvcomFormat() {
        .places = NodePlaces::OneTurn,
        .lengths_in_metres = true,
        .marks_nodes = true},
-      {.write = writeFvcom, .read = readFvcom, .files = files, .remark = openNodesRemark, .openings = riverNodesText}};
+      {.write = writeFvcom, .read = readFvcom, .files = files, .remark = openNodesRemark, .openings = openingsText}};
 }
 
 }  // namespace coastmesh

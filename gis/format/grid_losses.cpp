@@ -68,10 +68,11 @@ bool anyName(const Grid& grid) {
 }
 
 // "the nodal attributes manning, canopy". The land of a flood plain is none that the user gave.
-std::string fieldsOf(const Grid& grid, LossesOf of) {
+std::string fieldsOf(const Grid& grid, const GridFormat& format, LossesOf of) {
   std::vector<std::string> names;
   for (const NodeField& field : grid.node_fields) {
     if (of == LossesOf::Input && field.name == kFloodPlain) continue;
+    if (format.name == "fvcom" && field.name.starts_with("sponge_")) continue;  // in its _spg.dat
     if (names.empty() || names.back() != field.name) names.push_back(field.name);
   }
   return names.empty() ? "" : "the nodal attribute" + std::string(names.size() == 1 ? " " : "s ") + joined(names, ", ");
@@ -157,7 +158,7 @@ std::string wordsFor(GridPart part, const Grid& grid, const GridFormat& format, 
              typesOf(grid, isPartOfIsland) + ": a part of a shore gets the mainland's type, " + firstAt(first);
     }
     case GridPart::NodeFields:
-      return fieldsOf(grid, of);
+      return fieldsOf(grid, format, of);
   }
   return "";
 }
