@@ -26,4 +26,12 @@ LabelledEdges labelFaces(const CleanChains& chains, const NodedEdges& edges, con
                          const Projection& projection, bool dissolve, CleanReport& report,
                          const ItemLoop& loop = inOrder);
 
+// Lines that close no ring (open_lines.cpp) ---------------------------------------------------------------------------
+
+// Open lines among the features to mesh are edges where they are in the water, and left out elsewhere. Such a line may
+// be a wharf, but also the shore of an island or a lake with a gap, which would be lost in silence: notes count them,
+// and a warning names those whose ends almost meet, with the snap distance that joins them.
+void reportOpenLines(const Coastline& coastline, const CleanChains& chains, const LabelledEdges& labelled,
+                     const Projection& projection, CleanReport& report);
+
 }  // namespace coastmesh

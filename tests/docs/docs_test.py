@@ -95,6 +95,9 @@ class Folder:
                                 os.path.join(self.path, f"{name}.{ending}"))
             with open(os.path.join(self.path, "job.toml"), "w", encoding="utf-8") as job:
                 job.write('input = ["lake.geojson"]\noutput = ["job.nc"]\nmin-angle = 30\n')
+            with open(os.path.join(self.path, "vgrid.in"), "w", encoding="utf-8") as levels:
+                levels.write("2 !ivcor\n4 2 100. !nvrt, kz, h_s\nZ levels\n1 -500.\n2 -100.\nS levels\n40. 1. 1.e-4\n"
+                             "2 -1.\n3 -0.5\n4 0.\n")
             with open(os.path.join(self.path, "bay.geojson"), "w", encoding="utf-8") as bay:
                 bay.write('{"type": "Polygon", "coordinates": [[[-91, 46.5], [-90, 46.5], [-90, 47], [-91, 47], [-91, 46.5]]]}')
             # Depths for the whole lake.
@@ -284,7 +287,7 @@ class GuideTest(unittest.TestCase):
         self.assertLessEqual({"hgrid.gr3", "hgrid.ll"}, self.run_model("schism", "hgrid.gr3"))
 
     def test_models_fvcom(self):
-        self.assertLessEqual({f"sea_{part}.dat" for part in ("grd", "dep", "obc", "cor")},
+        self.assertLessEqual({f"sea_{part}.dat" for part in ("grd", "dep", "obc", "cor", "spg")},
                              self.run_model("fvcom", "sea_grd.dat"))
 
     def test_models_telemac(self):
