@@ -163,6 +163,24 @@ void addIdleBands(const MeshJob& job, const Grid& grid, std::vector<std::string>
 
 constexpr const char* kCrsRight = "; is its CRS right?";
 
+// Counts features and names the first few, by name or number, with a place.
+class NamedFeatures {
+ public:
+  void add(const Feature& feature, const Point& place) {
+    if (++count_ > kMostNamed) return;
+    const std::string name(nameOf(feature.attributes));
+    text_ += (text_.empty() ? "" : ", ") +
+             (name.empty() ? "feature " + std::to_string(feature.fid) : "'" + name + "'") + " at " + pointText(place);
+  }
+  std::size_t count() const { return count_; }
+  std::string text() const { return text_ + (count_ > kMostNamed ? " and more" : ""); }
+
+ private:
+  static constexpr std::size_t kMostNamed = 5;
+  std::size_t count_ = 0;
+  std::string text_;
+};
+
 }  // namespace
 
 std::vector<std::string> warningsOfPolygons(const InputOptions& input, const Coastline& coastline) {
@@ -204,54 +222,43 @@ void addStrayPoints(const JobInput& input, MeshJobResult& result) {
 
 std::vector<std::string> warningsOfLostPoints(const InputOptions& input, const Coastline& coastline,
                                               const MeshJobResult& result) {
-  constexpr std::size_t kMostNamed = 5;
   std::vector<std::string> all;
   const std::vector<std::string> idle = idleFiles(coastline, FeatureUse::Constraint, input.constraints, result);
   for (const std::string& file : input.constraints) {
     if (std::ranges::find(idle, file) != idle.end()) continue;
-    std::string places;
-    std::size_t count = 0;
+    NamedFeatures lost;
     for (const Edit& edit : result.edit_places) {
       const Feature& feature = coastline.features[edit.feature];
-      if (edit.kind != EditKind::OutsideWater || !isFrom(feature, file) || ++count > kMostNamed) continue;
-      const std::string name(nameOf(feature.attributes));
-      places += (places.empty() ? "" : ", ") +
-                (name.empty() ? "feature " + std::to_string(feature.fid) : "'" + name + "'") + " at " +
-                pointText(edit.place);
+      if (edit.kind == EditKind::OutsideWater && isFrom(feature, file)) lost.add(feature, edit.place);
     }
-    if (count == 0) continue;
-    all.push_back("--constraints " + file + ": " + std::to_string(count) +
-                  forCount(count, " point lies outside the water, and is no vertex: ",
+    if (lost.count() == 0) continue;
+    all.push_back("--constraints " + file + ": " + std::to_string(lost.count()) +
+                  forCount(lost.count(), " point lies outside the water, and is no vertex: ",
                            " points lie outside the water, and are no vertices: ") +
-                  places + (count > kMostNamed ? " and more" : ""));
+                  lost.text());
   }
   return all;
 }
 
 std::vector<std::string> notesOfLostWeirs(const InputOptions& input, const Coastline& coastline,
                                           const MeshJobResult& result) {
-  constexpr std::size_t kMostNamed = 5;
   std::vector<std::string> all;
   const std::vector<std::string> idle = idleFiles(coastline, FeatureUse::Weir, input.weirs, result);
   for (const std::string& file : input.weirs) {
     if (std::ranges::find(idle, file) != idle.end()) continue;
-    std::string places;
-    std::size_t count = 0, lost = 0;
+    NamedFeatures lost;
+    std::size_t count = 0;
     for (std::uint32_t f = 0; f < coastline.features.size(); ++f) {
       const Feature& feature = coastline.features[f];
       if (feature.use != FeatureUse::Weir || feature.lines.empty() || !isFrom(feature, file)) continue;
       ++count;
-      if (result.took_part.contains(f) || ++lost > kMostNamed) continue;
       const auto& line = feature.lines.front();
-      const std::string name(nameOf(feature.attributes));
-      places += (places.empty() ? "" : ", ") +
-                (name.empty() ? "feature " + std::to_string(feature.fid) : "'" + name + "'") + " at " +
-                pointText(line[line.size() / 2]);
+      if (!result.took_part.contains(f)) lost.add(feature, line[line.size() / 2]);
     }
-    if (lost == 0) continue;
-    all.push_back("--weirs " + file + ": " + std::to_string(lost) + " of " + std::to_string(count) +
-                  forCount(lost, " weirs lies outside of the mesh: ", " weirs lie outside of the mesh: ") + places +
-                  (lost > kMostNamed ? " and more" : ""));
+    if (lost.count() == 0) continue;
+    all.push_back("--weirs " + file + ": " + std::to_string(lost.count()) + " of " + std::to_string(count) +
+                  forCount(lost.count(), " weirs lies outside of the mesh: ", " weirs lie outside of the mesh: ") +
+                  lost.text());
   }
   return all;
 }

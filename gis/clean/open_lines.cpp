@@ -31,7 +31,7 @@ class OpenLines {
       if (!isLineTag(s.tag)) continue;
       const std::size_t feature = labelled.lines[lineOfTag(s.tag)].feature;
       if (!isToMesh(feature)) continue;
-      within_[feature] += distance(s.a, s.b);
+      within_.try_emplace(feature, OpenLine{s.a}).first->second.length += distance(s.a, s.b);
       for (const VertexId v : {s.a, s.b})
         if (degree[v] == 1) loose_.push_back({v, feature});
     }
@@ -60,7 +60,12 @@ class OpenLines {
     double length;
   };
 
-  using Lengths = std::map<std::size_t, double>;  // by feature
+  // What a feature has of open lines: a vertex of them, and their length on the ground.
+  struct OpenLine {
+    VertexId vertex;
+    double length = 0.0;
+  };
+  using LinesOfFeatures = std::map<std::size_t, OpenLine>;
 
   bool isToMesh(std::size_t feature) const {
     return coastline_.features[feature].use == FeatureUse::Area && !isFloodPlain(coastline_.features[feature]);
@@ -71,23 +76,24 @@ class OpenLines {
     for (const CleanChain& chain : chains.chains) {
       if (chain.role != CleanChain::Role::Line || !isToMesh(chain.feature) || within_.contains(chain.feature)) continue;
       if (std::ranges::none_of(chain.walk, [&](VertexId v) { return degree[v] == 0; })) continue;
-      for (std::size_t i = 1; i < chain.walk.size(); ++i)
-        dropped_[chain.feature] += distance(chain.walk[i - 1], chain.walk[i]);
+      OpenLine& dropped = dropped_.try_emplace(chain.feature, OpenLine{chain.walk.front()}).first->second;
+      for (std::size_t i = 1; i < chain.walk.size(); ++i) dropped.length += distance(chain.walk[i - 1], chain.walk[i]);
       for (const VertexId v : {chain.walk.front(), chain.walk.back()})
         if (degree[v] == 0) loose_.push_back({v, chain.feature});
     }
   }
 
-  void note(const Lengths& lines, const std::array<const char*, 2>& texts, CleanReport& report) const {
+  void note(const LinesOfFeatures& lines, const std::array<const char*, 2>& texts, CleanReport& report) const {
     if (lines.empty()) return;
-    const Feature& first = coastline_.features[lines.begin()->first];
+    const auto& [feature, line] = *lines.begin();
     report.notes.push_back(std::to_string(lines.size()) + forCount(lines.size(), texts[0], texts[1]) +
-                           featureInWords(first) + " at " + placeInWords(first.lines.front().front()));
+                           featureInWords(coastline_.features[feature]) + " at " +
+                           placeInWords(vertices_.input[line.vertex]));
   }
 
   double lengthOf(std::size_t feature) const {
     const auto within = within_.find(feature);
-    return within != within_.end() ? within->second : dropped_.at(feature);
+    return within != within_.end() ? within->second.length : dropped_.at(feature).length;
   }
 
   double distance(VertexId a, VertexId b, double scale) const {  // on the ground
@@ -136,17 +142,17 @@ class OpenLines {
                              placeInWords(vertices_.input[b.vertex]) + ", " + amount("%.3g", length) +
                              (projection_.isIdentity() ? "" : " m") + " apart";
     const std::string more = gaps.size() == 1 ? "" : ", and " + std::to_string(gaps.size() - 1) + " more such gaps";
-    report.warnings.push_back((a.feature == b.feature ? one + ": a line almost closes, between " + ends
-                                                      : one + " and " + featureInWords(coastline_.features[b.feature]) +
-                                                            ": lines almost meet, at " + ends) +
-                              more + ": if it is a shore, join the ends, or give --snap " +
-                              amount("%.2g", std::ceil(widest * 1.1 * 1000) / 1000));
+    report.warnings.push_back(
+        (a.feature == b.feature
+             ? one + ": a line almost closes, between " + ends
+             : one + " and " + featureInWords(coastline_.features[b.feature]) + ": lines almost meet, at " + ends) +
+        more + ": if it is a shore, join the ends, or give --snap " + roundAmount(1.1 * widest, 2));
   }
 
   const Coastline& coastline_;
   const CleanVertices& vertices_;
   const Projection& projection_;
-  Lengths within_, dropped_;
+  LinesOfFeatures within_, dropped_;
   std::vector<LooseEnd> loose_;  // ends of lines that meet neither another line nor a shore
 };
 

@@ -31,10 +31,11 @@ std::vector<double> workOfNodes(const Grid& grid, const std::string& attribute) 
                      ": the mesh has no such attribute with one value for each node" +
                      (names.empty() ? names : ", but" + names));
   }
-  const auto wrong = std::ranges::find_if(field->values, [](double value) { return !(value >= 0.0); });
+  const auto wrong =
+      std::ranges::find_if(field->values, [](double value) { return !(value >= 0.0 && std::isfinite(value)); });
   if (wrong != field->values.end()) {
     const auto node = static_cast<std::size_t>(wrong - field->values.begin());
-    throw InputError("--partition-weight " + attribute + ": it is " + (std::isnan(*wrong) ? "unknown" : "negative") +
+    throw InputError("--partition-weight " + attribute + ": it is " + (std::isfinite(*wrong) ? "negative" : "unknown") +
                      " at node " + std::to_string(node + 1) + " at " + pointText(grid.nodes[node]));
   }
   if (std::ranges::all_of(field->values, [](double value) { return value == 0.0; }))

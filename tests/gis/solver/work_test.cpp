@@ -87,6 +87,8 @@ TEST(Work, OfNoUseIsNamed) {
   refused("it is 0 at every node");
   grid.node_fields.back().values[4] = std::numeric_limits<double>::quiet_NaN();
   refused("it is unknown at node 5 at (");
+  grid.node_fields.back().values[3] = std::numeric_limits<double>::infinity();
+  refused("it is unknown at node 4 at (");
   grid.node_fields.back().values[2] = -1.0;
   refused("it is negative at node 3 at (");
 }
