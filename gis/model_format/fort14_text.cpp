@@ -1,4 +1,4 @@
-#include "gis/format/fort14_text.hpp"
+#include "gis/model_format/fort14_text.hpp"
 
 #include <algorithm>
 #include <array>

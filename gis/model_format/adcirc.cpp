@@ -5,9 +5,9 @@
 #include "gis/fields/fort13.hpp"
 #include "gis/fields/node_fields.hpp"
 #include "gis/file/prj_file.hpp"
-#include "gis/format/fort14_text.hpp"
 #include "gis/format/grid_formats.hpp"
 #include "gis/grid/ibtype.hpp"
+#include "gis/model_format/fort14_text.hpp"
 
 namespace coastmesh {
 namespace {

@@ -7,11 +7,11 @@
 #include "gis/fields/field_names.hpp"
 #include "gis/fields/node_fields.hpp"
 #include "gis/file/prj_file.hpp"
-#include "gis/format/fort14_text.hpp"
 #include "gis/format/grid_formats.hpp"
 #include "gis/grid/geographic_nodes.hpp"
 #include "gis/grid/one_turn.hpp"
 #include "gis/lower_case.hpp"
+#include "gis/model_format/fort14_text.hpp"
 
 namespace coastmesh {
 namespace {
