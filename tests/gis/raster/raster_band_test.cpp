@@ -2,6 +2,7 @@
 #include "gis/raster/raster_band.hpp"
 
 #include <gdal_priv.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,6 +11,7 @@
 #include <limits>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "gis/error.hpp"
@@ -22,6 +24,9 @@
 namespace coastmesh {
 namespace {
 
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
 using testing::TemporaryFolder;
 
 constexpr int kSide = 12;
@@ -293,6 +298,28 @@ TEST(RasterBand, ATextThatEndsTooEarlyIsRefusedWhereverItIsRead) {
   }
   EXPECT_EQ(band.read({1, 118, 2, 2}), (std::vector<double>{119, 120, 120, 121}));
   EXPECT_EQ(band.read({0, 3, 1, 1}), std::vector<double>{3});
+}
+
+TEST(RasterBand, SoundingsAreToBecomeARaster) {
+  const TemporaryFolder folder;
+  const auto errorOf = [&](const char* name) -> std::string {
+    try {
+      RasterBand band(folder / name);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  const std::vector<std::pair<const char*, const char*>> files{
+      {"list.xyz", "-72 18 3\n-72.5 18.1 4\n-73.1 18.4 6\n"},
+      {"points.geojson",
+       R"({"type": "Feature", "properties": {}, "geometry": {"type": "Point", "coordinates": [-72, 18, 3]}})"}};
+  for (const auto& [name, text] : files) {
+    std::ofstream(folder / name) << text;
+    EXPECT_THAT(errorOf(name), AllOf(HasSubstr(name), HasSubstr("gdal_grid -a linear")));
+  }
+  std::ofstream(folder / "text.asc") << "no raster";
+  EXPECT_THAT(errorOf("text.asc"), Not(HasSubstr("gdal_grid")));
 }
 
 TEST(RasterBand, ComplexNumbersAreRefused) {
