@@ -96,7 +96,7 @@ class TargetCheck {
     if (target_ == Target::Adcirc) std::ranges::move(checkWeirs(grid_), std::back_inserter(defects_));
     if (mindsDryOpenings(target_)) checkOpenings();
     if (target_ == Target::Fvcom) checkOpenCells();
-    if (target_ == Target::Fvcom || target_ == Target::Telemac) checkLoneWalls();
+    if (target_ == Target::Fvcom || target_ == Target::Telemac || target_ == Target::Mike) checkLoneWalls();
     if (target_ == Target::Dflowfm) checkFlowLinks();
     checkQuads();
     if (options_.time_step_s > 0.0 && isOfLongWaves(target_) && !grid_.z.empty()) checkCourant();
@@ -291,9 +291,11 @@ class TargetCheck {
 
   // TELEMAC also rejects a single solid node between openings, a wall of two edges: the first one is reported.
   void checkLoneWalls() {
-    const bool of_telemac = target_ == Target::Telemac;
+    const bool of_telemac = target_ == Target::Telemac, with_rivers = target_ != Target::Fvcom;
     std::vector<bool> on_opening(grid_.nodes.size(), false);
-    const auto opens = [&](BoundaryRole role) { return role == BoundaryRole::Open || (of_telemac && isOpening(role)); };
+    const auto opens = [&](BoundaryRole role) {
+      return role == BoundaryRole::Open || (with_rivers && isOpening(role));
+    };
     for (const Boundary& boundary : grid_.boundaries)
       if (opens(boundary.role))
         for (const std::uint32_t node : boundary.nodes) on_opening[node] = true;
@@ -380,7 +382,8 @@ class TargetCheck {
 
   void checkCourant() {
     const bool from_below = target_ == Target::Schism;
-    const bool advice = from_below || target_ == Target::Telemac || target_ == Target::Dflowfm;
+    const bool advice =
+        from_below || target_ == Target::Telemac || target_ == Target::Mike || target_ == Target::Dflowfm;
     for (TargetDefect& defect : courantsBeyond(grid_, options_.time_step_s, from_below, loop_)) {
       defect.advice = advice;
       defects_.push_back(std::move(defect));

@@ -25,8 +25,8 @@ inline constexpr double kDflowfmLargestCosine = 0.5;
 // limit here.
 inline constexpr double kDflowfmSmallestLink = 0.1005;
 
-// Courant numbers (`timeSteps`). ADCIRC and FVCOM become unstable above 1. TELEMAC-2D and SCHISM are implicit, and
-// D-Flow FM shortens its steps: their limits are advice, SCHISM's from below, from its manual ("grid generation").
+// Courant numbers (`timeSteps`). ADCIRC and FVCOM become unstable above 1. TELEMAC-2D and SCHISM are implicit, and MIKE
+// and D-Flow FM shorten their steps: their limits are advice, SCHISM's from below, from its manual ("grid generation").
 inline constexpr double kLargestCourant = 1.0;
 inline constexpr double kSchismLeastCourant = 0.4;
 

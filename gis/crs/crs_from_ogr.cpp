@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "gis/crs/known_code.hpp"
+#include "gis/crs/ogr_support.hpp"
 
 namespace coastmesh {
 
@@ -35,6 +36,15 @@ Crs fromOgr(const OGRSpatialReference* srs) {
   // MapInfo's WGS 84 has no name, and matches are weighted by name.
   const Crs crs = parseCrs(wkt);
   return crs.geographic && sameCrs(crs, wgs84()) ? wgs84() : crs;
+}
+
+std::optional<Crs> crsFromWkt(const std::string& wkt) {
+  const OgrErrors errors;
+  OGRSpatialReference srs;
+  const char* text = wkt.c_str();
+  if (srs.importFromWkt(&text) != OGRERR_NONE) return std::nullopt;
+  srs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  return fromOgr(&srs);
 }
 
 }  // namespace coastmesh

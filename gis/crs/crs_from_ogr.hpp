@@ -2,6 +2,8 @@
 
 #include <ogr_spatialref.h>
 
+#include <optional>
+#include <string>
 #include <string_view>
 
 #include "gis/crs/crs.hpp"
@@ -14,5 +16,8 @@ inline constexpr std::string_view kUndefinedGeographic = "Undefined geographic S
 // The CRS of `srs`; a plane for null, and for an undefined one. Looks up the EPSG code if the source has none that
 // PROJ knows, as in the WKT of a .prj file.
 Crs fromOgr(const OGRSpatialReference* srs);
+
+// The same for WKT of any kind; nullopt if it is none.
+std::optional<Crs> crsFromWkt(const std::string& wkt);
 
 }  // namespace coastmesh

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "gis/crs/crs_from_ogr.hpp"
 #include "gis/crs/ogr_support.hpp"
@@ -17,20 +18,23 @@ namespace coastmesh {
 
 namespace {
 
-// The CRS of the mesh file `path` as ESRI's WKT. REQUIRES: not a plane. Throws OutputError.
 std::string prjText(const std::string& path, const Crs& crs) {
+  return esriWkt(crs, prjBeside(path), "for a .prj file");
+}
+
+}  // namespace
+
+std::string esriWkt(const Crs& crs, const std::string& file, std::string_view place) {
   const OgrErrors errors;
   const char* const options[] = {"FORMAT=WKT1_ESRI", nullptr};
   char* wkt = nullptr;
   const OGRErr result = toOgr(crs).exportToWkt(&wkt, options);
   const std::unique_ptr<char, void (*)(void*)> owner(wkt, CPLFree);
   if (result != OGRERR_NONE || wkt == nullptr || *wkt == '\0')
-    throw OutputError("cannot write '" + prjBeside(path) + "': the CRS has no form for a .prj file (" + errors.text() +
+    throw OutputError("cannot write '" + file + "': the CRS has no form " + std::string(place) + " (" + errors.text() +
                       "); choose .gpkg or .nc");
   return wkt;
 }
-
-}  // namespace
 
 std::string prjBeside(const std::string& path) {
   return std::filesystem::path(path).replace_extension(".prj").string();
@@ -63,12 +67,9 @@ Crs readPrjBeside(const std::string& path, const Crs& unsaid) {
   TextReader file(prj);
   std::string wkt;
   while (file.nextLine()) wkt += file.line();
-  const OgrErrors errors;
-  OGRSpatialReference srs;
-  const char* text = wkt.c_str();
-  if (srs.importFromWkt(&text) != OGRERR_NONE) throw InputError("'" + prj + "' does not hold a CRS as WKT");
-  srs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  return fromOgr(&srs);
+  const std::optional<Crs> crs = crsFromWkt(wkt);
+  if (!crs) throw InputError("'" + prj + "' does not hold a CRS as WKT");
+  return *crs;
 }
 
 }  // namespace coastmesh

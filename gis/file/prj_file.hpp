@@ -1,10 +1,15 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "gis/crs/crs.hpp"
 
 namespace coastmesh {
+
+// The CRS as ESRI's WKT, in one line. REQUIRES: not a plane. Throws OutputError, with the file that is written and the
+// `place` in it ("for a .prj file"), if there is no such form.
+std::string esriWkt(const Crs& crs, const std::string& file, std::string_view place);
 
 // The .prj file with the CRS of `path`, for formats that cannot hold it.
 std::string prjBeside(const std::string& path);

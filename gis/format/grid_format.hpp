@@ -15,6 +15,9 @@ enum class NodePlaces {
   Sphere,      // angles in radians or coordinates on a sphere, subject to rounding, if the grid is geographic
 };
 
+// The boundaries whose nodes a format's files mark: a shore's edge between two marked nodes opens.
+enum class MarkedNodes { None, OfOpen, OfOpenAndRivers };
+
 // A file format, its name ("gpkg") and its file endings.
 struct GridFormat {
   std::string_view name;
@@ -29,8 +32,8 @@ struct GridFormat {
   // Read by models that take lengths to be in metres; the files do not hold the unit.
   bool lengths_in_metres = false;
   bool beside_grid = false;  // not a grid, but an additional file for a solver, with the parts in `holds`
-  bool marks_nodes = false;  // openings are marked at nodes, so an edge of shore between two of these nodes opens
-  bool of_water = false;     // has depth 0 where the grid has a height above the water
+  MarkedNodes marked = MarkedNodes::None;
+  bool of_water = false;  // has depth 0 where the grid has a height above the water
 };
 
 }  // namespace coastmesh

@@ -40,6 +40,7 @@ struct FormatRecord {
   FORMAT(schismFormat)                 \
   FORMAT(telemacFormat)                \
   FORMAT(fvcomFormat)                  \
+  FORMAT(mikeFormat)                   \
   FORMAT(fesomFormat)                  \
   FORMAT(jigsawFormat)                 \
   FORMAT(mpasFormat)                   \

@@ -163,10 +163,10 @@ std::string wordsFor(GridPart part, const Grid& grid, const GridFormat& format, 
   return "";
 }
 
-// "that 2 edges between open nodes are shore: …"; empty if there are none. Rivers are open if the format holds them.
+// "that 2 edges between open nodes are shore: …"; empty if there are none.
 std::string loneShoresOf(const Grid& grid, const GridFormat& format) {
   const auto opens = [&](BoundaryRole role) {
-    return role == BoundaryRole::Open || (role == BoundaryRole::River && format.holds.has(GridPart::Rivers));
+    return role == BoundaryRole::Open || (role == BoundaryRole::River && format.marked == MarkedNodes::OfOpenAndRivers);
   };
   std::vector<bool> marked(grid.nodes.size(), false);
   for (const Boundary& boundary : grid.boundaries)
@@ -261,7 +261,7 @@ std::string lossesIn(const Grid& grid, const GridFormat& format, LossesOf of) {
     if (format.holds.has(part)) continue;
     losses.push_back(wordsFor(part, grid, format, of));
   }
-  if (format.marks_nodes) losses.push_back(loneShoresOf(grid, format));
+  if (format.marked != MarkedNodes::None) losses.push_back(loneShoresOf(grid, format));
   if (format.of_water) losses.push_back(heightsOf(grid));
   losses.push_back(datumShiftOf(grid, format));
   std::erase(losses, std::string());

@@ -7,6 +7,8 @@
 #include <set>
 #include <utility>
 
+#include "gis/places.hpp"
+
 namespace coastmesh {
 namespace {
 
@@ -64,6 +66,18 @@ GridFeature featureOfLabel(const std::string& label, std::int64_t number) {
   GridFeature feature{number, {}, {}};
   if (!label.empty()) feature.attributes.emplace_back("name", label);
   return feature;
+}
+
+std::string openingName(const Boundary& boundary, const Grid& grid) {
+  return (boundary.name.empty() ? std::string(toString(boundary.role)) : "'" + boundary.name + "'") + " near " +
+         pointText(grid.nodes[boundary.nodes[boundary.nodes.size() / 2]]);
+}
+
+std::string firstOfMany(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 12;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i) text += (i > 0 ? ", " : "") + names[i];
+  return names.size() > kMost ? text + ", and " + std::to_string(names.size() - kMost) + " more" : text;
 }
 
 void addFeatures(const std::vector<double>& fids, const std::vector<double>& regions,

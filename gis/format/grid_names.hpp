@@ -9,7 +9,7 @@
 
 namespace coastmesh {
 
-// Names and numbers of regions and features in files.
+// Names and numbers of regions, features and openings, in files and for what is said of files.
 
 // The names of the grid's regions, sorted; in files they are numbered from 1, and 0 means none.
 std::vector<std::string> regionNames(const Grid& grid);
@@ -24,6 +24,12 @@ GridFeature featureOfLabel(const std::string& label, std::int64_t number);
 
 // Replaces quotes and line ends, which would end a quoted name, by blanks.
 std::string quotable(std::string_view name);
+
+// "'Elbe' near (9.1, 53.8)"; for an opening without a name "open near …" or "river near …".
+std::string openingName(const Boundary& boundary, const Grid& grid);
+
+// The first twelve, with commas, and how many more there are.
+std::string firstOfMany(const std::vector<std::string>& names);
 
 // Makes a feature for each combination of fid and region, and assigns each triangle its own. `fids` and `regions` have
 // one number for each triangle or are empty; `regions` are numbers into `names` as above. Fids count as not given if

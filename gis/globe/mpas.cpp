@@ -181,7 +181,7 @@ FormatRecord mpasFormat() {
            .writable = true,
            .needs_depths = true,
            .places = NodePlaces::Sphere,
-           .marks_nodes = true},
+           .marked = MarkedNodes::OfOpen},
           {writeMpas, readMpas, nullptr, isMpas}};
 }
 

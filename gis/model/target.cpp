@@ -14,7 +14,9 @@ std::string allTargetNames() {
 
 bool isOnSphere(Target target) { return target == Target::Fesom || target == Target::Mpas; }
 
-bool acceptsQuads(Target target) { return target == Target::Schism || target == Target::Dflowfm; }
+bool acceptsQuads(Target target) {
+  return target == Target::Schism || target == Target::Mike || target == Target::Dflowfm;
+}
 
 std::vector<Target> targetsNamed(const std::vector<std::string>& names) {
   std::vector<Target> targets;

@@ -7,8 +7,9 @@
 namespace coastmesh {
 
 // Models that a grid can be made for.
-enum class Target { Adcirc, Schism, Fvcom, Telemac, Dflowfm, Swan, Fesom, Mpas };
-inline constexpr std::array kTargetNames{"adcirc", "schism", "fvcom", "telemac", "dflowfm", "swan", "fesom", "mpas"};
+enum class Target { Adcirc, Schism, Fvcom, Telemac, Mike, Dflowfm, Swan, Fesom, Mpas };
+inline constexpr std::array kTargetNames{"adcirc",  "schism", "fvcom", "telemac", "mike",
+                                         "dflowfm", "swan",   "fesom", "mpas"};
 
 // "adcirc|schism|…"
 std::string allTargetNames();

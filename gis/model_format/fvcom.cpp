@@ -15,6 +15,7 @@
 #include "gis/file/text_writer.hpp"
 #include "gis/for_count.hpp"
 #include "gis/format/grid_formats.hpp"
+#include "gis/format/grid_names.hpp"
 #include "gis/grid/boundary_kinds.hpp"
 #include "gis/lower_case.hpp"
 #include "gis/places.hpp"
@@ -252,18 +253,15 @@ Grid readFvcom(const std::string& path, const Crs& unsaid) {
 
 // Rivers in the order of the grid: FVCOM's namelists name each by one of its nodes.
 std::string riverNodesText(const Grid& grid, const std::string& path) {
-  constexpr std::size_t kMostNamed = 12;
-  std::string text;
-  std::size_t rivers = 0;
+  std::vector<std::string> rivers;
   for (const Boundary& boundary : grid.boundaries) {
-    if (boundary.role != BoundaryRole::River || ++rivers > kMostNamed) continue;
+    if (boundary.role != BoundaryRole::River) continue;
     const std::uint32_t middle = boundary.nodes[boundary.nodes.size() / 2];
-    text += (rivers > 1 ? ", " : "") + (boundary.name.empty() ? "without a name" : "'" + boundary.name + "'") + ": " +
-            std::to_string(middle + 1) + " near " + pointText(grid.nodes[middle]);
+    rivers.push_back((boundary.name.empty() ? "without a name" : "'" + boundary.name + "'") + ": " +
+                     std::to_string(middle + 1) + " near " + pointText(grid.nodes[middle]));
   }
-  if (rivers == 0) return {};
-  if (rivers > kMostNamed) text += ", and " + std::to_string(rivers - kMostNamed) + " more";
-  return "rivers by a node of '" + fileOfSet(path, "grd") + "', for RIVER_GRID_LOCATION: " + text;
+  if (rivers.empty()) return {};
+  return "rivers by a node of '" + fileOfSet(path, "grd") + "', for RIVER_GRID_LOCATION: " + firstOfMany(rivers);
 }
 
 // How far the sponge reaches, in units of the longest edge at each of its nodes: it damps nothing within an element
@@ -320,7 +318,7 @@ FormatRecord fvcomFormat() {
        .needs_depths = true,
        .places = NodePlaces::OneTurn,
        .lengths_in_metres = true,
-       .marks_nodes = true},
+       .marked = MarkedNodes::OfOpen},
       {.write = writeFvcom, .read = readFvcom, .files = files, .remark = openNodesRemark, .openings = openingsText}};
 }
 

@@ -12,6 +12,7 @@
 #include "gis/file/text_reader.hpp"
 #include "gis/for_count.hpp"
 #include "gis/format/grid_formats.hpp"
+#include "gis/format/grid_names.hpp"
 #include "gis/grid/boundary_kinds.hpp"
 #include "gis/grid/loop_role.hpp"
 #include "gis/lower_case.hpp"
@@ -272,7 +273,6 @@ std::vector<std::size_t> liquidNumbers(std::size_t nodes, const BoundaryNodes& b
 }
 
 std::string liquidBoundariesText(const Grid& grid, const std::string& path) {
-  constexpr std::size_t kMostNamed = 12;
   const auto liquid = [](const Boundary& boundary) { return isOpening(boundary.role); };
   if (std::ranges::count_if(grid.boundaries, liquid) < 2) return {};
   const std::vector<std::size_t> number = liquidNumbers(grid.nodes.size(), boundaryNodesOf(grid, path));
@@ -280,16 +280,12 @@ std::string liquidBoundariesText(const Grid& grid, const std::string& path) {
   for (const Boundary& boundary : grid.boundaries) {
     if (!liquid(boundary)) continue;
     std::string& name = names[number[boundary.nodes.back()]];
-    if (!name.empty()) continue;  // several of the same codes in a row are one
-    name = boundary.name.empty() ? std::string(toString(boundary.role)) : "'" + boundary.name + "'";
-    name += " near " + pointText(grid.nodes[boundary.nodes[boundary.nodes.size() / 2]]);
+    if (name.empty()) name = openingName(boundary, grid);  // several of the same codes in a row are one
   }
   if (names.size() < 2) return {};
-  std::string text = "liquid boundaries of '" + withEnding(path, ".cli") + "', in TELEMAC's order: ";
-  std::size_t count = 0;
-  for (const auto& [at, name] : names)
-    if (++count <= kMostNamed) text += (count > 1 ? ", " : "") + std::to_string(at) + " " + name;
-  return text + (count > kMostNamed ? ", and " + std::to_string(count - kMostNamed) + " more" : "");
+  std::vector<std::string> numbered;
+  for (const auto& [at, name] : names) numbered.push_back(std::to_string(at) + ' ' + name);
+  return "liquid boundaries of '" + withEnding(path, ".cli") + "', in TELEMAC's order: " + firstOfMany(numbered);
 }
 
 // Writes TELEMAC's SELAFIN geometry in double precision (SERAFIND) with the variable BOTTOM, elevation in metres, one
@@ -322,7 +318,7 @@ FormatRecord telemacFormat() {
            .needs_depths = true,
            .places = NodePlaces::OneTurn,
            .lengths_in_metres = true,
-           .marks_nodes = true},
+           .marked = MarkedNodes::OfOpenAndRivers},
           {.write = writeTelemac, .read = readTelemac, .files = files, .openings = liquidBoundariesText}};
 }
 

@@ -146,7 +146,7 @@ FormatRecord ww3Format() {
            .needs_depths = true,
            .places = NodePlaces::OneTurn,
            .lengths_in_metres = true,
-           .marks_nodes = true},
+           .marked = MarkedNodes::OfOpen},
           {writeWw3, readWw3, withPrjBeside, isWw3}};
 }
 

@@ -101,6 +101,16 @@ def read_2dm(path):
     return renumbered(nodes, triangles)
 
 
+def read_mike(path):
+    lines = words(path)
+    item, unit, count = (int(word) for word in lines[0][:3])
+    assert (item, unit) == (100079, 1000) and len(lines[0]) > 3
+    nodes = {int(line[0]): (float(line[1]), float(line[2])) for line in lines[1 : count + 1]}
+    elements = int(lines[count + 1][0])
+    assert len(nodes) == count and lines[count + 1][1:] == ["3", "21"] and len(lines) == count + 2 + elements
+    return renumbered(nodes, [tuple(int(n) for n in line[1:4]) for line in lines[count + 2 :]])
+
+
 def renumbered(nodes, triangles):
     index = {n: i for i, n in enumerate(nodes)}
     return list(nodes.values()), [tuple(index[n] for n in t) for t in triangles]
@@ -204,7 +214,7 @@ def read_fvcom(path):
 
 GRIDS = [("_22.msh", read_msh2), ("_ww3.msh", read_msh2), (".msh", read_msh4), (".nc", read_netcdf), (".2dm", read_2dm),
          (".14", read_fort14), (".gr3", read_fort14), (".node", read_triangle), (".slf", read_selafin),
-         (".vtu", read_vtu), ("_grd.dat", read_fvcom)]
+         (".vtu", read_vtu), ("_grd.dat", read_fvcom), (".mesh", read_mike)]
 
 
 def open_ring(ring):

@@ -255,5 +255,5 @@ class Case:
         if rng.random() < 0.15:
             options += ["--smooth"]
         if rng.random() < 0.2 and self.world.kind != "poly":
-            options += ["--target", rng.choice(["adcirc", "schism", "fvcom", "telemac", "dflowfm", "swan", "fesom", "mpas"])]
+            options += ["--target", rng.choice(["adcirc", "schism", "fvcom", "telemac", "mike", "dflowfm", "swan", "fesom", "mpas"])]
             self.keeps_area = False

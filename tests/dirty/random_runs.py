@@ -26,7 +26,7 @@ from mesh_judge import Failure, area_in_plane, as_places, check_layer, check_mes
 from mesh_readers import read_grid, read_layer
 from random_inputs import Case
 
-GRIDS = ["m.nc", "m.2dm", "m.14", "m.gr3", "m.msh", "m_22.msh", "m.node", "m.slf", "m.vtu", "m_grd.dat"]
+GRIDS = ["m.nc", "m.2dm", "m.14", "m.gr3", "m.msh", "m_22.msh", "m.node", "m.slf", "m.vtu", "m_grd.dat", "m.mesh"]
 LAYERS = ["m.gpkg", "m.geojson", "m.shp"]
 # Part of the refusal by TELEMAC's format, which cannot hold every mesh.
 PINCHED = "which TELEMAC's files cannot hold"

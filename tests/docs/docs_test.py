@@ -293,6 +293,9 @@ class GuideTest(unittest.TestCase):
     def test_models_telemac(self):
         self.assertLessEqual({"sea.slf", "sea.cli"}, self.run_model("telemac", "sea.slf"))
 
+    def test_models_mike(self):
+        self.run_model("mike", "sea.mesh")
+
     def test_models_dflowfm(self):
         self.run_model("dflowfm", "sea_net.nc")
 

@@ -40,8 +40,8 @@ KEPT = "kept"  # the folder of --checkpoint
 CASES = {
     "mesh": (["m.nc", "m.14", "m.msh", "m.2dm", "m.gpkg"], MESH + ["--report", REPORT], []),
     "formats": (["a.geojson", "b.shp", "c.fgb", "d.gr3", "e.slf", "f_grd.dat", "nod2d.out", "g_jigsaw.msh",
-                 "h_mpas.nc", "i_22.msh", "j_ww3.msh", "k.node", "l.vtu", "m_globe.vtu", "n.ply", "partition.prop",
-                 "partmesh.txt"], MESH + ["--edits", "edits.gpkg", "--partition", "3"], []),
+                 "h_mpas.nc", "i_22.msh", "j_ww3.msh", "k.node", "l.vtu", "m_globe.vtu", "n.ply", "o.mesh",
+                 "partition.prop", "partmesh.txt"], MESH + ["--edits", "edits.gpkg", "--partition", "3"], []),
     "sized": (["m.nc", "m.14"], MESH + ["--size-shore", "4000", "--shore-rate", "0.2", "--size-max", "20000", "--coast",
                                         "follow", "--target", "adcirc"], []),
     "weirs": (["m.14"], MESH + ["--size-max", "20000", "--weirs", "WEIRS", "--weir-heights", "CRESTS", "--target", "adcirc"],

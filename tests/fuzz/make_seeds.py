@@ -19,6 +19,7 @@ GRIDS = {
     "schism": (["s.gr3"], "schism"),
     "telemac": (["s.slf", "s.cli"], "telemac"),
     "2dm": (["s.2dm"], "2dm"),
+    "mike": (["s.mesh"], "mike"),
     "ugrid": (["s.nc"], "ugrid"),
     "mpas": (["s_mpas.nc"], "mpas"),
     "vtu": (["s.vtu"], "vtu"),

@@ -112,6 +112,7 @@ const std::vector<ReaderCase>& readerCases() {
       {"schism", {"f.gr3"}, readMesh},
       {"telemac", {"f.slf", "f.cli"}, readMesh},
       {"2dm", {"f.2dm"}, readMesh},
+      {"mike", {"f.mesh"}, readMesh},
       {"gmsh", {"f.msh"}, readMesh},
       {"ugrid", {"f.nc"}, readMesh},
       {"mpas", {"f_mpas.nc"}, readMesh},

@@ -146,6 +146,8 @@ std::vector<Promise> promises() {
       {"telemac", selafin(1, kMany, 12)},
       {"telemac", selafin(0x7fffffff, 0x7fffffff, 0xffffffff)},
       {"2dm", "MESH2D\nND " + many + " 0 0 0\nE3T " + many + " 1 2 3 1\n"},
+      {"mike", "100079 1000 " + many + " LONG/LAT\n1 0 0 0 1\n"},
+      {"mike", "3 NON-UTM\n1 0 0 0 1\n2 1 0 0 1\n3 0 1 0 1\n" + many + " 3 21\n1 1 2 3\n"},
       {"gmsh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" + many + "\n1 0 0 0\n"},
       {"gmsh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 " + many + " 1 " + many + "\n2 1 0 " + many + "\n1\n"},
       {"gmsh",

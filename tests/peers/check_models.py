@@ -19,7 +19,8 @@ import tempfile
 
 import strict_readers as readers
 
-OUTPUTS = ["fort.14", "hgrid.gr3", "mesh.nc", "mesh.msh", "mesh.slf", "mesh_grd.dat", "mesh.2dm", "mesh.vtu", "mesh_ww3.msh"]
+OUTPUTS = ["fort.14", "hgrid.gr3", "mesh.nc", "mesh.msh", "mesh.slf", "mesh_grd.dat", "mesh.2dm", "mesh.mesh", "mesh.vtu",
+           "mesh_ww3.msh"]
 failed, missing = [], set()
 
 
@@ -83,6 +84,7 @@ def check_case(name, program, folder, arguments, targets, dem, tolerance, is_ope
         ("mesh.slf", readers.read_selafin),
         ("mesh_grd.dat", readers.read_fvcom),
         ("mesh.2dm", readers.read_2dm),
+        ("mesh.mesh", readers.read_mike),
     ]:
         try:
             grids[output] = read(folder / output)
@@ -150,7 +152,7 @@ def main():
     with tempfile.TemporaryDirectory() as temporary:
         folder = options.keep or pathlib.Path(temporary)
         folder.mkdir(exist_ok=True)
-        targets = ["adcirc", "schism", "fvcom", "telemac", "dflowfm", "swan"]
+        targets = ["adcirc", "schism", "fvcom", "telemac", "mike", "dflowfm", "swan"]
         pixel = write_dem(folder / "lake_dem.tif", -93.0, 46.0, -84.0, 50.0, options.dem_mib)
         lake = folder / "lake"
         lake.mkdir(exist_ok=True)

@@ -104,6 +104,35 @@ def read_fort14(path, schism=False, allow_pinches=False):
     return {"nodes": nodes, "triangles": triangles, "depth": depth, "open": open_segments, "land": land}
 
 
+def read_mike(path):
+    """As DHI's specification has it: edges of the boundary get their codes from those of their nodes."""
+    with open(path) as file:
+        item, unit, count, projection = file.readline().split(maxsplit=3)
+        require((item, unit) == ("100079", "1000") and projection.strip(), "the first line")
+        nodes, depth, codes = [], [], []
+        for number in range(1, int(count) + 1):
+            words = file.readline().split()
+            require(len(words) == 5 and int(words[0]) == number, "a node")
+            nodes.append((float(words[1]), float(words[2])))
+            depth.append(-float(words[3]))
+            codes.append(int(words[4]))
+        elements, most, kind = (int(word) for word in file.readline().split())
+        require((most, kind) == (3, 21), "the kind of elements")
+        triangles = []
+        for number in range(1, elements + 1):
+            words = [int(word) for word in file.readline().split()]
+            require(len(words) == 4 and words[0] == number, "an element")
+            triangles.append(tuple(node - 1 for node in words[1:]))
+        require(not file.read(), "something behind the elements")
+    boundary = check_mesh(nodes, triangles)
+    on_boundary = {node for edge in boundary for node in edge}
+    require(all((codes[node] > 0) == (node in on_boundary) for node in range(len(nodes))), "codes of nodes")
+    is_open = {edge: min(codes[node] for node in edge) > 1 for edge in boundary}
+    return {"nodes": nodes, "triangles": triangles, "depth": depth,
+            "open": [list(edge) for edge in boundary if is_open[edge]],
+            "land": [list(edge) for edge in boundary if not is_open[edge]]}
+
+
 def read_2dm(path):
     nodes, triangles, depth, strings, part, materials, in_block = [], [], [], [], [], [], False
     with open(path) as file:

@@ -305,7 +305,7 @@ TEST(CheckTarget, LoneWall) {
     const bool wall = std::min(grid.nodes[a].x, grid.nodes[b].x) == 3000.0;
     return BoundaryKind{south && !wall ? BoundaryRole::Open : BoundaryRole::Land};
   });
-  for (const Target target : {Target::Fvcom, Target::Telemac}) {
+  for (const Target target : {Target::Fvcom, Target::Telemac, Target::Mike}) {
     EXPECT_TRUE(kindsIn(grid, target).contains(TargetDefectKind::LoneWall));
     expectMended(grid, {target});
   }

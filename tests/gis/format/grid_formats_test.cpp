@@ -31,17 +31,19 @@ Carried carriedBy(const std::string& format) {
   if (format == "2dm") return {false, false, true, false};
   if (format == "vtu") return {false, false, true, true};
   if (format == "adcirc" || format == "schism" || format == "telemac") return {true, false, false, false, false};
-  if (format == "fvcom" || format == "ww3") return {false, false, false, false, false};
+  if (format == "fvcom" || format == "ww3" || format == "mike") return {false, false, false, false, false};
   return {};
+}
+
+// Formats that store open boundaries only: the rest of the boundary is shore.
+bool impliesShores(const std::string& format) {
+  return format == "telemac" || format == "fvcom" || format == "ww3" || format == "mike";
 }
 
 // Model formats, which begin and end boundaries according to their own rules.
 bool cutsBoundaries(const std::string& format) {
-  return format == "adcirc" || format == "schism" || format == "telemac" || format == "fvcom" || format == "ww3";
+  return format == "adcirc" || format == "schism" || impliesShores(format);
 }
-
-// Formats that store open boundaries only: the rest of the boundary is shore.
-bool impliesShores(const std::string& format) { return format == "telemac" || format == "fvcom" || format == "ww3"; }
 
 // The directed edges of boundaries, and whether each is open.
 std::map<std::pair<std::uint32_t, std::uint32_t>, bool> openEdges(const Grid& grid) {

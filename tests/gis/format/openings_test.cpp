@@ -60,7 +60,7 @@ TEST(Openings, TelemacsAreInTheOrderOfItsBoundary) {
 
 TEST(Openings, OneNeedsNoNumber) {
   const Grid grid = testing::openGrid();
-  for (const char* const path : {"sea.slf", "sea_grd.dat", "fort.14", "sea.nc"})
+  for (const char* const path : {"sea.slf", "sea_grd.dat", "sea.mesh", "fort.14", "sea.nc"})
     EXPECT_THAT(openings(grid, path), IsEmpty()) << path;
 }
 
