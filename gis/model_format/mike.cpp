@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <optional>
-#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -129,21 +128,16 @@ Header readHeader(TextReader& file, const Crs& unsaid) {
   return header;
 }
 
-// The codes of the boundaries: land's, or those of openings. An opening takes the code that its name gives, others the
-// next ones that no name gives.
+// The codes of the boundaries: land's, or those of openings. An opening takes the code that its name gives; others take
+// the next ones above these, so that none gets the code of an opening that was cut away.
 std::vector<std::int64_t> boundaryCodes(const Grid& grid) {
-  std::vector<std::int64_t> codes(grid.boundaries.size(), kLand);
-  std::set<std::int64_t> named;
-  for (std::size_t b = 0; b < codes.size(); ++b) {
-    if (!isOpening(grid.boundaries[b].role)) continue;
-    codes[b] = codeInName(grid.boundaries[b].name).value_or(kWater);
-    named.insert(codes[b]);
-  }
   std::int64_t next = kFirstOpen;
-  for (std::int64_t& code : codes) {
-    if (code != kWater) continue;
-    while (named.contains(next)) ++next;
-    code = next++;
+  for (const Boundary& boundary : grid.boundaries)
+    if (isOpening(boundary.role)) next = std::max(next, codeInName(boundary.name).value_or(kLand) + 1);
+  std::vector<std::int64_t> codes;
+  for (const Boundary& boundary : grid.boundaries) {
+    const std::optional<std::int64_t> named = codeInName(boundary.name);
+    codes.push_back(!isOpening(boundary.role) ? kLand : named ? *named : next++);
   }
   return codes;
 }

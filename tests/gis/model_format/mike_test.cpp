@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -19,6 +20,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 class Mike : public ReadGrid {
@@ -122,12 +124,17 @@ TEST_F(Mike, CodesStayAsTheyWere) {
   Grid grid = readGrid(put("codes.mesh", text));
   EXPECT_EQ(openChains(grid).size(), 2u);
   EXPECT_EQ(written(grid), text);
-  // A new opening gets a code that is free.
-  for (Boundary& boundary : grid.boundaries)
-    if (boundary.name == "code 7") boundary.name = "inlet";
-  EXPECT_THAT(written(grid), AllOf(HasSubstr("\n1 0 0 -1 3\n"), HasSubstr("\n4 2000 1000 -1 2\n")));
+  // A new opening gets a code that no opening has had.
+  const auto rename = [&](const char* from, const char* to) {
+    std::ranges::find(grid.boundaries, from, &Boundary::name)->name = to;
+  };
+  rename("code 2", "inlet");
+  EXPECT_THAT(written(grid), AllOf(HasSubstr("\n1 0 0 -1 7\n"), HasSubstr("\n4 2000 1000 -1 8\n")));
   EXPECT_THAT(openingsIn(grid, "a.mesh", gridFormatFor("a.mesh")),
-              AllOf(HasSubstr("3 'inlet' near"), HasSubstr("2 open near")));
+              AllOf(HasSubstr("8 'inlet' near"), HasSubstr("7 open near")));
+  // A name of land's code is none of an opening.
+  rename("code 7", "code 1");
+  EXPECT_THAT(written(grid), AllOf(HasSubstr("-1 2\n"), HasSubstr("-1 3\n"), Not(HasSubstr("-1 7\n"))));
 }
 
 TEST_F(Mike, ReadsFilesFromBefore2012) {
