@@ -17,7 +17,7 @@ import zipfile
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 try:
-    from osgeo import gdal
+    from osgeo import gdal, ogr
     from qgis.core import (
         QgsApplication,
         QgsCoordinateReferenceSystem,
@@ -256,6 +256,32 @@ class ProviderTest(unittest.TestCase):
             results = self.mesh(layer, BOUNDARY_COLUMN="shore", OUTPUT_LAYERS=self.path("a.gpkg"))
             boundaries = QgsVectorLayer(results["BOUNDARIES"], "", "ogr")
             self.assertEqual({f["role"] for f in boundaries.getFeatures()}, {"open"})
+
+    def test_texts_in_the_encoding_of_the_layers_properties(self):
+        within_qgis = gdal.GetConfigOption("SHAPE_ENCODING")  # "": GDAL leaves the encoding to QGIS
+        gdal.SetConfigOption("SHAPE_ENCODING", None)
+        data = ogr.GetDriverByName("ESRI Shapefile").CreateDataSource(self.path("lake.shp"))
+        table = data.CreateLayer("lake", None, ogr.wkbPolygon, ["ENCODING=CP1251"])
+        table.CreateField(ogr.FieldDefn("name", ogr.OFTString))
+        lake = ogr.Feature(table.GetLayerDefn())
+        lake.SetField("name", "Озеро")
+        lake.SetGeometry(ogr.CreateGeometryFromWkt(LAKE))
+        table.CreateFeature(lake)
+        del lake, table, data
+        gdal.SetConfigOption("SHAPE_ENCODING", within_qgis)
+
+        def name_with(encoding):
+            layer = QgsVectorLayer(self.path("lake.shp"), "lake", "ogr")
+            if encoding:
+                layer.setProviderEncoding(encoding)
+            results = self.mesh(layer, OUTPUT_LAYERS=self.path("a.gpkg"))
+            return {f["name"] for f in QgsVectorLayer(results["TRIANGLES"], "", "ogr").getFeatures()}
+
+        self.assertEqual(name_with(None), {"Озеро"})
+        self.assertIn(self.path("lake.shp"), self.command())
+        self.assertEqual(name_with("KOI8-R"), {"Озеро".encode("cp1251").decode("koi8-r")})
+        os.remove(self.path("lake.cpg"))
+        self.assertEqual(name_with("windows-1251"), {"Озеро"})
 
     def test_fields_whose_names_differ_by_case_alone(self):
         layer = QgsVectorLayer("Polygon?crs=EPSG:4326&field=name:string&field=Name:string", "my lakes", "memory")
@@ -555,11 +581,30 @@ class ProviderTest(unittest.TestCase):
         self.run_algorithm("convert", INPUT=triangles, OUTPUT=self.path("b.14"))
         with open(self.path("a.14"), encoding="utf-8") as one, open(self.path("b.14"), encoding="utf-8") as other:
             self.assertEqual(one.read(), other.read())
+        # Being edited, but not changed, it is still that of its file.
+        triangles.startEditing()
+        self.run_algorithm("convert", INPUT=triangles, OUTPUT=self.path("d.14"))
+        with open(self.path("a.14"), encoding="utf-8") as one, open(self.path("d.14"), encoding="utf-8") as other:
+            self.assertEqual(one.read(), other.read())
+        triangles.deleteFeature(1)
+        self.assertRaisesRegex(QgsProcessingException, "'triangles' has edits: save them first", self.run_algorithm,
+                               "convert", INPUT=triangles, OUTPUT=self.path("d.14"))
+        triangles.rollBack()
+        nodes = QgsVectorLayer(results["NODES"], "depths by hand", "ogr")
+        QgsProject.instance().addMapLayer(nodes)
+        nodes.startEditing()
+        nodes.changeAttributeValue(1, nodes.fields().indexOf("z"), -7.0)
+        self.assertRaisesRegex(QgsProcessingException, "'depths by hand' has edits: save them first", self.run_algorithm,
+                               "convert", INPUT=triangles, OUTPUT=self.path("d.14"))
+        nodes.rollBack()
         # With a filter the layer has another mesh than its file.
+        self.assertNotIn("alone", self.log.text())
         triangles.setSubsetString("fid <= 3")
         self.run_algorithm("convert", INPUT=triangles, OUTPUT=self.path("c.14"))
         with open(self.path("c.14"), encoding="utf-8") as file:
             self.assertEqual(file.read().split()[1], "3")
+        self.assertIn("'triangles' shows something else than its file", self.log.text())
+        self.assertIn("read alone, without the depths", self.log.text())
 
     def test_a_mesh_converted_to_a_geopackage_is_loaded(self):
         self.mesh(memory_layer(LAKE))

@@ -1,4 +1,5 @@
 """Layers of QGIS as files that the program reads."""
+import codecs
 import os
 import re
 
@@ -73,12 +74,23 @@ class Sources:
     def path_of_mesh(self, layer):
         """The file of a mesh. For the triangles that `mesh` wrote it is their GeoPackage: other layers of it hold the
         depths of nodes and the types of boundaries."""
-        if isinstance(layer, QgsVectorLayer):
-            path = _file_of(layer)
-            triangles = layer.source().endswith("|layername=triangles")
-            if path and triangles and {"triangles", "nodes"} <= _layers_in(path):
+        path = _mesh_of_triangles(layer)
+        if path:
+            self._require_saved(path, layer)
+            if _file_of(layer):
                 return path
+            self.feedback.pushWarning(
+                f"'{layer.name()}' shows something else than its file, by a filter or another property: its triangles are "
+                "read alone, without the depths, types of boundaries and attributes of nodes in other layers of the file")
         return self.path_of_layer(layer)
+
+    def _require_saved(self, path, layer):
+        """Refuses a mesh of which a layer has edits that are not in its file."""
+        project = self.context.project()
+        layers = [layer, *(project.mapLayers().values() if project else [])]
+        for each in layers:
+            if isinstance(each, QgsVectorLayer) and each.isModified() and _path_of(each) == path:
+                raise QgsProcessingException(f"the layer '{each.name()}' has edits: save them first")
 
     def _raster(self, layer):
         """GDAL's name of a raster: a file, a part of one, or a VRT file aside with what was set in QGIS: the CRS, and
@@ -188,22 +200,56 @@ def _own_file(layer):
     return path if path and len(_layers_in(path)) == 1 else None
 
 
+def _mesh_of_triangles(layer):
+    """The GeoPackage of a mesh, if the layer is that of its triangles, however it is shown; otherwise None."""
+    path = _path_of(layer) if isinstance(layer, QgsVectorLayer) else None
+    if not path or _parts_of(layer).get("layerName") != "triangles":
+        return None
+    return path if {"triangles", "nodes"} <= _layers_in(path) else None
+
+
+def _parts_of(layer):
+    return QgsProviderRegistry.instance().decodeUri("ogr", layer.source()) if layer.providerType() == "ogr" else {}
+
+
+def _path_of(layer):
+    """The file that a vector layer lies in, or None."""
+    path = _parts_of(layer).get("path", "")
+    return path if os.path.isfile(path) else None
+
+
 def _file_of(layer):
     """The file that holds the layer as QGIS shows it, perhaps beside others, or None."""
     provider = layer.dataProvider()
-    if layer.providerType() != "ogr" or layer.subsetString() or layer.isEditable():
+    path = _path_of(layer)
+    if not path or layer.subsetString() or layer.isModified():
         return None
-    parts = QgsProviderRegistry.instance().decodeUri("ogr", layer.source())
     # Other parts are a type of geometry, which selects features, or options of the driver.
-    if any(value for part, value in parts.items() if part not in ("path", "layerName", "layerId")):
+    if any(value for part, value in _parts_of(layer).items() if part not in ("path", "layerName", "layerId")):
         return None
-    path = parts.get("path", "")
-    if not os.path.isfile(path) or path.lower().endswith((".zip", ".gz", ".tar", ".tgz")):
+    if path.lower().endswith((".zip", ".gz", ".tar", ".tgz")):
         return None
     # Joined and virtual fields are in no file, nor is a CRS that was assigned to the layer in QGIS.
     if layer.fields().names() != provider.fields().names() or layer.crs() != provider.crs():
         return None
-    return path
+    return path if _has_texts_of_file(layer, path) else None
+
+
+def _has_texts_of_file(layer, path):
+    """Whether QGIS decodes texts as the file says, not as chosen in the layer's properties."""
+    shown = layer.dataProvider().encoding()
+    data = ogr.Open(path)
+    of_file = "UTF-8"
+    if data is not None and data.GetDriver().GetName() == "ESRI Shapefile":
+        said = data.GetLayer(0).GetMetadata("SHAPEFILE")
+        of_file = said.get("ENCODING_FROM_CPG") or said.get("ENCODING_FROM_LDID", "")
+    # QGIS shows UTF-8, or what the system uses, if a file says nothing.
+    if not of_file:
+        return shown in ("", "System", "UTF-8")
+    try:
+        return shown in ("", "System") or codecs.lookup(shown).name == codecs.lookup(of_file).name
+    except LookupError:
+        return False
 
 
 def _layers_in(path):
