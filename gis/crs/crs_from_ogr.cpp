@@ -8,10 +8,14 @@
 
 #include "gis/crs/known_code.hpp"
 #include "gis/crs/ogr_support.hpp"
+#include "gis/error.hpp"
 
 namespace coastmesh {
 
-Crs fromOgr(const OGRSpatialReference* srs) {
+namespace {
+
+// Throws InputError.
+Crs knownOrRead(const OGRSpatialReference* srs) {
   if (srs == nullptr || srs->IsEmpty() || srs->IsLocal()) return {};
   if (srs->GetName() != nullptr && std::string_view(srs->GetName()) == kUndefinedGeographic) return {};
   const auto codeOf = [](const OGRSpatialReference& of) {
@@ -38,13 +42,23 @@ Crs fromOgr(const OGRSpatialReference* srs) {
   return crs.geographic && sameCrs(crs, wgs84()) ? wgs84() : crs;
 }
 
-std::optional<Crs> crsFromWkt(const std::string& wkt) {
+}  // namespace
+
+Crs fromOgr(const OGRSpatialReference* srs, const std::string& source) {
+  try {
+    return knownOrRead(srs);
+  } catch (const InputError& error) {
+    throw InputError(source + ": " + error.what());
+  }
+}
+
+std::optional<Crs> crsFromWkt(const std::string& wkt, const std::string& source) {
   const OgrErrors errors;
   OGRSpatialReference srs;
   const char* text = wkt.c_str();
   if (srs.importFromWkt(&text) != OGRERR_NONE) return std::nullopt;
   srs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  return fromOgr(&srs);
+  return fromOgr(&srs, source);
 }
 
 }  // namespace coastmesh

@@ -67,7 +67,7 @@ Crs readPrjBeside(const std::string& path, const Crs& unsaid) {
   TextReader file(prj);
   std::string wkt;
   while (file.nextLine()) wkt += file.line();
-  const std::optional<Crs> crs = crsFromWkt(wkt);
+  const std::optional<Crs> crs = crsFromWkt(wkt, "'" + prj + "'");
   if (!crs) throw InputError("'" + prj + "' does not hold a CRS as WKT");
   return *crs;
 }

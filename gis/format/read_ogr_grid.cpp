@@ -525,7 +525,7 @@ bool saysNullCrs(const std::string& path) {
 Crs readCrs(GDALDataset& dataset, OGRLayer& layer, const std::string& path) {
   const std::string_view driver = dataset.GetDriverName();
   if (driver == "GeoJSON" && saysNullCrs(path)) return {};
-  return fromOgr(layer.GetSpatialRef());
+  return fromOgr(layer.GetSpatialRef(), "'" + path + "'");
 }
 
 }  // namespace

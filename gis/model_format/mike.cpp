@@ -80,7 +80,7 @@ Crs readProjection(TextReader& file, std::string_view text, const Crs& unsaid) {
   if (text.empty() || text == kPlane) return unsaid;
   if (text == kGeographic) return wgs84();
   if (const std::optional<int> zone = utmZoneOf(text)) return parseCrs(utmCode(*zone));
-  if (const std::optional<Crs> crs = crsFromWkt(std::string(text))) return *crs;
+  if (const std::optional<Crs> crs = crsFromWkt(std::string(text), "'" + file.path() + "'")) return *crs;
   if (!unsaid.isPlane()) return unsaid;
   file.fail("the projection '" + std::string(text) + "' is neither " + std::string(kGeographic) + ", " +
             std::string(kUtm) + "33, " + std::string(kPlane) + " nor WKT; give --assume-crs");

@@ -128,11 +128,17 @@ RasterBand::RasterBand(std::string path, BandValues kind) : kind_(kind), dataset
     throw InputError("'" + name + "': its first band holds complex numbers; give one of plain numbers");
   const int mask = raster.band->GetMaskFlags();
   if ((mask & GMF_ALL_VALID) == 0) raster.masks.push_back(raster.band->GetMaskBand());
-  // GDAL uses alpha bands as masks only if they are of integers.
-  for (int b = 2; b <= raster.dataset->GetRasterCount() && (mask & GMF_ALPHA) == 0; ++b) {
+  int bands = 1;  // of values
+  for (int b = 2; b <= raster.dataset->GetRasterCount(); ++b) {
     GDALRasterBand* const band = raster.dataset->GetRasterBand(b);
-    if (band->GetColorInterpretation() == GCI_AlphaBand) raster.masks.push_back(band);
+    const bool is_alpha = band->GetColorInterpretation() == GCI_AlphaBand;
+    if (!is_alpha) ++bands;
+    // GDAL uses alpha bands as masks only if they are of integers.
+    if (is_alpha && (mask & GMF_ALPHA) == 0) raster.masks.push_back(band);
   }
+  if (bands > 1)
+    geometry_.notes.push_back("'" + name + "' has " + std::to_string(bands) +
+                              " bands, of which the first is read; 'vrt://" + name + "?bands=2' is the second");
   // GDAL has one mask per band; unless it is the no-data mask, it ignores no-data values.
   int has_no_data = 0;
   if ((mask & GMF_NODATA) == 0 && type != GDT_Int64 && type != GDT_UInt64) {
@@ -183,7 +189,7 @@ void RasterBand::readPlaces(const std::string& told) {
   if (dataset.GetGeoTransform(to_place.data()) != CE_None ||
       !GDALInvGeoTransform(to_place.data(), geometry_.to_pixel.data()))
     throw InputError("'" + name + "'" + placelessText(dataset, axes));
-  geometry_.crs = fromOgr(dataset.GetSpatialRef());
+  geometry_.crs = fromOgr(dataset.GetSpatialRef(), "'" + name + "'");
   if (axes) {
     geometry_.uneven_columns = UnevenAxis::from(axes->columns, to_place[1], name);
     geometry_.uneven_rows = UnevenAxis::from(axes->rows, to_place[5], name);

@@ -38,7 +38,7 @@ struct RasterGeometry {
   Crs crs;                                                        // a plane if the raster has none
   double period = 0.0;             // columns after which longitudes repeat: 360 degrees; 0 for other CRS
   bool wraps = false;              // the last column meets the first, to half a pixel
-  std::vector<std::string> notes;  // for the user: units that are converted, a CRS that is assumed
+  std::vector<std::string> notes;  // for the user: units that are converted, a CRS that is assumed, other bands
 
   // Converts a place in the raster's CRS to columns and rows, counted from the corner of the first pixel; longitudes
   // are brought into the raster's range.

@@ -308,9 +308,9 @@ class CleanedLayers {
   std::vector<RawLayer> layers_;
 };
 
-std::optional<Crs> crsOf(OGRLayer& layer) {
+std::optional<Crs> crsOf(OGRLayer& layer, const std::string& source) {
   const OGRSpatialReference* srs = layer.GetSpatialRef();
-  return srs && !srs->IsEmpty() ? std::optional(fromOgr(srs)) : std::nullopt;
+  return srs && !srs->IsEmpty() ? std::optional(fromOgr(srs, sourceInWords(source))) : std::nullopt;
 }
 
 }  // namespace
@@ -337,7 +337,7 @@ std::optional<std::vector<RawLayer>> readCleaned(const OpenSource& source, Featu
   takeEdits(layerNamed(source, kEditLayer), shapes);
   requireReadToEnd(source, errors);
 
-  return CleanedLayers(std::move(cleaned), source.name, crsOf(*pslg)).run(report);
+  return CleanedLayers(std::move(cleaned), source.name, crsOf(*pslg, source.name)).run(report);
 }
 
 }  // namespace coastmesh

@@ -105,11 +105,7 @@ Crs crsOfCode(int code, const std::string& what) {
   if (srs.importFromEPSG(code) != OGRERR_NONE)
     throw InputError(what + ": the CRS of its geometry, SRID " + std::to_string(code) + ", is not known");
   srs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  try {
-    return fromOgr(&srs);
-  } catch (const InputError& error) {
-    throw InputError(what + ": " + error.what());
-  }
+  return fromOgr(&srs, what);
 }
 
 template <typename Act>
@@ -136,11 +132,7 @@ class LayerReader {
     if (!srs || srs->IsEmpty()) return;
     // OGR's name for a GeoPackage's undefined CRS: whether it is degrees is guessed from the coordinates, as elsewhere.
     if (srs->GetName() != nullptr && std::string_view(srs->GetName()) == kUndefinedGeographic) return;
-    try {
-      raw_.crs = fromOgr(srs);
-    } catch (const InputError& error) {
-      throw InputError(sourceInWords(raw_.source) + ": " + error.what());
-    }
+    raw_.crs = fromOgr(srs, sourceInWords(raw_.source));
     swap_axes_ = axesSwapped(*srs);
   }
 

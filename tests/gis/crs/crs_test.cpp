@@ -32,7 +32,7 @@ TEST(Crs, CodesThatPROJDoesNotKnowAreLeftOut) {
       code + "]";
   OGRSpatialReference srs;
   ASSERT_EQ(srs.importFromWkt(wkt.c_str()), OGRERR_NONE);
-  for (const Crs& crs : {parseCrs(wkt), fromOgr(&srs)}) {
+  for (const Crs& crs : {parseCrs(wkt), fromOgr(&srs, "'a.prj'")}) {
     EXPECT_EQ(crs.authority, "");
     EXPECT_EQ(crs.wkt.find("102100"), std::string::npos) << crs.wkt;
     EXPECT_NE(crs.wkt.find("ID[\"EPSG\",4326]"), std::string::npos) << crs.wkt;

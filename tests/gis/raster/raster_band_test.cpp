@@ -322,6 +322,54 @@ TEST(RasterBand, SoundingsAreToBecomeARaster) {
   EXPECT_THAT(errorOf("text.asc"), Not(HasSubstr("gdal_grid")));
 }
 
+// A band of values for each step of time, or for each colour; an alpha band has none.
+TEST(RasterBand, OtherBandsAreNoted) {
+  const TemporaryFolder folder;
+  GDALAllRegister();
+  for (const bool with_alpha : {false, true}) {
+    const std::string path = folder / "bands.tif";
+    GDALDataset* const dataset =
+        GetGDALDriverManager()->GetDriverByName("GTiff")->Create(path.c_str(), 2, 2, 3, GDT_Float32, nullptr);
+    ASSERT_NE(dataset, nullptr);
+    double transform[6] = {0.0, 1.0, 0.0, 2.0, 0.0, -1.0};
+    dataset->SetGeoTransform(transform);
+    for (int b = 1; b <= 3; ++b) dataset->GetRasterBand(b)->Fill(b);
+    if (with_alpha) dataset->GetRasterBand(3)->SetColorInterpretation(GCI_AlphaBand);
+    GDALClose(dataset);
+    const RasterBand first(path);
+    EXPECT_EQ(first.read({0, 0, 1, 1}), std::vector<double>{1.0});
+    EXPECT_EQ(first.geometry().notes, std::vector<std::string>{"'" + path + "' has " + (with_alpha ? "2" : "3") +
+                                                               " bands, of which the first is read; 'vrt://" + path +
+                                                               "?bands=2' is the second"});
+    const RasterBand second("vrt://" + path + "?bands=2");
+    EXPECT_EQ(second.read({0, 0, 1, 1}), std::vector<double>{2.0});
+    EXPECT_EQ(second.geometry().notes, std::vector<std::string>());
+  }
+}
+
+TEST(RasterBand, ACrsThatCannotBeUsedNamesTheFile) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "grads.tif";
+  GDALAllRegister();
+  GDALDataset* const dataset =
+      GetGDALDriverManager()->GetDriverByName("GTiff")->Create(path.c_str(), 2, 2, 1, GDT_Float32, nullptr);
+  ASSERT_NE(dataset, nullptr);
+  double transform[6] = {0.0, 1.0, 0.0, 2.0, 0.0, -1.0};
+  dataset->SetGeoTransform(transform);
+  OGRSpatialReference grads;
+  ASSERT_EQ(grads.importFromEPSG(4807), OGRERR_NONE);
+  dataset->SetSpatialRef(&grads);
+  GDALClose(dataset);
+  try {
+    const RasterBand band(path);
+    ADD_FAILURE() << "was read";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("'" + path + "': the CRS \"NTF (Paris)\" does not measure in degrees"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(RasterBand, ComplexNumbersAreRefused) {
   const TemporaryFolder folder;
   const std::string path = folder / "complex.tif";
