@@ -25,6 +25,7 @@
 #include "gis/grid/ground_orientation.hpp"
 #include "gis/grid/linked_grid.hpp"
 #include "gis/grid/one_turn.hpp"
+#include "gis/mesh_layers.hpp"
 #include "gis/model/apart_waters.hpp"
 #include "gis/model/impossible_depths.hpp"
 #include "gis/model/time_step.hpp"
@@ -211,7 +212,7 @@ void printDefects(const CheckUsage& usage, const Grid& grid, const BoundCounts& 
 VectorLayer layerOf(const std::vector<DefectRow>& defects) {
   const auto numberOf = [](std::int64_t index) { return index < 0 ? std::int64_t{-1} : index + 1; };
   VectorLayer layer;
-  layer.name = "defects";
+  layer.name = kDefectLayer;
   layer.fields = {{"kind", std::string()},   {"triangle", std::int64_t{}}, {"value", 0.0},
                   {"node", std::int64_t{}},  {"target", std::string()},    {"detail", std::string()},
                   {"advice", std::int64_t{}}};

@@ -1,6 +1,8 @@
 #include "gis/file/staged_files.hpp"
 
 #include <fcntl.h>
+#include <gdal_priv.h>
+#include <ogrsf_frmts.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,14 +13,19 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <ranges>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "gis/crs/ogr_support.hpp"
 #include "gis/error.hpp"
 #include "gis/file/leftovers.hpp"
 #include "gis/file/remove_folder.hpp"
 #include "gis/file/staging_names.hpp"
+#include "gis/lower_case.hpp"
+#include "gis/mesh_layers.hpp"
 
 namespace coastmesh {
 namespace {
@@ -68,6 +75,27 @@ void requireReplaceable(const fs::path& path, bool overwrite) {
     default:
       failToWrite(path, "it is a device or a pipe, no regular file; name a file");
   }
+}
+
+// GeoPackages often hold all layers of a project: checks that replacing one would take away no layer but our own.
+void requireNoOtherLayers(const fs::path& path) {
+  if (lowerCase(path.extension().string()) != ".gpkg" || !isThere(path)) return;
+  registerDrivers();
+  const OgrErrors ignored;  // what is no GeoPackage holds no layer
+  const char* const drivers[] = {"GPKG", nullptr};
+  const std::unique_ptr<GDALDataset> dataset(
+      GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_RASTER | GDAL_OF_READONLY, drivers));
+  if (!dataset) return;
+  std::string others;
+  for (OGRLayer* const layer : dataset->GetLayers()) {
+    if (!isOwnLayer(layer->GetName())) others += (others.empty() ? "" : ", ") + std::string(layer->GetName());
+  }
+  if (dataset->GetRasterCount() > 0 || dataset->GetMetadata("SUBDATASETS") != nullptr)
+    others += (others.empty() ? "" : ", ") + std::string("rasters");
+  if (others.empty()) return;
+  constexpr std::size_t kShown = 80;
+  throw OutputError(quoted(path) + " holds other layers (" + oneLine(others, kShown) +
+                    "), which replacing it would delete: give the output another name, or remove the file");
 }
 
 std::vector<fs::path> filesIn(const fs::path& folder) {
@@ -167,6 +195,7 @@ StagedFiles::StagedFiles(std::string path, OutputFiles files, bool overwrite)
   const fs::path folder = folderOf(target);
   if (!fs::is_directory(folder, error)) failToWrite(target, "there is no folder " + quoted(folder));
   requireFree();
+  for (const std::string& file : files_.targets) requireNoOtherLayers(file);
   std::string name = stagingPattern(path_);
   keepSpareDescriptor();
   if (::mkdtemp(name.data()) == nullptr) failToWrite(target, std::strerror(errno));

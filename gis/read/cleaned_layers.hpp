@@ -1,5 +1,7 @@
 #pragma once
 
+#include "gis/mesh_layers.hpp"
+
 namespace coastmesh {
 
 // Layers of the files that `coastmesh clean` writes and `readCleaned` reads. Feature ids refer to the layer `features`;
@@ -16,5 +18,8 @@ inline constexpr const char* kVertexLayer = "vertices";       // points without 
 inline constexpr const char* kFeatureLayer = "features";      // no geometry: id, fid_of_feature, source
 inline constexpr const char* kAttributeLayer = "attributes";  // no geometry: feature_id, name, value, in order
 inline constexpr const char* kRegionLayer = "regions";        // polygons: feature_id
+
+static_assert(isOwnLayer(kPslgLayer) && isOwnLayer(kEditLayer) && isOwnLayer(kVertexLayer) &&
+              isOwnLayer(kFeatureLayer) && isOwnLayer(kAttributeLayer) && isOwnLayer(kRegionLayer));
 
 }  // namespace coastmesh

@@ -1,11 +1,14 @@
 // An output appears complete or not at all, and replaces another only with permission.
+#include <gdal_priv.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <ogrsf_frmts.h>
 #include <sys/resource.h>
 
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -233,6 +236,26 @@ TEST(StagedOutput, OverwritingAGeoPackageRemovesItsLogs) {
     put(folder / stale, "old");
   writeWhole(folder / "lake.gpkg", lakes(), true);
   EXPECT_THAT(folder.names(), ElementsAre("lake.gpkg"));
+}
+
+// A GeoPackage with layers of the user, beside those of a mesh or not, is no file that a mesh may replace.
+TEST(StagedOutput, NeverReplacesAGeoPackageWithOtherLayers) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "project.gpkg";
+  writeWhole(path, lakes());
+  const auto addLayer = [&](const char* name) {
+    const std::unique_ptr<GDALDataset> dataset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_UPDATE));
+    ASSERT_TRUE(dataset);
+    ASSERT_NE(dataset->CreateLayer(name, nullptr, wkbPoint), nullptr);
+  };
+  addLayer("layer_styles");
+  writeWhole(path, lakes(), true);
+  addLayer("stations");
+  const std::string before = textOf(path);
+  EXPECT_THAT(errorOf([&] { writeWhole(path, lakes(), true); }),
+              AllOf(HasSubstr("project.gpkg' holds other layers (stations)"), HasSubstr("another name")));
+  EXPECT_EQ(textOf(path), before);
+  EXPECT_THAT(folder.names(), ElementsAre("project.gpkg"));
 }
 
 // "lake.shp" meshed to "lake.2dm": the .prj applies to both.
