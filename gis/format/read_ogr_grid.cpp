@@ -18,6 +18,7 @@
 #include "core/ids.hpp"
 #include "gis/crs/crs_from_ogr.hpp"
 #include "gis/crs/ogr_support.hpp"
+#include "gis/elements/edited_layers.hpp"
 #include "gis/error.hpp"
 #include "gis/fields/field_names.hpp"
 #include "gis/fields/node_fields.hpp"
@@ -37,6 +38,8 @@ struct CloseDataset {
   void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
 };
 using DatasetPtr = std::unique_ptr<GDALDataset, CloseDataset>;
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 class LayerReader {
  public:
@@ -177,6 +180,7 @@ std::vector<std::int64_t> readNodeLayer(const Companion& companion, const OgrErr
   const int id_field = reader.field("id"), z_field = reader.field("z"), size_field = reader.field("size");
   if (id_field < 0) return ids;
   const std::vector<int> columns = addFieldsOf(*companion.layer, grid);
+  LayerDepths depths;
   bool has_z = false;
   while (const OGRFeature* feature = reader.next()) {
     const OGRGeometry* geometry = feature->GetGeometryRef();
@@ -186,17 +190,15 @@ std::vector<std::int64_t> readNodeLayer(const Companion& companion, const OgrErr
     ids.push_back(feature->GetFieldAsInteger64(id_field));
     grid.nodes.push_back({point.getX(), point.getY()});
     for (std::size_t k = 0; k < columns.size(); ++k)
-      grid.node_fields[k].values.push_back(feature->IsFieldSetAndNotNull(columns[k])
-                                               ? feature->GetFieldAsDouble(columns[k])
-                                               : std::numeric_limits<double>::quiet_NaN());
+      grid.node_fields[k].values.push_back(
+          feature->IsFieldSetAndNotNull(columns[k]) ? feature->GetFieldAsDouble(columns[k]) : kUnknown);
     if (size_field >= 0) grid.size_m.push_back(feature->GetFieldAsDouble(size_field));
     const bool in_field = z_field >= 0 && feature->IsFieldSetAndNotNull(z_field);
     has_z = has_z || in_field || point.Is3D();
-    grid.z.push_back(point.Is3D() ? point.getZ()
-                     : in_field   ? feature->GetFieldAsDouble(z_field)
-                                  : std::numeric_limits<double>::quiet_NaN());
+    depths.column.push_back(in_field ? feature->GetFieldAsDouble(z_field) : kUnknown);
+    depths.points.push_back(point.Is3D() ? point.getZ() : kUnknown);
   }
-  if (!has_z) grid.z.clear();
+  if (has_z) grid.z = depthsIn(depths, ids, grid.notes);
   const std::vector<std::uint32_t> order = orderOf(ids);
   orderNodes(grid, order);
   for (std::uint32_t i = 0; i < grid.nodes.size(); ++i) index.add(grid.nodes[i], i);
@@ -245,8 +247,6 @@ struct LayerTriangle {
   std::optional<std::array<std::int64_t, 3>> node_ids;  // counter-clockwise
   std::int64_t feature = 0;
 };
-
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 // The third coordinates of a triangle's corners; NaN if it has none.
 std::array<double, 3> cornerHeights(const OGRFeature& feature) {
@@ -314,9 +314,11 @@ void makeTriangles(const std::vector<LayerTriangle>& given, const std::vector<st
       continue;
     }
     if (!from.has_corners)
-      throw InputError("'" + path + "', feature " + std::to_string(from.feature) +
-                       ": it is cut at the antimeridian or a pole, and the nodes that it names do not say of which "
-                       "triangle it is; the layer of nodes has to be there");
+      throw InputError("'" + path + "', feature " + std::to_string(from.feature) + ": its outline has " +
+                       std::to_string(from.outline.size()) +
+                       " points, and is not that of the triangle between the nodes that it names, cut where the map "
+                       "ends or not" +
+                       (ids.empty() ? "; the layer of nodes has to be there" : "; only whole triangles can be read"));
     auto& triangle = grid.triangles.emplace_back();
     for (unsigned i = 0; i < 3; ++i) {
       triangle[i] = index.firstAt(from.corners[i]);
@@ -328,6 +330,7 @@ void makeTriangles(const std::vector<LayerTriangle>& given, const std::vector<st
   // If there is a layer of nodes, only it defines depths.
   if (ids.empty()) grid.z = heightsAt(given, grid);
   windTriangles(grid.nodes, grid.crs, wound, grid.triangles);
+  if (!ids.empty()) measureNewCorners(grid, ids);
 }
 
 // `Grid::quad_of` for the numbers of a column; empty if none is a quadrilateral's.
@@ -492,6 +495,7 @@ void readBoundaries(const Companion& companion, const OgrErrors& errors, const N
     grid.boundaries.push_back(std::move(boundary));
   }
   reorder(grid.boundaries, orderOf(ids));
+  noteStrayBoundaries(grid);
 }
 
 void readLines(const Companion& companion, const OgrErrors& errors, const NodesByPlace& index, Grid& grid) {
