@@ -187,6 +187,18 @@ class ProviderTest(unittest.TestCase):
         self.assertAlmostEqual(area, 0.2 * 0.2 - 0.05 * 0.05, places=9)
         self.assertEqual({f["role"] for f in loaded["Boundaries"].getFeatures()}, {"land", "island"})
 
+    def test_a_mesh_that_is_a_geopackage_itself_is_loaded(self):
+        parameters = {"INPUT": memory_layer(LAKE), "OUTPUT": self.path("lake.gpkg")}
+        results = processing.runAndLoadResults("coastmesh:mesh", parameters, feedback=self.log)
+        self.assertEqual(results["TRIANGLES"], self.path("lake.gpkg") + "|layername=triangles")
+        names = {layer.name() for layer in QgsProject.instance().mapLayers().values()}
+        self.assertEqual(names, {"Triangles", "Boundaries"})
+        self.assertNotIn("only written", self.log.text())
+        # Layers of their own take precedence.
+        results = self.run_algorithm("mesh", **parameters, OUTPUT_LAYERS=self.path("layers.gpkg"))
+        self.assertEqual(results["TRIANGLES"], self.path("layers.gpkg") + "|layername=triangles")
+        self.assertIn("lake.gpkg' was only written", self.log.text())
+
     def test_without_load_nothing_is_loaded(self):
         parameters = {"INPUT": memory_layer(LAKE), "OUTPUT": self.path("a.nc"), "LOAD": False}
         processing.runAndLoadResults("coastmesh:mesh", parameters, feedback=self.log)

@@ -305,10 +305,10 @@ class CoastmeshAlgorithm(QgsProcessingAlgorithm):
             if path and context.willLoadLayerOnCompletion(path):
                 context.layerToLoadOnCompletionDetails(path).setPostProcessor(style_for("OUTPUT", context))
             return results
-        for name, layer, _ in LAYERS.get(self.name(), []):
-            file = outputs.get("OUTPUT_LAYERS" if self.name() == "mesh" else "OUTPUT", "")
-            if file.lower().endswith(".gpkg"):
-                results[name] = f"{file}|layername={layer}"
+        written = [outputs.get(name, "") for name in ("OUTPUT_LAYERS", "OUTPUT")]
+        package = next((path for path in written if path.lower().endswith(".gpkg")), None)
+        for name, layer, _ in LAYERS.get(self.name(), []) if package else []:
+            results[name] = f"{package}|layername={layer}"
         if self.parameterAsBoolean(parameters, "LOAD", context):
             self._load(context, feedback, outputs, results)
         return results
@@ -338,7 +338,7 @@ class CoastmeshAlgorithm(QgsProcessingAlgorithm):
         mesh = outputs.get("OUTPUT", "")
         if mesh.lower().endswith(MESH_ENDINGS):
             self._load_layer(context, mesh, "Mesh", "OUTPUT", QgsProcessingUtils.LayerHint.Mesh)
-        elif self.name() == "mesh" or LAYERS.get(self.name()) == MESH_LAYERS and "TRIANGLES" not in results:
+        elif LAYERS.get(self.name()) == MESH_LAYERS and results.get("TRIANGLES", "").split("|")[0] != mesh:
             feedback.pushInfo(f"QGIS opens {' and '.join(MESH_ENDINGS)} as mesh layers; '{mesh}' was only written.")
         for name, _, title in reversed(LAYERS.get(self.name(), [])):
             if name in SHOWN_LAYERS and name in results:
