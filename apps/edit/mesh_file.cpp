@@ -32,6 +32,12 @@ void warnOfNotes(const MeshFile& file, const Grid& grid, const Warn& warn) {
          " more inconsistencies; check with --target finds them");
 }
 
+// What is inconsistent in a model's file may stop the model. Other files, such as GIS layers, it does not read.
+bool mayStopModels(const MeshFile& file) {
+  const GridFormat* const format = gridFormatOf(file.path);
+  return format != nullptr && format->says_depth;
+}
+
 // Files for models have no CRS, and models read degrees from many of them.
 void warnOfDegrees(const MeshFile& file, const Grid& grid, const Warn& warn) {
   const GridFormat* const format = gridFormatOf(file.path);
@@ -65,7 +71,9 @@ Grid readMeshFile(const MeshFile& file, const Warn& warn, FileNotes notes) {
   Grid grid = readGrid(file.path, assumed);
   if (grid.triangles.empty()) throw InputError("'" + file.path + "' holds no triangle");
   if (const std::string remark = remarkOnGrid(file.path); !remark.empty()) warn(remark);
-  if (notes == FileNotes::Warnings) warnOfNotes(file, grid, warn);
+  const bool may_stop = mayStopModels(file);
+  if (notes == FileNotes::Warnings || !may_stop) warnOfNotes(file, grid, warn);
+  if (!may_stop) grid.notes.clear();
   warnOfDegrees(file, grid, warn);
   warnOfOwnCrs(file, grid, assumed, warn);
   return grid;

@@ -14,7 +14,7 @@ struct MeshFile {
   std::string crs;  // used if the file has none; empty: a plane
 };
 
-// What becomes of a grid's `notes`.
+// What becomes of a grid's `notes` on a file that models read; other files get warnings.
 enum class FileNotes { Warnings, Defects };
 
 // Receives warnings, each a sentence, as soon as there are any: an error may follow.

@@ -102,6 +102,24 @@ TEST_F(Check, NodesWithoutTrianglesAreAdvice) {
   EXPECT_THAT(run.output, HasSubstr("advice, unused node: 1"));
 }
 
+// A depth that was edited in the table of a layer; no model reads layers.
+TEST_F(Check, WhatLayersContradictEachOtherInIsNoDefect) {
+  const std::string sheet = sheets("sheet.14", {{0, 0}}, 10.0);
+  ASSERT_EQ(runProgram({"convert", sheet, "-o", file("m.geojson")}).code, 0);
+  std::string nodes = contentOf(file("m_nodes.geojson"));
+  const std::string depth = "\"z\":-10";
+  ASSERT_NE(nodes.find(depth), nodes.npos) << nodes;
+  nodes.replace(nodes.find(depth), depth.size(), "\"z\":-7");
+  write("m_nodes.geojson", nodes);
+  const ProgramRun checked = runProgram({"check", file("m.geojson"), "--target", "adcirc"});
+  EXPECT_EQ(checked.code, 0) << checked.output;
+  EXPECT_THAT(checked.errors, HasSubstr("m.geojson': 1 node has another depth in the column z than its point has"));
+  const ProgramRun made = runProgram({"convert", file("m.geojson"), "--target", "adcirc", "-o", file("m.14")});
+  EXPECT_EQ(made.code, 0);
+  EXPECT_EQ(made.output, "");
+  EXPECT_THAT(contentOf(file("m.14")), AllOf(HasSubstr(" 7\n"), HasSubstr(" 10\n")));
+}
+
 TEST_F(Check, DepthsThatEarthDoesNotHaveAreWarnedOf) {
   const ProgramRun run = runProgram({"check", sheets("deep.14", {{0, 0}}, -99999.0)});
   EXPECT_EQ(run.code, 0);
