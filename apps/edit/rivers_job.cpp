@@ -202,6 +202,7 @@ EditedMesh runRiversJob(Grid& grid, const std::string& name, const std::vector<s
     const std::vector<std::string> lost = lostRiverTexts(laid.report, grid);
     if (laid.grid.triangles.empty()) throw InputError("no river can be added to '" + name + "': " + joined(lost));
     for (const std::string& text : lost) warn(text);
+    edit.warnings.push_back(landEndsText(laid.report));
     edit.warnings.push_back(narrowedRiversText(laid.report));
     edit.warnings.push_back(junctionTrianglesText(laid.report));
     edit.warnings.push_back(setRiverDepths(laid, grid, job.merge.depth, of_edit, loop));

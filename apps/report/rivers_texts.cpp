@@ -80,6 +80,9 @@ std::string riversText(const RiverReport& report, const Grid& grid) {
     text += "close to the water of the mesh, but not continued to it, since the river has another way there: " +
             grouped(report.left.size()) + forCount(report.left.size(), " end", " ends") + ", near " +
             placesText(report.left) + " (--reach continues them too)\n";
+  if (!report.led_out.empty())
+    text += "continued over land past the edge of the mesh: " + grouped(report.led_out.size()) +
+            forCount(report.led_out.size(), " end", " ends") + ", near " + placesText(report.led_out) + "\n";
   if (report.moved_m > 0.0)
     text += "centre lines that turn too sharply for their width moved by at most " + lengthText(report.moved_m, grid) +
             ", near " + pointText(report.moved_place) + "\n";
@@ -96,6 +99,20 @@ std::string measuredRiversText(const MeasuredRivers& measured, const Grid& mesh)
             forCount(measured.without, " line that is outside them keeps its own",
                      " lines that are outside them keep their own");
   return text + "\n";
+}
+
+std::string landEndsText(const RiverReport& report) {
+  const std::size_t count = report.on_land.size();
+  if (count == 0) return {};
+  std::string places;
+  for (std::size_t i = 0; i < std::min(count, kMostNamed); ++i)
+    places += (i > 0 ? ", " : "") + (report.on_land[i].name.empty() ? "" : "'" + report.on_land[i].name + "' ") +
+              "near " + pointText(report.on_land[i].place);
+  if (count > kMostNamed) places += ", and more";
+  return grouped(count) + forCount(count, " river ends", " rivers end") +
+         " on dry land within the mesh, without a boundary for a discharge: " + places + "; draw " +
+         forCount(count, "it", "them") +
+         " on past the edge of the mesh, or leave the land upstream out of the mesh; a mouth has to end in the water";
 }
 
 std::string narrowedRiversText(const RiverReport& report) {

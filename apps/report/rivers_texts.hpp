@@ -22,9 +22,11 @@ std::string measuredRiversText(const MeasuredRivers& measured, const Grid& mesh)
 // The river boundaries of a mesh, a line each, by their numbers in files; empty if there are none.
 std::string riverBoundariesText(const Grid& grid);
 
-// Warnings, empty if there is nothing to warn of: of reaches that are narrower than asked for, of triangles at
-// junctions that miss the bound on angles, and of rivers that ended up without a connection to what is left of the
-// mesh, as beyond a sliver of water too narrow for them. `triangles`: where those of the merged mesh come from.
+// Warnings, empty if there is nothing to warn of: of ends within the mesh's land, of reaches that are narrower than
+// asked for, of triangles at junctions that miss the bound on angles, and of rivers that ended up without a connection
+// to what is left of the mesh, as beyond a sliver of water too narrow for them. `triangles`: where those of the merged
+// mesh come from.
+std::string landEndsText(const RiverReport& report);
 std::string narrowedRiversText(const RiverReport& report);
 std::string junctionTrianglesText(const RiverReport& report);
 std::string unconnectedRiversText(const Grid& merged, const std::vector<MergeSource>& triangles);

@@ -89,9 +89,11 @@ class RiverLayer {
       report_.lost.push_back({RiverLoss::Within, nameOf(lines_[line]), lines_[line].points.front(), 0.0});
     reportWithoutReach();
     const double scale = plane_.scaleAt(rivers_.front().points.front());
-    connection_ = connectRivers(network_, rivers_, water_, options_.reach_m * scale);
+    connection_ =
+        connectRivers(network_, rivers_, water_, options_.reach_m * scale, options_.extent == RiverExtent::All);
     for (const Point& place : connection_.extended) report_.extended.push_back(plane_.inverse(place));
     for (const Point& place : connection_.left) report_.left.push_back(plane_.inverse(place));
+    for (const Point& place : connection_.led_out) report_.led_out.push_back(plane_.inverse(place));
     barred_.assign(network_.reaches.size(), 0);
     narrowed_.assign(network_.reaches.size(), 0);
     reaches_at_.resize(network_.nodes.size());
@@ -106,7 +108,11 @@ class RiverLayer {
     chooseRows();
     RiverGrid made = makeGrid();
     LaidRivers laid;
-    report_.inflows = made.grid.triangles.empty() ? 0 : setRiverBoundaries(made, water_, plane_);
+    if (!made.grid.triangles.empty()) {
+      RiverEnds ends = setRiverBoundaries(made, water_, plane_);
+      report_.inflows = ends.inflows;
+      report_.on_land = std::move(ends.on_land);
+    }
     report_.below = made.below;
     report_.least_angle_deg = made.least_angle_deg;
     report_.least_place = made.least_place;

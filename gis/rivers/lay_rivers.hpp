@@ -10,6 +10,7 @@
 #include "core/refine/refine_options.hpp"
 #include "core/run_control.hpp"
 #include "gis/grid/grid.hpp"
+#include "gis/rivers/river_grid.hpp"
 #include "gis/rivers/river_lines.hpp"
 
 namespace coastmesh {
@@ -49,14 +50,16 @@ struct LostRiver {
 
 struct RiverReport {
   std::size_t quads = 0, triangles = 0, junctions = 0, reaches = 0;
-  std::size_t inflows = 0;      // ends outside the mesh
-  std::vector<Point> extended;  // ends that were continued to the water of the mesh
-  std::vector<Point> left;      // those as close that were not, since the river has another way to it
-  double moved_m = 0.0;         // the farthest that a centre line was moved in a turn that was too sharp for its width
-  Point moved_place;            // near it
-  std::size_t narrowed = 0;     // reaches that come closer to themselves than their width, and are narrower there
-  Point narrowed_place;         // the last of these places
-  std::size_t below = 0;        // triangles at junctions that miss the bound on angles
+  std::size_t inflows = 0;       // ends outside the mesh
+  std::vector<Point> extended;   // ends that were continued to the water of the mesh
+  std::vector<Point> left;       // those as close that were not, since the river has another way to it
+  std::vector<Point> led_out;    // ends on land that were continued past the mesh's edge
+  std::vector<LandEnd> on_land;  // ends within the mesh's land, which are no inflows
+  double moved_m = 0.0;          // the farthest that a centre line was moved in a turn that was too sharp for its width
+  Point moved_place;             // near it
+  std::size_t narrowed = 0;      // reaches that come closer to themselves than their width, and are narrower there
+  Point narrowed_place;          // the last of these places
+  std::size_t below = 0;         // triangles at junctions that miss the bound on angles
   double least_angle_deg = 180.0;  // of them
   Point least_place;
   std::vector<LostRiver> lost;

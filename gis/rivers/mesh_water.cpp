@@ -1,11 +1,20 @@
 #include "gis/rivers/mesh_water.hpp"
 
 #include "core/metric.hpp"
+#include "gis/fields/plain_field.hpp"
 
 namespace coastmesh {
 
 MeshWater::MeshWater(const Grid& grid, const RiverPlane& plane, const Box& near, const ItemLoop& loop)
-    : grid_(grid), plane_(plane), triangles_(grid, near, loop) {}
+    : grid_(grid), plane_(plane), triangles_(grid, near, loop) {
+  const std::vector<std::uint8_t> land = landNodes(grid);
+  land_.assign(land.begin(), land.end());
+}
+
+bool MeshWater::isLandAt(const Point& plane) const {
+  const Point place = plane_.inverse(plane);
+  return (land_.empty() ? triangles_.zAt(place) : triangles_.valueAt(land_, place)) > 0.0;
+}
 
 std::vector<std::pair<Point, Point>> MeshWater::shores() const {
   std::vector<std::pair<Point, Point>> edges;

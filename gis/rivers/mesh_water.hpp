@@ -30,6 +30,8 @@ class MeshWater {
   bool holds(const Point& plane) const { return triangles_.at(plane_.inverse(plane)).has_value(); }
   // Linear between nodes; NaN outside the mesh, and if it has no depths there.
   double zAt(const Point& plane) const { return triangles_.zAt(plane_.inverse(plane)); }
+  // True on the land of a flood plain; of a mesh without its attribute, above the zero of depths.
+  bool isLandAt(const Point& plane) const;
   // Edges of the mesh's boundary.
   std::vector<std::pair<Point, Point>> shores() const;
   // The nearest place of the mesh that is at most `reach` away, in plane units.
@@ -39,6 +41,7 @@ class MeshWater {
   const Grid& grid_;
   const RiverPlane& plane_;
   MeshTriangles triangles_;
+  std::vector<double> land_;  // of each node, above 0 on land; empty: by its depth
 };
 
 }  // namespace coastmesh

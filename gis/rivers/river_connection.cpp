@@ -63,7 +63,7 @@ class Connector {
     for (const FreeEnd& end : ends_) is_line_end_.push_back(isLineEnd(end));
   }
 
-  RiverConnection connect(double reach) {
+  RiverConnection connect(double reach, bool over_land) {
     if (std::isfinite(reach)) {
       for (const FreeEnd& end : ends_)
         if (const auto shore = shoreBeside(end, reach)) extend(end, *shore);
@@ -72,6 +72,8 @@ class Connector {
       extendApart();
     }
     for (const FreeEnd& end : ends_) widenMouth(end);
+    if (over_land)
+      for (const FreeEnd& end : ends_) leadOut(end);
     findGaps();
     return std::move(connection_);
   }
@@ -241,6 +243,25 @@ class Connector {
     if (const auto place = placeWithin(placeOf(end), alongOf(end))) moveEnd(end, *place);
   }
 
+  // Continues an end on land close to the mesh's edge, or across it, until both banks are beyond it.
+  void leadOut(const FreeEnd& end) {
+    constexpr double kStep = 0.125;  // widths
+    const Point place = placeOf(end), along = alongOf(end);
+    const Point half{-0.5 * along.y, 0.5 * along.x};
+    const auto isOnLand = [&](const Point& p) { return water_.holds(p) && water_.isLandAt(p); };
+    const std::array banks{place, place + half, place - half};
+    if (std::ranges::none_of(banks, isOnLand)) return;
+    const auto isBeyond = [&](double widths) {
+      return std::ranges::none_of(banks, [&](const Point& p) { return water_.holds(p + widths * along); });
+    };
+    for (double widths = kStep; widths <= kClose + 1.0; widths += kStep) {
+      if (!isBeyond(widths)) continue;
+      connection_.led_out.push_back(place);
+      moveEnd(end, place + widths * along);
+      return;
+    }
+  }
+
   // How far the networks without water are from it, for messages.
   void findGaps() {
     const std::vector<std::uint8_t> has_water = networksWithWater();
@@ -265,8 +286,8 @@ class Connector {
 }  // namespace
 
 RiverConnection connectRivers(RiverNetwork& network, std::span<const PlaneRiver> rivers, const MeshWater& water,
-                              double reach) {
-  return Connector(network, rivers, water).connect(reach);
+                              double reach, bool over_land) {
+  return Connector(network, rivers, water).connect(reach, over_land);
 }
 
 std::vector<std::uint8_t> connectedReaches(const RiverNetwork& network, std::span<const std::uint8_t> touches,

@@ -202,7 +202,7 @@ RiverGrid riverGrid(const RiverParts& parts, const std::vector<RiverLine>& lines
   return GridMaker(parts, lines, plane, triangle_options).make(crs, sizes, loop);
 }
 
-std::size_t setRiverBoundaries(RiverGrid& rivers, const MeshWater& water, const RiverPlane& plane) {
+RiverEnds setRiverBoundaries(RiverGrid& rivers, const MeshWater& water, const RiverPlane& plane) {
   Grid& grid = rivers.grid;
   const auto touchesWater = [&](std::uint32_t a, std::uint32_t b) {
     const Point from = plane.forward(grid.nodes[a]), to = plane.forward(grid.nodes[b]);
@@ -215,12 +215,16 @@ std::size_t setRiverBoundaries(RiverGrid& rivers, const MeshWater& water, const 
     const Point out{kBeyond * (to.y - from.y), kBeyond * (from.x - to.x)};
     return water.holds(from + out) || water.holds(to + out) || water.holds(midpoint(from, to) + out);
   };
+  RiverEnds ends;
   std::vector<NodePair> inflows;
-  for (const std::vector<std::uint32_t>& end : rivers.ends) {
+  for (std::size_t e = 0; e < rivers.ends.size(); ++e) {
+    const std::vector<std::uint32_t>& end = rivers.ends[e];
     bool is_inflow = true;
     for (std::size_t i = 0; i + 1 < end.size(); ++i) is_inflow = is_inflow && !hasWaterBeyond(end[i], end[i + 1]);
     // A mouth may be wider than the water there: what is beside that is no inflow.
     for (std::size_t i = 0; i + 1 < end.size() && is_inflow; ++i) inflows.push_back(edgeKey(end[i], end[i + 1]));
+    const Point middle = midpoint(plane.forward(grid.nodes[end.front()]), plane.forward(grid.nodes[end.back()]));
+    if (!is_inflow && water.isLandAt(middle)) ends.on_land.push_back({rivers.end_names[e], plane.inverse(middle)});
   }
   std::ranges::sort(inflows);
   const auto kindOf = [&](std::uint32_t a, std::uint32_t b) {
@@ -229,8 +233,9 @@ std::size_t setRiverBoundaries(RiverGrid& rivers, const MeshWater& water, const 
   };
   grid.boundaries = cutLoops(grid, boundaryLoops(grid), kindOf);
   nameBoundaries(rivers);
-  return static_cast<std::size_t>(
+  ends.inflows = static_cast<std::size_t>(
       std::ranges::count_if(grid.boundaries, [](const Boundary& b) { return b.role == BoundaryRole::River; }));
+  return ends;
 }
 
 }  // namespace coastmesh

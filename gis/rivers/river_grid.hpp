@@ -41,8 +41,19 @@ struct RiverGrid {
 RiverGrid riverGrid(const RiverParts& parts, const std::vector<RiverLine>& lines, const RiverPlane& plane,
                     const Crs& crs, const RefineOptions& triangle_options, bool sizes, const ItemLoop& loop = inOrder);
 
+// A free end within the land of the mesh, where there is no edge for a boundary.
+struct LandEnd {
+  std::string name;  // of the river; empty: none
+  Point place;       // in the mesh's CRS
+};
+
+struct RiverEnds {
+  std::size_t inflows = 0;  // river boundaries
+  std::vector<LandEnd> on_land;
+};
+
 // Sets the boundaries of such a grid: free ends without water of the mesh beyond are rivers, other edges that touch
-// that water are open, all others are land. Rivers get their names. Returns the number of river boundaries.
-std::size_t setRiverBoundaries(RiverGrid& rivers, const MeshWater& water, const RiverPlane& plane);
+// that water are open, all others are land. Rivers get their names.
+RiverEnds setRiverBoundaries(RiverGrid& rivers, const MeshWater& water, const RiverPlane& plane);
 
 }  // namespace coastmesh

@@ -10,6 +10,7 @@
 #include "apps/merge/merge_mesh.hpp"
 #include "gis/elements/quads.hpp"
 #include "gis/error.hpp"
+#include "gis/fields/plain_field.hpp"
 #include "tests/gis/merge/merged.hpp"
 
 namespace coastmesh {
@@ -254,6 +255,56 @@ TEST(LayRivers, AnEndAtTheEdgeOfTheWaterIsAnInflow) {
     EXPECT_EQ(laid.report.inflows, 1u) << start;
     EXPECT_TRUE(laid.report.extended.empty());
   }
+}
+
+// The sea with land west of x = 2000.
+Grid seaAndPlain() {
+  Grid grid = sea();
+  for (std::size_t i = 0; i < grid.nodes.size(); ++i) grid.z[i] = grid.nodes[i].x < 1999.0 ? 2.0 : -10.0;
+  return grid;
+}
+
+TEST(LayRivers, AnEndOnLandCloseToTheEdgeOfTheMeshIsContinuedPastIt) {
+  RiverOptions options;
+  options.extent = RiverExtent::All;
+  // Across the edge at right angles, and with one bank within.
+  for (const Point start : {Point{150, 2050}, Point{20, 2050}, Point{-10, 500}, Point{30, 500}}) {
+    SCOPED_TRACE(start.x);
+    Grid grid = seaAndPlain();
+    LaidRivers laid = layRivers({lineOf({start, {3000, 2050}}, 100.0)}, grid, options);
+    EXPECT_EQ(laid.report.inflows, 1u);
+    ASSERT_EQ(laid.report.led_out.size(), 1u);
+    EXPECT_NEAR(distance(laid.report.led_out.front(), start), 0.0, 1e-6);
+    EXPECT_TRUE(laid.report.on_land.empty());
+    mergeMesh(grid, std::move(laid.grid), {});
+    requireConsistent(grid);
+    EXPECT_EQ(boundariesOf(grid, BoundaryRole::River), 1u);
+    for (const Boundary& boundary : grid.boundaries)
+      for (const std::uint32_t node : boundary.nodes) {
+        if (boundary.role == BoundaryRole::River) {
+          EXPECT_LT(grid.nodes[node].x, 0.0);
+        }
+      }
+  }
+}
+
+TEST(LayRivers, EndsWithinTheLandOfTheMeshAreNamed) {
+  RiverOptions options;
+  options.extent = RiverExtent::All;
+  const std::vector<RiverLine> lines{lineOf({{1000, 2050}, {3000, 2050}}, 100.0, "Ouse")};
+  const LaidRivers laid = layRivers(lines, seaAndPlain(), options);
+  EXPECT_EQ(laid.report.inflows, 0u);
+  EXPECT_TRUE(laid.report.led_out.empty());
+  ASSERT_EQ(laid.report.on_land.size(), 1u);
+  EXPECT_EQ(laid.report.on_land.front().name, "Ouse");
+  EXPECT_NEAR(laid.report.on_land.front().place.x, 1000.0, 1e-6);
+  // In water, also of a polder that the mesh says is land.
+  Grid water = sea();
+  EXPECT_TRUE(layRivers(lines, water, options).report.on_land.empty());
+  std::vector<std::uint8_t> land(water.nodes.size(), 0);
+  for (std::size_t i = 0; i < land.size(); ++i) land[i] = water.nodes[i].x < 1999.0 ? 1 : 0;
+  markPlain(water, land);
+  EXPECT_EQ(layRivers(lines, water, options).report.on_land.size(), 1u);
 }
 
 TEST(LayRivers, RowsBesideAShoreAreShortEnoughForTrianglesBetween) {
