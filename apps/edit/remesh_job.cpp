@@ -30,6 +30,13 @@ std::vector<std::string> warningsOf(const RemeshReport& report, const DepthOptio
                   ": a larger part or a larger --grade leaves more room");
   if (!report.has_shore)
     all.emplace_back("--size-shore has no effect: the mesh has no shore near the part that is meshed anew");
+  if (report.land_unknown > 0)
+    all.push_back(
+        "--size-shore is for the outline of the mesh, and not for a coast within it: " + grouped(report.land_unknown) +
+        forCount(report.land_unknown, " triangle that was replaced lies", " triangles that were replaced lie") +
+        " above the water, and the mesh has no attribute flood_plain, which tells land from water. First "
+        "give it that, with coastmesh convert --attribute flood_plain=FILE, or ask for sizes at the coast "
+        "with --depth-band");
   if (report.replaced.partition_dropped)
     all.emplace_back("the assignment to processes is of the mesh before, and left out; partition makes a new one");
   std::ranges::move(newNodeWarnings(report, depth), std::back_inserter(all));

@@ -54,6 +54,21 @@ void requireSound(const MeshedRegion& region, const RemeshPatch& patch, const It
 
 }  // namespace
 
+PatchMesher::PatchMesher(const Grid& grid, const TriMesh& links, const RemeshOptions& options, const SizeInputs& inputs,
+                         const ItemLoop& loop)
+    : grid_(grid),
+      shore_(shoreEdges(grid, links)),
+      coast_(coastEdges(grid, links)),
+      options_(options),
+      inputs_(inputs),
+      loop_(loop) {}
+
+void PatchMesher::setCoast(Domain& domain) const {
+  if (coast_.empty() || !std::isfinite(options_.sizes.shore_m)) return;
+  const Pslg coast = edgesNear(grid_, coast_, domain, options_.sizes);
+  for (const Segment& s : coast.segments) domain.coast.emplace_back(coast.points[s.a], coast.points[s.b]);
+}
+
 MeshedPatch PatchMesher::mesh(const RemeshPatch& patch, const RunControl& control) const {
   const Domain& domain = patch.domain;
   const Projection& projection = domain.projection;
@@ -99,7 +114,7 @@ std::unique_ptr<SizeFunction> PatchMesher::sizesOf(const RemeshPatch& patch, Mes
   SizeInputs inputs = inputs_;
   inputs.rim = patch.rim;
   inputs.shoreOf = [&](const Domain& domain, const SizeOptions& sizes, const ItemLoop&) {
-    return shoreNear(grid_, shore_, domain, sizes);
+    return edgesNear(grid_, shore_, domain, sizes);
   };
   DomainSizes sized = makeSizeFunction(options_.sizes, inputs, patch.domain, most, loop_);
   sized.demand.vertices +=

@@ -26,13 +26,14 @@ struct MeshedPatch {
   RimShortfall at_rim;
 };
 
-// Meshes patches of a grid, whose shore is given; all must outlive it.
+// Meshes patches of a grid, whose links are given; all but these must outlive it.
 class PatchMesher {
  public:
-  PatchMesher(const Grid& grid, std::vector<NodePair> shore, const RemeshOptions& options, const SizeInputs& inputs,
-              const ItemLoop& loop)
-      : grid_(grid), shore_(std::move(shore)), options_(options), inputs_(inputs), loop_(loop) {}
+  PatchMesher(const Grid& grid, const TriMesh& links, const RemeshOptions& options, const SizeInputs& inputs,
+              const ItemLoop& loop);
 
+  // Sets the coast of a patch with a flood plain, or near one, to which sizes at the shore apply too.
+  void setCoast(Domain& domain) const;
   // `control`: of this patch. Throws InputError: a patch that cannot be meshed, too many vertices; Cancelled.
   MeshedPatch mesh(const RemeshPatch& patch, const RunControl& control) const;
 
@@ -40,7 +41,7 @@ class PatchMesher {
   std::unique_ptr<SizeFunction> sizesOf(const RemeshPatch& patch, MeshedPatch& result) const;
 
   const Grid& grid_;
-  std::vector<NodePair> shore_;
+  std::vector<NodePair> shore_, coast_;
   const RemeshOptions& options_;
   const SizeInputs& inputs_;
   const ItemLoop& loop_;

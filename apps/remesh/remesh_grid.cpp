@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "apps/remesh/mesh_patch.hpp"
-#include "apps/remesh/shore_near.hpp"
 #include "gis/elements/quads.hpp"
 #include "gis/error.hpp"
 #include "gis/fields/node_fields.hpp"
@@ -94,6 +93,7 @@ MeshedPart meshPart(const Grid& grid, const LinkedGrid& linked, const std::vecto
   requireLinks(grid, linked.conflicts, taken);
   MeshedPart part;
   part.patches = patchesOf(grid, linked.mesh, taken, loop);
+  for (RemeshPatch& patch : part.patches) mesher.setCoast(patch.domain);
   part.meshed.resize(part.patches.size());
   PatchProgress progress(part.patches, control);
   forItems(loop, part.patches.size(), [&](std::size_t p) {
@@ -148,6 +148,16 @@ MeshedPart meshGrowing(const Grid& grid, const LinkedGrid& linked, std::vector<s
     }
   }
   return best ? std::move(*best) : std::move(last);
+}
+
+// Taken triangles above the water, if sizes at the shore are asked for and the mesh has no attribute of flood plains.
+std::size_t unknownLand(const Grid& grid, const std::vector<std::uint8_t>& taken, const SizeOptions& sizes) {
+  if (!std::isfinite(sizes.shore_m) || hasPlain(grid) || grid.z.empty()) return 0;
+  std::size_t count = 0;
+  for (std::size_t t = 0; t < taken.size(); ++t)
+    if (taken[t] != 0 && std::ranges::all_of(grid.triangles[t], [&](std::uint32_t node) { return grid.z[node] > 0.0; }))
+      ++count;
+  return count;
 }
 
 // New nodes in triangles on the land of a flood plain are on land, also beside the coast.
@@ -216,8 +226,9 @@ RemeshReport remeshGrid(Grid& grid, std::vector<std::uint8_t> taken, const Remes
       if (options.stay[t] != 0) reach[t] = 0;
     const std::size_t single = takeInSingle(linked.mesh, reach, taken, loop);
     if (options.stay.empty()) report.tidied = tidyCut(linked.mesh, other_half, taken, loop);
+    report.land_unknown = unknownLand(grid, taken, options.sizes);
     const SizeInputs inputs = readSizeInputs(options.sizes, grid.crs);
-    const PatchMesher mesher(grid, shoreEdges(grid, linked.mesh), options, inputs, loop);
+    const PatchMesher mesher(grid, linked.mesh, options, inputs, loop);
     part = meshGrowing(grid, linked, std::move(taken), reach, mesher, options.most_again,
                        stageControl(control, {0.0, kMeshing}), loop);
     report.taken_in = single + part.taken_in;

@@ -23,9 +23,10 @@ struct RemeshReport {
   std::size_t taken_in = 0;  // triangles replaced although they had no flag, or were left out by `tidyCut`
   std::size_t quads_before = 0, quads = 0;  // quadrilaterals, of which those in the part are replaced too
   std::size_t patches = 0;
-  std::size_t whole_edges = 0;  // of weirs, and of boundaries within the mesh: kept as they are
-  RimReach rim;                 // the widest, and the mean share by triangles
-  bool has_shore = true;        // false: sizes at the shore are requested, but no patch has one near
+  std::size_t whole_edges = 0;   // of weirs, and of boundaries within the mesh: kept as they are
+  RimReach rim;                  // the widest, and the mean share by triangles
+  std::size_t land_unknown = 0;  // replaced triangles above the water of a mesh that does not tell land from water
+  bool has_shore = true;         // false: sizes at the shore are requested, but no patch has one near
   // New triangles that miss the bounds on angles, beside edges that stay: no corner of the outline excuses them.
   std::size_t below_bounds = 0;
   std::optional<BoundViolationPlace> worst_below{};  // that with the smallest angle, in the grid's CRS

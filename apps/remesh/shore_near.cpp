@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "gis/fields/plain_field.hpp"
 #include "gis/geometry/box.hpp"
 #include "gis/grid/boundary_kinds.hpp"
 
@@ -23,7 +24,24 @@ std::vector<NodePair> shoreEdges(const Grid& grid, const TriMesh& mesh) {
   return edges;
 }
 
-Pslg shoreNear(const Grid& grid, std::span<const NodePair> shore, const Domain& part, const SizeOptions& sizes) {
+std::vector<NodePair> coastEdges(const Grid& grid, const TriMesh& mesh) {
+  std::vector<NodePair> edges;
+  if (!hasPlain(grid)) return edges;
+  const std::vector<std::uint8_t> land = landNodes(grid);
+  const auto isOnLand = [&](TriId t) {
+    return std::ranges::any_of(grid.triangles[t], [&](std::uint32_t node) { return land[node] != 0; });
+  };
+  for (TriId t = 0; t < mesh.triangles.size(); ++t) {
+    if (isOnLand(t)) continue;
+    for (unsigned i = 0; i < 3; ++i) {
+      const EdgeRef e = edgeRef(t, i), twin = mesh.twin(e);
+      if (twin != kNone && isOnLand(triOf(twin))) edges.push_back({mesh.origin(e), mesh.target(e)});
+    }
+  }
+  return edges;
+}
+
+Pslg edgesNear(const Grid& grid, std::span<const NodePair> edges, const Domain& part, const SizeOptions& sizes) {
   constexpr double kMargin = 0.25, kFar = 2.0;  // extents of the part, for channels and if sizes have no limit
   Box box;
   for (const Point& p : part.pslg.points) box.add(p);
@@ -39,7 +57,7 @@ Pslg shoreNear(const Grid& grid, std::span<const NodePair> shore, const Domain& 
     if (is_new) near.points.push_back(place);
     return at->second;
   };
-  for (const auto& [from, to] : shore) {
+  for (const auto& [from, to] : edges) {
     const Point a = part.projection.forward(grid.nodes[from]), b = part.projection.forward(grid.nodes[to]);
     if (!(isInRange(a) && isInRange(b)) || !Box::of(a, b).meets(box)) continue;
     const VertexId first = numberOf(from, a), last = numberOf(to, b);

@@ -16,8 +16,12 @@ namespace coastmesh {
 // from `linkGrid`.
 std::vector<NodePair> shoreEdges(const Grid& grid, const TriMesh& mesh);
 
-// The shore in the plane of a part of the grid, as far from the part as sizes at the shore reach. Sizes in the part
-// follow from it even if the part itself has no shore.
-Pslg shoreNear(const Grid& grid, std::span<const NodePair> shore, const Domain& part, const SizeOptions& sizes);
+// The edges between the land of a flood plain and the water, where a coast that is no line of edges is, to within a
+// triangle. Empty for a mesh without the attribute that tells them apart.
+std::vector<NodePair> coastEdges(const Grid& grid, const TriMesh& mesh);
+
+// Edges of the shore or the coast in the plane of a part of the grid, as far from the part as sizes at the shore reach.
+// Sizes in the part follow from them even if the part itself has no shore.
+Pslg edgesNear(const Grid& grid, std::span<const NodePair> edges, const Domain& part, const SizeOptions& sizes);
 
 }  // namespace coastmesh

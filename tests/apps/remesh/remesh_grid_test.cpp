@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "gis/error.hpp"
+#include "gis/fields/plain_field.hpp"
 #include "gis/grid/ground_orientation.hpp"
 #include "parallel/recorder.hpp"
 #include "parallel/workers.hpp"
@@ -213,6 +214,32 @@ TEST(RemeshGrid, SizesFollowFromShoresOutsideThePart) {
   expectRemeshed(before, taken, after, report);
   EXPECT_TRUE(report.has_shore);
   EXPECT_NEAR(meanEdgeNear(after, {20.0, 12.0}, 1.5), 0.2 + 0.05 * 12.0, 0.12);
+}
+
+TEST(RemeshGrid, SizesFollowFromTheCoastWithinAFloodPlain) {
+  Grid before = sea(40);  // land from x = 20 on
+  for (std::size_t i = 0; i < before.nodes.size(); ++i) before.z[i] = before.nodes[i].x > 20.0 ? 3.0 : -3.0;
+  const Flags taken = middlesInBox(before, 5.0, 5.0, 35.0, 35.0);
+  RemeshOptions options;
+  options.sizes.shore_m = 0.3;
+  options.sizes.most_m = 3.0;
+  Grid unknown = before;
+  EXPECT_GT(remeshGrid(unknown, taken, options).land_unknown, 100u);
+  EXPECT_GT(meanEdgeNear(unknown, {20.0, 20.0}, 1.5), 1.5);
+
+  std::vector<std::uint8_t> land;
+  for (const Point& p : before.nodes) land.push_back(p.x > 20.0 ? 1 : 0);
+  markPlain(before, land);
+  Grid after = before;
+  const RemeshReport report = remeshGrid(after, taken, options);
+  EXPECT_EQ(report.land_unknown, 0u);
+  EXPECT_LT(meanEdgeNear(after, {20.0, 20.0}, 1.0), 0.6);
+  EXPECT_GT(meanEdgeNear(after, {12.0, 20.0}, 1.0), 0.8);
+  EXPECT_GT(meanEdgeNear(after, {30.0, 20.0}, 1.0), 0.8);
+  // Sizes of other kinds take no notice of it.
+  Grid even = before;
+  remeshGrid(even, taken, ofSize(3.0));
+  EXPECT_GT(meanEdgeNear(even, {20.0, 20.0}, 1.5), 1.5);
 }
 
 TEST(RemeshGrid, ShoresOfSmallEdgesAreApproached) {
