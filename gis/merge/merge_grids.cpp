@@ -12,6 +12,7 @@
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/linked_grid.hpp"
 #include "gis/grid/local_plane.hpp"
+#include "gis/merge/cut_weirs.hpp"
 #include "gis/merge/joined_meshes.hpp"
 #include "gis/merge/nearby_shore.hpp"
 #include "gis/merge/nest_plane.hpp"
@@ -164,6 +165,12 @@ std::vector<std::uint32_t> becomes(const std::vector<std::uint32_t>& same, std::
   return instead;
 }
 
+void renumber(std::vector<WeirPairs>& weirs, const std::vector<std::uint32_t>& instead, std::size_t first) {
+  for (WeirPairs& weir : weirs)
+    for (NodePair& pair : weir)
+      for (std::uint32_t& node : pair) node = instead[first + node];
+}
+
 std::size_t countUnited(const JoinedMeshes& joined) {
   std::vector<std::uint8_t> is_united(joined.same.size(), 0);
   for (TriId i = 0; i < joined.first_inserted; ++i)
@@ -222,6 +229,7 @@ MergeReport mergeGrids(Grid& grid, Grid&& inserted, const ItemLoop& loop) {
   const EdgeKinds kinds_before(grid);
   const NearbyShore shore_before(grid, plane, loop);
   const std::vector<std::uint32_t> instead = becomes(joined.same, inserted.nodes.size());
+  std::vector<WeirPairs> weirs_before = weirsOf(grid), weirs_inserted = weirsOf(inserted);
   const std::size_t inserted_triangles = inserted.triangles.size();
   SeamOrigin origin;
   std::vector<GridLine> lines = upToOutline(std::exchange(grid.lines, {}), joined.line_ends);
@@ -246,6 +254,9 @@ MergeReport mergeGrids(Grid& grid, Grid&& inserted, const ItemLoop& loop) {
   origin.is_at_shore = [&](const Point& a, const Point& b) { return shore_before.passes(a, b); };
   report.walls = setSeamBoundaries(grid, linkGrid(grid, loop).mesh, origin, loop);
   cutLinesOffEdges(grid);
+  renumber(weirs_before, instead, 0);
+  renumber(weirs_inserted, instead, joined.same.size());
+  report.weirs = cutWeirs(grid, weirs_before, weirs_inserted);
   setSources(grid, joined, inserted_triangles, report);
   if (!grid.feature_of.empty()) sortFeatures(grid);
   std::vector<std::uint32_t> others;

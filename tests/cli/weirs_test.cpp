@@ -102,6 +102,20 @@ TEST_F(Weirs, WithAHeightHavePairsOfNodesForAdcirc) {
   EXPECT_EQ(runProgram({"check", file("fine.14"), "--target", "adcirc"}).code, 0);
 }
 
+TEST_F(Weirs, OfAPartThatIsPutBackGoOn) {
+  ASSERT_EQ(meshed({"--target", "adcirc", "-o", file("fort.14")}).code, 0);
+  const std::size_t pairs = rowsEndingIn(file("fort.14"), " 2.5 0.9 1");
+  ASSERT_EQ(runProgram({"cut", file("fort.14"), "--bbox=-88,47,-87.75,48", "-o", file("west.14")}).code, 0);
+  const std::size_t west = rowsEndingIn(file("west.14"), " 2.5 0.9 1");
+  ASSERT_GE(west, 2u);
+  ASSERT_LT(west, pairs);
+  const ProgramRun run = runProgram({"merge", file("fort.14"), file("west.14"), "-o", file("again.14")});
+  EXPECT_EQ(run.code, 0) << run.errors;
+  EXPECT_THAT(run.errors, Not(HasSubstr("weirs")));
+  // The pair of nodes at the cut ends one part of the weir, and begins the other.
+  EXPECT_EQ(rowsEndingIn(file("again.14"), " 2.5 0.9 1"), pairs + 1);
+}
+
 TEST_F(Weirs, HaveHeightsAboveTheStillWater) {
   EXPECT_EQ(meshed({"--target", "adcirc", "--water-level", "0.5", "-o", file("fort.14")}).code, 0);
   EXPECT_GE(rowsEndingIn(file("fort.14"), " 2 0.9 1"), 3u);
