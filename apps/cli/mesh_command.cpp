@@ -1,9 +1,14 @@
+#include <algorithm>
 #include <memory>
+#include <string>
 
 #include "apps/cli/commands.hpp"
 #include "apps/cli/mesh_run.hpp"
 #include "apps/cli/per_feature_run.hpp"
 #include "apps/cli/shard_file.hpp"
+#include "gis/error.hpp"
+#include "gis/fields/field_source.hpp"
+#include "gis/fields/sponge_fields.hpp"
 #include "gis/format/grid_io.hpp"
 
 namespace coastmesh {
@@ -50,12 +55,28 @@ OptionTable declareOptions(MeshRunUsage& usage) {
   return table;
 }
 
+// Throws OptionError for one attribute of a sponge without the other, which the files of FVCOM need.
+void requireWholeSponge(const MeshRunUsage& usage) {
+  const auto isGiven = [&](const char* name) {
+    return std::ranges::find(usage.mesh.job.finish.fields, name, &FieldSource::name) !=
+           usage.mesh.job.finish.fields.end();
+  };
+  const auto given = std::ranges::find_if(kSpongeFields, isGiven),
+             missing = std::ranges::find_if_not(kSpongeFields, isGiven);
+  if (given == kSpongeFields.end() || missing == kSpongeFields.end()) return;
+  for (const std::string& path : withoutShardFiles(usage.outputs))
+    if (gridFormatFor(path, usage.format).name == "fvcom")
+      throw OptionError(std::string("--attribute ") + *given + ": the sponge in '" + path + "' needs " + *missing +
+                        " too; give --attribute " + *missing + "=VALUE");
+}
+
 }  // namespace
 
 Command declareMesh(CLI::App& root) {
   auto usage = std::make_shared<MeshRunUsage>();
   return {{root, declareOptions(*usage)}, [usage](Run& run) {
             settle(usage->mesh);
+            requireWholeSponge(*usage);
             requireShardOfThisRank(usage->shard, run);
             return usage->per_feature ? runPerFeature(*usage, run) : runMesh(*usage, run);
           }};

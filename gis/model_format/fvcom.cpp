@@ -10,6 +10,7 @@
 #include "gis/error.hpp"
 #include "gis/fields/field_names.hpp"
 #include "gis/fields/node_fields.hpp"
+#include "gis/fields/sponge_fields.hpp"
 #include "gis/file/prj_file.hpp"
 #include "gis/file/text_reader.hpp"
 #include "gis/file/text_writer.hpp"
@@ -55,8 +56,6 @@ struct SpongeNode {
   std::uint32_t node = 0;
   double radius_m = 0.0, coefficient = 0.0;
 };
-
-constexpr std::array<const char*, 2> kSpongeFields{"sponge_radius", "sponge_coefficient"};
 
 bool hasSponge(const Grid& grid) {
   return std::ranges::any_of(kSpongeFields, [&](const char* name) { return findField(grid, name) != nullptr; });

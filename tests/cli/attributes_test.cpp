@@ -243,6 +243,11 @@ TEST_F(Attributes, WrongOnesAreRefused) {
   const std::string raster = write("cover.asc", "ncols 1\nnrows 1\nxllcorner -88\nyllcorner 41\ncellsize 1\n7\n");
   EXPECT_THAT(refusal("manning=" + raster + "," + write("n.csv", "1,2\n"), 3),
               HasSubstr("has class 7 at (-87.5, 41.5)"));
+  // The files of FVCOM need both attributes of a sponge: without one, there is no need to read the input.
+  const ProgramRun sponge = runProgram(
+      {"mesh", file("none.shp"), "-o", file("a.nc"), "-o", file("a_grd.dat"), "--attribute", "sponge_radius=3000"});
+  EXPECT_EQ(sponge.code, 2);
+  EXPECT_THAT(sponge.errors, HasSubstr("the sponge in '" + file("a_grd.dat") + "' needs sponge_coefficient too"));
   // An output may not replace a table.
   const ProgramRun run = runProgram({"mesh", lake(), "-o", file("n.csv"), "--format", "2dm", "--overwrite",
                                      "--attribute", "manning=" + raster + "," + file("n.csv")});
