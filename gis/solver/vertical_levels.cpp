@@ -57,21 +57,37 @@ SzLevels readSzLevels(TextReader& file) {
   return levels;
 }
 
+// The lowest level of a node, which the file has next.
+std::uint64_t nextLowest(TextReader& file, std::uint64_t all) {
+  const std::uint64_t lowest = file.count();
+  if (lowest < 1 || lowest > all) file.fail("there is no level " + std::to_string(lowest));
+  return lowest;
+}
+
+std::uint64_t layersAbove(std::uint64_t lowest, std::uint64_t all) { return std::max<std::uint64_t>(1, all - lowest); }
+
+// As SCHISM had it before October 2021, from the line of the first node on: each node with its number, its lowest level
+// and the places of its levels.
+NodeLayers readNodeLines(TextReader& file, std::uint64_t all) {
+  NodeLayers read;
+  do {
+    const std::uint64_t expected = read.layers.size() + 1;
+    if (file.count() != expected) file.fail("the levels of node " + std::to_string(expected) + " are expected");
+    const std::uint64_t lowest = nextLowest(file, all);
+    for (std::uint64_t level = lowest; level <= all; ++level) nextNumber(file);
+    read.layers.push_back(layersAbove(lowest, all));
+  } while (file.nextLine());
+  return read;
+}
+
+// The lowest levels of all nodes in a line. A number that is no level tells that it is the older form.
 NodeLayers readNodeLayers(TextReader& file) {
   file.needLine();
   const std::uint64_t all = file.count();
   file.needLine();
+  if (file.line().find_first_of(".-") != std::string_view::npos) return readNodeLines(file, all);
   NodeLayers read;
-  while (file.hasWord()) {
-    const std::string_view word = file.word();
-    if (word.find('.') != std::string_view::npos)
-      file.fail(
-          "the lowest level of each node is expected in one line; SCHISM's older vgrid.in, with a line for each "
-          "node, is not read");
-    const std::uint64_t lowest = file.countIn(word);
-    if (lowest < 1 || lowest > all) file.fail("there is no level " + std::to_string(lowest));
-    read.layers.push_back(std::max<std::uint64_t>(1, all - lowest));
-  }
+  while (file.hasWord()) read.layers.push_back(layersAbove(nextLowest(file, all), all));
   return read;
 }
 

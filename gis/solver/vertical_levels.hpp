@@ -23,7 +23,7 @@ struct SzLevels {
   std::vector<double> depths_m;  // positive down, ascending
 };
 
-// SCHISM's vgrid.in with ivcor = 1 (LSC2): the layers of each node.
+// SCHISM's vgrid.in with ivcor = 1 (LSC2), of today's form or the older one: the layers of each node.
 struct NodeLayers {
   std::vector<std::uint64_t> layers;
 };

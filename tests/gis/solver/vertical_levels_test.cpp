@@ -107,6 +107,14 @@ TEST_F(VerticalLevelsOfFiles, OfSchismsLsc2AreThoseOfNodes) {
   }
 }
 
+// A line for each node, as before October 2021; Fortran reads on in the next line.
+TEST_F(VerticalLevelsOfFiles, OfSchismsOlderLsc2AreTheSame) {
+  const VerticalLevels levels = read("vgrid.in",
+                                     "1 !ivcor\n5\n 1 5 0.\n 2 3 -1.000000 -0.5\n 0.000000\n"
+                                     " 3 1 -1 -0.8 -0.6 -0.2 0\n\n 4 2 -1. -0.7 -0.2 0.\n");
+  EXPECT_THAT(nodeLayers(strip({}), levels), ElementsAre(1, 2, 4, 3));
+}
+
 TEST_F(VerticalLevelsOfFiles, AQuadrilateralIsOneElement) {
   Grid grid;
   grid.nodes = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
@@ -132,7 +140,10 @@ TEST_F(VerticalLevelsOfFiles, BadFilesAreRefusedWithTheirLine) {
   EXPECT_THAT(errorOf("vgrid.in", "3\n2\n"), HasSubstr("ivcor is expected"));
   EXPECT_THAT(errorOf("vgrid.in", "2\n3 3 100.\n"), HasSubstr("line 2: the number of levels and that of Z levels"));
   EXPECT_THAT(errorOf("vgrid.in", "1\n5\n3 6 1 1\n"), HasSubstr("line 3: there is no level 6"));
-  EXPECT_THAT(errorOf("vgrid.in", "1\n5\n1 3 -1.000 -0.5 0.\n2 4 -1. 0.\n"), HasSubstr("a line for each node"));
+  EXPECT_THAT(errorOf("vgrid.in", "1\n5\n1 3 -1.000 -0.5 0.\n3 4 -1. 0.\n"),
+              HasSubstr("line 4: the levels of node 2 are expected"));
+  EXPECT_THAT(errorOf("vgrid.in", "1\n5\n1 6 -1.000 -0.5 0.\n"), HasSubstr("line 3: there is no level 6"));
+  EXPECT_THAT(errorOf("vgrid.in", "1\n5\n1 3 -1.000 -0.5\n"), HasSubstr("ends"));
 }
 
 TEST(VerticalLevels, FilesAreKnownByTheirNames) {
