@@ -126,6 +126,15 @@ TEST_F(Rivers, NamesOfRiversAreThoseOfTheirBoundaries) {
   EXPECT_EQ(names, (std::set<std::string>{"Branch", "Main"}));
 }
 
+// A river at the other side of the Earth is named where its file has it, not a turn from there.
+TEST_F(Rivers, ThatAreFarAwayAreNamedWhereTheyAre) {
+  ASSERT_EQ(runProgram({"mesh", inputFile("lines/lake.geojson"), "-o", file("lake.nc"), "--size-max", "4000"}).code, 0);
+  const std::string far = lines("far.csv", {"\"LINESTRING (95.1 17.2, 95.2 17.4)\",500,2,Irrawaddy"});
+  const ProgramRun run = runProgram({"rivers", file("lake.nc"), far, "-o", file("x.nc")});
+  EXPECT_EQ(run.code, 3);
+  EXPECT_THAT(run.errors, HasSubstr("'Irrawaddy' near (95.1"));
+}
+
 TEST_F(Rivers, HaveTheDepthsOfTheirLines) {
   ASSERT_EQ(runProgram({"rivers", sea(), twoRivers(), "-o", file("both.nc"), "--quiet"}).code, 0);
   const Json z = infoOf("both.nc")["z"];
