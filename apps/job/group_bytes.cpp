@@ -27,9 +27,9 @@ auto partsOf(auto& items) requires std::is_same_v<std::remove_cvref_t<decltype(i
 }
 auto partsOf(auto& waters) requires std::is_same_v<std::remove_cvref_t<decltype(waters)>, FollowedWaters> {
   auto& [area_m2, cut_off, apart, joined, too_small, islands, straits, spits, met, with_apart, closed_m2,
-         cut_off_by_way, none_kept_open, in_plane] = waters;
+         cut_off_by_way, cut_off_widens, apart_widens, none_kept_open, in_plane] = waters;
   return std::tie(area_m2, cut_off, apart, joined, too_small, islands, straits, spits, met, with_apart, closed_m2,
-                  cut_off_by_way, none_kept_open, in_plane);
+                  cut_off_by_way, cut_off_widens, apart_widens, none_kept_open, in_plane);
 }
 auto partsOf(auto& raised) requires std::is_same_v<std::remove_cvref_t<decltype(raised)>, RaisedShore> {
   auto& [length_m, raised_m, most_m] = raised;

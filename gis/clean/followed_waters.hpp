@@ -32,8 +32,9 @@ struct NotedWaters {
   double area_m2 = 0.0;
   std::vector<NotedWater> largest{};  // largest first, equal ones in the order added
 
-  void add(NotedWater&& water) {
-    ++count;
+  // `waters`: as many as are noted as one.
+  void add(NotedWater&& water, std::size_t waters = 1) {
+    count += waters;
     area_m2 += water.area_m2;
     insertBySize(largest, std::move(water), &NotedWater::area_m2, kMost);
   }
@@ -79,8 +80,9 @@ struct FollowedWaters {
   std::size_t with_apart = 0;   // groups that keep parts beside the largest
   double closed_m2 = 0.0;       // of `apart`, if connected in the data
   bool cut_off_by_way = false;  // some of `cut_off` is connected in the data
-  bool none_kept_open = false;  // the largest was kept although others are at an open boundary
-  bool in_plane = false;        // lengths have no unit
+  bool cut_off_widens = false, apart_widens = false;  // and so that a smaller --strait-min would join some
+  bool none_kept_open = false;                        // the largest was kept although others are at an open boundary
+  bool in_plane = false;                              // lengths have no unit
 
   void append(FollowedWaters&& more) {
     area_m2 += more.area_m2;
@@ -95,6 +97,8 @@ struct FollowedWaters {
     with_apart += more.with_apart;
     closed_m2 += more.closed_m2;
     cut_off_by_way |= more.cut_off_by_way;
+    cut_off_widens |= more.cut_off_widens;
+    apart_widens |= more.apart_widens;
     none_kept_open |= more.none_kept_open;
     in_plane |= more.in_plane;
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <functional>
+#include <map>
+#include <utility>
 
 #include "gis/coast/feature_names.hpp"
 #include "gis/coast/segment_tags.hpp"
@@ -48,12 +50,40 @@ NotedWater notedOf(const DetachedWater& apart, const FollowOptions& options, boo
   return {water.area, areaInWords(water.area, projection.isIdentity()), where};
 }
 
-NotedWater notedOf(const JoinedWater& joined, const Projection& projection) {
-  const WaterWay& way = joined.way;
-  return {joined.area,
+bool isWidenedByStraitMin(const DetachedWater& apart, const FollowOptions& options) {
+  const auto& [water, way] = apart;
+  return way.exists && way.least < options.strait_min && isWorthWidening(way, water.area);
+}
+
+// A strait that was widened, and the waters that it joins.
+struct JoiningStrait {
+  const JoinedWater* largest;
+  double area = 0.0;
+  std::size_t waters = 0;
+};
+
+// A strait is known by its narrowest place.
+std::vector<JoiningStrait> joiningStraits(const std::vector<JoinedWater>& joined) {
+  std::vector<JoiningStrait> straits;
+  std::map<std::pair<double, double>, std::size_t> strait_at;
+  for (const JoinedWater& water : joined) {
+    const Point& place = water.way.place;
+    const auto [at, is_first] = strait_at.try_emplace({place.x, place.y}, straits.size());
+    if (is_first) straits.push_back({&water});
+    JoiningStrait& strait = straits[at->second];
+    if (water.area > strait.largest->area) strait.largest = &water;
+    strait.area += water.area;
+    ++strait.waters;
+  }
+  return straits;
+}
+
+NotedWater notedOf(const JoiningStrait& strait, const Projection& projection) {
+  const WaterWay& way = strait.largest->way;
+  return {strait.area,
           placeText(way.place, projection) + ", " + wayText(way, projection) + ", about " +
-              lengthText(way.length_m, projection) + " long, to " + areaInWords(joined.area, projection.isIdentity()),
-          ""};
+              lengthText(way.length_m, projection) + " long, to " + areaInWords(strait.area, projection.isIdentity()),
+          strait.waters > 1 ? " in " + std::to_string(strait.waters) + " waters" : ""};
 }
 
 FollowedWaters followedOf(const FollowNotes& notes, const FollowOptions& options, bool has_barriers,
@@ -64,14 +94,17 @@ FollowedWaters followedOf(const FollowNotes& notes, const FollowOptions& options
   for (const DetachedWater& apart : notes.cut_off) {
     waters.cut_off.add(notedOf(apart, options, has_barriers, projection));
     waters.cut_off_by_way |= apart.way.exists;
+    waters.cut_off_widens |= isWidenedByStraitMin(apart, options);
     waters.none_kept_open |= options.keep == KeepWater::Modelled && apart.water.at_open;
   }
   for (const DetachedWater& apart : notes.apart) {
     waters.apart.add(notedOf(apart, options, has_barriers, projection));
     if (apart.way.exists) waters.closed_m2 += apart.water.area;
+    waters.apart_widens |= isWidenedByStraitMin(apart, options);
   }
   waters.with_apart = notes.apart.empty() ? 0 : 1;
-  for (const JoinedWater& joined : notes.joined) waters.joined.add(notedOf(joined, projection));
+  for (const JoiningStrait& strait : joiningStraits(notes.joined))
+    waters.joined.add(notedOf(strait, projection), strait.waters);
   for (const SmallWater& water : notes.too_small)
     waters.too_small.add(
         {water.area, areaInWords(water.area, projection.isIdentity()), " at " + placeText(water.place, projection)});

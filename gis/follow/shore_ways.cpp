@@ -218,6 +218,8 @@ std::vector<bool> areMain(const std::vector<WaterPart>& waters) {
   return main;
 }
 
+bool isWorthWidening(const WaterWay& way, double area) { return way.widening_m2 <= kMostWidened * area; }
+
 std::vector<WaterWay> waysToWaters(const WaterGaps& gaps, const OpenedShores& opened, const ShoreSizes& sizes) {
   const std::vector<bool> main = areMain(opened.waters), kept = areKept(opened.waters);
   const std::vector<bool> apart = butNot(kept, main), cut_off = butNot(std::vector<bool>(kept.size(), true), kept);
@@ -252,7 +254,7 @@ std::vector<JoinedWater> waysToJoin(const WaterGaps& gaps, const OpenedShores& o
       std::vector<WaterWay> ways = finder.run(joined, sought);
       for (std::size_t i = 0; i < ways.size(); ++i) {
         const double area = opened.waters[i].area;
-        if (ways[i].narrow.empty() || ways[i].widening_m2 > kMostWidened * area) continue;
+        if (ways[i].narrow.empty() || !isWorthWidening(ways[i], area)) continue;
         found.push_back({std::move(ways[i]), area, opened.waters[i].inside, kept[i]});
         joined[i] = true;
       }

@@ -27,6 +27,9 @@ std::vector<bool> areMain(const std::vector<WaterPart>& waters);
 // any kept one. REQUIRES, here and below: `opened.after` is not settled.
 std::vector<WaterWay> waysToWaters(const WaterGaps& gaps, const OpenedShores& opened, const ShoreSizes& sizes);
 
+// True if widening the way takes little area compared with that of the water behind it, square metres.
+bool isWorthWidening(const WaterWay& way, double area);
+
 // A water that closing cuts off, or separates from the largest, and the way to widen instead.
 struct JoinedWater {
   WaterWay way;

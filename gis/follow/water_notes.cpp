@@ -35,7 +35,7 @@ std::string nameOf(const NotedWater& water, const FollowedWaters& waters) {
 }
 
 // The largest waters, what separates them from the others, and options that change that.
-std::string namesOf(const NotedWaters& some, bool by_way, const FollowedWaters& waters) {
+std::string namesOf(const NotedWaters& some, bool by_way, bool widens, const FollowedWaters& waters) {
   std::string names;
   std::size_t named = 0;
   for (const NotedWater& water : some.largest) {
@@ -43,7 +43,8 @@ std::string namesOf(const NotedWaters& some, bool by_way, const FollowedWaters& 
     names += (named++ == 0 ? "" : "; ") + nameOf(water, waters);
   }
   if (by_way)
-    names += "; --passages or a smaller --channel-min keep the connection open, a smaller --strait-min widens it";
+    names += std::string("; --passages or a smaller --channel-min keep the connection open") +
+             (widens ? ", a smaller --strait-min widens it" : "");
   return names;
 }
 
@@ -57,14 +58,15 @@ std::string noteOnCutOff(const FollowedWaters& waters, const FollowOptions& opti
       (options.of_land ? forCount(cut_off.count, " piece", " pieces") : forCount(cut_off.count, " water", " waters")) +
       " without a connection to the " +
       (options.keep == KeepWater::Largest || waters.none_kept_open ? "largest" : "others") + ": the largest " +
-      namesOf(cut_off, waters.cut_off_by_way, waters);
+      namesOf(cut_off, waters.cut_off_by_way, waters.cut_off_widens, waters);
   if (options.keep != KeepWater::All) note += "; --keep-water all keeps them as they are";
   return note;
 }
 
 std::string noteOnApart(const FollowedWaters& waters, const FollowOptions& options) {
   return whatIsMeshed(options) + " is meshed in " + std::to_string(waters.apart.count + waters.with_apart) +
-         " parts without a connection: besides the largest " + namesOf(waters.apart, waters.closed_m2 > 0.0, waters) +
+         " parts without a connection: besides the largest " +
+         namesOf(waters.apart, waters.closed_m2 > 0.0, waters.apart_widens, waters) +
          "; --keep-water largest leaves them out";
 }
 
@@ -111,7 +113,7 @@ std::string noteOnTooSmall(const FollowedWaters& waters, const FollowOptions& op
                           : forCount(small.count, " water", " waters")) +
          " narrower than an element" + forCount(small.count, " stays", " stay") +
          " about as in the input, with shorter edges: " + forCount(small.count, "", "the largest ") +
-         namesOf(small, false, waters);
+         namesOf(small, false, false, waters);
 }
 
 std::string noteOnIslands(const FollowedWaters& waters) {

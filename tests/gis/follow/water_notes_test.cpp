@@ -37,6 +37,51 @@ TEST(WaterNotes, AThirdOfALakeBesideASeaIsNoWarning) {
   EXPECT_THAT(texts.notes[0], HasSubstr("the largest 2 km² (0.2 %) at (0, 0); 0.1 km² (0.01 %) at (0, 0)"));
 }
 
+JoinedWater joinedAt(const Point& place, double length_m, double area_m2) {
+  JoinedWater water;
+  water.way.exists = true;
+  water.way.place = place;
+  water.way.width_m = 100.0;
+  water.way.length_m = length_m;
+  water.area = area_m2;
+  return water;
+}
+
+TEST(WaterNotes, AStraitToSeveralWatersIsNamedOnce) {
+  FollowNotes notes;
+  notes.area = 1000.0;
+  notes.joined = {joinedAt({1, 2}, 10.0, 30.0), joinedAt({3, 4}, 20.0, 50.0), joinedAt({1, 2}, 30.0, 40.0),
+                  joinedAt({1, 2}, 40.0, 10.0)};
+  CleanReport report;
+  noteFollowing(std::move(notes), {}, {}, Projection::plane(), report);
+  EXPECT_THAT(noteWaters(report.waters, {}).notes,
+              ElementsAre(HasSubstr("for the largest of 4 waters: (1, 2), 100 wide, about 30 long, to 80 (8 %) in 3 "
+                                    "waters; (3, 4), 100 wide, about 20 long, to 50 (5 %); a larger")));
+}
+
+// A way that would take much more land than there is water behind it stays closed with any --strait-min.
+TEST(WaterNotes, OptionsThatWouldNotHelpAreNotNamed) {
+  const auto noteOn = [](double least, double widening_m2) {
+    FollowNotes notes;
+    notes.area = 1000.0;
+    DetachedWater& water = notes.cut_off.emplace_back();
+    water.water.area = 40.0;
+    water.water.inside = {{5, 6}};
+    water.way.exists = true;
+    water.way.least = least;
+    water.way.widening_m2 = widening_m2;
+    CleanReport report;
+    noteFollowing(std::move(notes), {}, {.strait_min = 0.4}, Projection::plane(), report);
+    const NotesAndWarnings texts = noteWaters(report.waters, {.keep = KeepWater::Largest});
+    return texts.warnings.empty() ? "" : texts.warnings.front();
+  };
+  EXPECT_THAT(noteOn(0.3, 5.0), HasSubstr("keep the connection open, a smaller --strait-min widens it"));
+  for (const std::string& note : {noteOn(0.3, 50.0), noteOn(0.5, 5.0)}) {
+    EXPECT_THAT(note, HasSubstr("--channel-min keep the connection open"));
+    EXPECT_THAT(note, ::testing::Not(HasSubstr("--strait-min")));
+  }
+}
+
 TEST(WaterNotes, LargeNumbersHaveNoExponents) {
   Coastline coast;
   coast.crs = wgs84();
