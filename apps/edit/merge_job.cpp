@@ -16,6 +16,7 @@
 #include "gis/for_count.hpp"
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/merge/match_crs.hpp"
+#include "gis/model/assign_boundaries.hpp"
 #include "gis/places.hpp"
 
 namespace coastmesh {
@@ -93,6 +94,21 @@ std::string cutWeirsText(const CutWeirs& weirs, const Grid& grid) {
          places + "; choose a frame for it that no weir crosses";
 }
 
+// Openings of one edge that the inserted mesh has brought, or of which it has left one edge; empty if there are none.
+std::string loneOpeningsText(const InsertedMesh& inserted, const Grid& grid) {
+  const std::vector<MergeSource>& nodes = inserted.result.nodes;
+  const LoneOpenings lone = loneOpenings(grid, [&](const Boundary& boundary) {
+    return std::ranges::any_of(boundary.nodes, [&](std::uint32_t node) { return nodes[node].mesh != 0; });
+  });
+  if (lone.count == 0) return {};
+  return grouped(lone.count) +
+         forCount(lone.count, " open boundary is a single edge between shores, at ",
+                  " open boundaries are single edges between shores, the longest at ") +
+         pointText(lone.place) + ": a --min-boundary above " + lengthText(lone.longest_m, grid) +
+         " in its own run closes " + forCount(lone.count, "it", "them") +
+         ", or convert --boundaries, with the type land there";
+}
+
 std::vector<std::string> warningsOf(const InsertedMesh& inserted, const Grid& grid, const DepthOptions& depth) {
   const MergeReport& merged = inserted.result.merged;
   const std::string in = "'" + inserted.name + "': ";
@@ -109,6 +125,7 @@ std::vector<std::string> warningsOf(const InsertedMesh& inserted, const Grid& gr
                   pointText(merged.closed.place) +
                   ": they stay closed; if they are sides of its frame, convert --boundaries can make them open");
   if (const std::string weirs = cutWeirsText(merged.weirs, grid); !weirs.empty()) all.push_back(in + weirs);
+  if (const std::string lone = loneOpeningsText(inserted, grid); !lone.empty()) all.push_back(in + lone);
   if (merged.cut_off > 0)
     all.push_back(in + "it cuts waters off from the rest, which are left out: " + grouped(merged.cut_off) +
                   forCount(merged.cut_off, " triangle", " triangles"));

@@ -125,11 +125,12 @@ std::string coastWarning(const OpenedLine& opened, double open_deeper_m, const C
 
 }  // namespace
 
-LoneOpenings loneOpenings(const Grid& grid) {
+LoneOpenings loneOpenings(const Grid& grid, const std::function<bool(const Boundary&)>& counts) {
   LoneOpenings lone;
   std::vector<std::vector<Point>> edges;
   for (const Boundary& boundary : grid.boundaries)
-    if (boundary.role == BoundaryRole::Open && !boundary.closed && boundary.nodes.size() == 2)
+    if (boundary.role == BoundaryRole::Open && !boundary.closed && boundary.nodes.size() == 2 &&
+        (!counts || counts(boundary)))
       edges.push_back({grid.nodes[boundary.nodes[0]], grid.nodes[boundary.nodes[1]]});
   const std::vector<double> lengths = chainLengths(edges, grid.crs);
   for (std::size_t e = 0; e < edges.size(); ++e) {

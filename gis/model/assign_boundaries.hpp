@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "gis/grid/grid.hpp"
 #include "gis/model/boundary_edges.hpp"
 
@@ -15,6 +17,7 @@ struct LoneOpenings {
   double longest_m = 0.0;
   Point place;  // the middle of the longest
 };
-LoneOpenings loneOpenings(const Grid& grid);
+// `counts(boundary)`: which ones are to be found; empty: all.
+LoneOpenings loneOpenings(const Grid& grid, const std::function<bool(const Boundary&)>& counts = {});
 
 }  // namespace coastmesh

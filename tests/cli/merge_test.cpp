@@ -132,6 +132,36 @@ TEST_F(Merge, OfAnotherCrs) {
   EXPECT_THAT(far.errors, HasSubstr("no water of the other one beside it"));
 }
 
+// A canal into a square sea, open where it is in the sea and across its far end, which one edge spans.
+TEST_F(Merge, AnOpeningOfOneEdgeIsNamed) {
+  const auto rectangle = [&](const std::string& name, const std::string& nodes) {
+    return write(name, "4 2 0 0\n" + nodes + "4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n");
+  };
+  const auto openAt = [](const std::string& west, const std::string& east) {
+    return "\"POLYGON ((" + west + " 3000, " + east + " 3000, " + east + " 6000, " + west + " 6000, " + west +
+           " 3000))\",open\n";
+  };
+  const auto merged = [&](const std::string& open) {
+    write("open.csv", "WKT,type\n" + open);
+    const std::string sea = rectangle("sea.poly", "1 0 0\n2 10000 0\n3 10000 10000\n4 0 10000\n"),
+                      canal = rectangle("canal.poly", "1 8000 4000\n2 14000 4000\n3 14000 5000\n4 8000 5000\n");
+    const auto mesh = [&](const std::string& input, const std::string& name, std::vector<std::string> more) {
+      std::vector<std::string> all{"mesh", input, "-o", file(name), "--size-max", "1300", "--quiet", "--overwrite"};
+      all.insert(all.end(), more.begin(), more.end());
+      EXPECT_EQ(runProgram(all).code, 0);
+      return file(name);
+    };
+    const ProgramRun run =
+        runProgram({"merge", mesh(sea, "sea.nc", {}), mesh(canal, "canal.nc", {"--boundaries", file("open.csv")}), "-o",
+                    file("both.nc"), "--overwrite"});
+    EXPECT_EQ(run.code, 0) << run.errors;
+    return run.errors;
+  };
+  EXPECT_THAT(merged(openAt("7000", "10100") + openAt("13900", "15000")),
+              HasSubstr("canal.nc': 1 open boundary is a single edge between shores, at (14000, 4500): "));
+  EXPECT_THAT(merged(openAt("7000", "10100")), ::testing::Not(HasSubstr("single edge")));
+}
+
 TEST_F(Merge, RefusesAndWritesNothing) {
   const std::string coarse = whole("whole.nc"), fine = part("part.nc");
   const auto refused = [&](const std::vector<std::string>& arguments, int code, const std::string& text) {
