@@ -68,7 +68,7 @@ EditedMesh editMesh(std::string_view name, Grid& grid,
     if (finish.targets.empty()) made.warnings.push_back(windingWarning(grid, loop));
     edited.warnings = std::move(made.warnings);
     edited.sources = std::move(made.sources);
-    edited.summary = made.text(grid) + stepText(measureStep(grid, loop), grid.crs.isPlane()) + "\n" +
+    edited.summary = made.text(grid) + stepText(measureStep(grid, loop), grid.crs.isPlane(), finish.targets) + "\n" +
                      finishSummary(finish, edited.finish);
   });
   std::ranges::move(edited.finish.warnings(), std::back_inserter(edited.warnings));

@@ -10,12 +10,14 @@
 #include <string>
 #include <utility>
 
+#include "gis/check/check_target.hpp"
 #include "gis/crs/geodesy.hpp"
 #include "gis/for_count.hpp"
 #include "gis/grid/boundary_chains.hpp"
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/grid_lines.hpp"
 #include "gis/grid/ground_orientation.hpp"
+#include "gis/model/target.hpp"
 #include "gis/places.hpp"
 
 namespace coastmesh {
@@ -327,9 +329,10 @@ StepOutcome measureOutcome(const Grid& grid, const SizeOptions& sizes, const Ite
   return outcome;
 }
 
-std::string stepText(const StepReport& step, bool plane) {
+std::string stepText(const StepReport& step, bool plane, const std::vector<std::string>& targets) {
   std::string text =
       amount("shortest edge %.4g", step.shortest_edge_m) + (plane ? " at " : " m at ") + pointText(step.shortest_edge);
+  if (!targets.empty() && std::ranges::none_of(targetsNamed(targets), isOfLongWaves)) return text;
   if (!step.has_depths) return text + "; without depths there is no time step";
   if (!std::isfinite(step.step_s)) return text + "; nothing is under water, so there is no time step";
   text += "; time step by CFL " + atMost(step.step_s) + " s at " + pointText(step.step_place);

@@ -35,7 +35,8 @@ StepOutcome measureOutcome(const Grid& grid, const SizeOptions& sizes, const Ite
                            QualityGoal goal = QualityGoal::Shape, std::size_t small_waters = 0,
                            std::span<const Repair> repairs = {});
 
-// A line for users: the shortest edge and the time step, with their places.
-std::string stepText(const StepReport& step, bool plane);
+// A line for users: the shortest edge and the time step, with their places. `targets`: names of models; if none of them
+// has long waves, their time step is left out.
+std::string stepText(const StepReport& step, bool plane, const std::vector<std::string>& targets = {});
 
 }  // namespace coastmesh

@@ -301,7 +301,7 @@ std::string meshSummary(const MeshJob& job, const MeshJobResult& result) {
     }
     text += "\n";
   }
-  text += stepText(result.step.step, result.crs.isPlane()) + "\n";
+  text += stepText(result.step.step, result.crs.isPlane(), job.finish.targets) + "\n";
   text += cleaningText(result.edits);
   text += finishSummary(job.finish, result.finish);
   text += partitionText(result.partition);

@@ -94,6 +94,24 @@ TEST_F(Target, SwanGetsNoLargeAngleInTheDegreesOfItsFile) {
   EXPECT_EQ(runProgram({"check", file("swan.14"), "--target", "swan"}).code, 0);
 }
 
+// The time step of long waves means nothing to models without them.
+TEST_F(Target, OnlyModelsOfLongWavesAreToldTheirTimeStep) {
+  const std::string bed = write("bed.asc", "ncols 1\nnrows 1\nxllcorner -88\nyllcorner 41\ncellsize 1\n-9\n");
+  const auto told = [&](const std::vector<std::string>& targets) {
+    std::vector<std::string> all{"mesh", lake(), "--size-max", "250",        "--bathymetry",
+                                 bed,    "-o",   file("a.nc"), "--overwrite"};
+    for (const std::string& target : targets) all.insert(all.end(), {"--target", target});
+    const ProgramRun run = runProgram(all);
+    EXPECT_EQ(run.code, 0) << run.errors;
+    EXPECT_THAT(run.output, ::testing::HasSubstr("shortest edge "));
+    return run.output.find("time step by CFL") != std::string::npos;
+  };
+  EXPECT_TRUE(told({}));
+  EXPECT_TRUE(told({"schism"}));
+  EXPECT_TRUE(told({"swan", "adcirc"}));
+  EXPECT_FALSE(told({"swan"}));
+}
+
 // A box across the antimeridian with an island: if longitudes jumped, SWAN would see triangles around the globe.
 TEST_F(Target, LongitudesGoOnPastTheAntimeridian) {
   const std::string input =
