@@ -79,19 +79,17 @@ InsertedMesh putIn(Grid& grid, const std::string& name, const MeshToInsert& mesh
   return done;
 }
 
-// Empty if no weirs were cut.
-std::string cutWeirsText(const CutWeirs& weirs, const Grid& grid) {
+// Empty if there are none.
+std::string weirGapsText(const std::vector<WeirGap>& gaps, const Grid& grid) {
   constexpr std::size_t kMostNamed = 20;
-  if (weirs.lost_m > 0.0)
-    return "it has no weirs in place of " + lengthText(weirs.lost_m, grid) +
-           " of those of the other mesh, such as at " + pointText(weirs.lost_at) + ": mesh it with --weirs too";
-  if (weirs.gaps.empty()) return {};
+  if (gaps.empty()) return {};
   std::string places;
-  for (std::size_t i = 0; i < std::min(kMostNamed, weirs.gaps.size()); ++i)
-    places += (i > 0 ? ", " : "") + lengthText(weirs.gaps[i].length_m, grid) + " at " + pointText(weirs.gaps[i].place);
-  if (weirs.gaps.size() > kMostNamed) places += ", and more";
-  return "weirs of the other mesh cross its edge, and water flows through the gap between the weirs of both: " +
-         places + "; choose a frame for it that no weir crosses";
+  for (std::size_t i = 0; i < std::min(kMostNamed, gaps.size()); ++i)
+    places += (i > 0 ? ", " : "") + lengthText(gaps[i].length_m, grid) + " at " + pointText(gaps[i].place);
+  if (gaps.size() > kMostNamed) places += ", and more";
+  return std::string(forCount(gaps.size(), "it leaves a gap in a weir", "it leaves gaps in weirs")) +
+         " of the other mesh, where water flows through, or a wall has no flow over it: " + places +
+         "; mesh it with the same --weirs, in a frame that no weir crosses";
 }
 
 // Openings of one edge that the inserted mesh has brought, or of which it has left one edge; empty if there are none.
@@ -124,7 +122,7 @@ std::vector<std::string> warningsOf(const InsertedMesh& inserted, const Grid& gr
                   " of its land boundary run through triangles of the other mesh, such as at " +
                   pointText(merged.closed.place) +
                   ": they stay closed; if they are sides of its frame, convert --boundaries can make them open");
-  if (const std::string weirs = cutWeirsText(merged.weirs, grid); !weirs.empty()) all.push_back(in + weirs);
+  if (const std::string gaps = weirGapsText(merged.weir_gaps, grid); !gaps.empty()) all.push_back(in + gaps);
   if (const std::string lone = loneOpeningsText(inserted, grid); !lone.empty()) all.push_back(in + lone);
   if (merged.cut_off > 0)
     all.push_back(in + "it cuts waters off from the rest, which are left out: " + grouped(merged.cut_off) +

@@ -1,8 +1,9 @@
-#include "gis/merge/cut_weirs.hpp"
+#include "gis/merge/lost_weirs.hpp"
 
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "core/metric.hpp"
@@ -13,50 +14,92 @@ namespace coastmesh {
 
 namespace {
 
-class WeirCutter {
+class GapFinder {
  public:
-  WeirCutter(const Grid& merged, std::span<const WeirPairs> inserted) : grid_(merged), inserted_(inserted) {
-    for (const WeirPairs& weir : weirsOf(merged))
-      for (std::size_t i = 0; i + 1 < weir.size(); ++i) left_.insert(edgeKey(weir[i][0], weir[i + 1][0]));
-    for (const WeirPairs& weir : inserted)
-      for (const auto& [front, back] : weir) of_inserted_.insert(edgeKey(front, back));
+  GapFinder(const Grid& merged, std::span<const WeirPairs> inserted)
+      : grid_(merged), weirs_(weirsOf(merged)), inserted_(inserted) {
+    for (const WeirPairs& weir : weirs_)
+      for (std::size_t i = 0; i + 1 < weir.size(); ++i) {
+        left_.insert(edgeKey(weir[i][0], weir[i + 1][0]));
+        for (const auto& [front, back] : {weir[i], weir[i + 1]}) ++ways_[edgeKey(front, back)];
+      }
   }
 
   void add(const WeirPairs& weir) {
-    for (std::size_t i = 0; i + 1 < weir.size();) {
-      const std::size_t first = i;
-      double length = 0.0;
-      while (i + 1 < weir.size() && !left_.contains(edgeKey(weir[i][0], weir[i + 1][0]))) {
-        length += distanceOf(weir[i][0], weir[i + 1][0]);
-        ++i;
-      }
-      if (i == first) {
-        ++i;
-        continue;
-      }
-      if (inserted_.empty()) {
-        if (found_.lost_m == 0.0) found_.lost_at = placeOf(weir[(first + i) / 2]);
-        found_.lost_m += length;
-        continue;
-      }
-      for (const std::size_t end : {first, i})
-        if (end != 0 && end + 1 != weir.size() && !of_inserted_.contains(edgeKey(weir[end][0], weir[end][1])))
-          found_.gaps.push_back({std::min(length, distanceToInserted(weir[end][0])), placeOf(weir[end])});
+    for (std::size_t first = 0; first + 1 < weir.size();) {
+      std::size_t last = first;
+      while (last + 1 < weir.size() && !isLeft(weir, last)) ++last;
+      if (last > first) addLost(weir, first, last);
+      first = std::max(last, first + 1);
     }
   }
 
-  CutWeirs run() {
-    std::ranges::stable_sort(found_.gaps, std::ranges::greater{}, &WeirGap::length_m);
-    return std::move(found_);
+  std::vector<WeirGap> run() {
+    std::ranges::stable_sort(gaps_, std::ranges::greater{}, &WeirGap::length_m);
+    return std::move(gaps_);
   }
 
  private:
-  double distanceOf(std::uint32_t a, std::uint32_t b) const {
-    const std::array<Point, 2> ends = localPlane(grid_, std::array{a, b});
-    return distance(ends[0], ends[1]);
+  bool isLeft(const WeirPairs& weir, std::size_t i) const {
+    return left_.contains(edgeKey(weir[i][0], weir[i + 1][0]));
   }
 
-  double distanceToInserted(std::uint32_t node) const {
+  // What is lost of a weir from one pair to another: stretches that no weir is beside. At an end of what is
+  // left, the way from there to the inserted weirs is known better.
+  void addLost(const WeirPairs& weir, std::size_t first, std::size_t last) {
+    const bool is_cut_before = first > 0, is_cut_after = last + 1 < weir.size();
+    const auto addCut = [&](std::size_t end, double most) {
+      const auto ways = ways_.find(edgeKey(weir[end][0], weir[end][1]));
+      if (ways == ways_.end() || ways->second < 2)
+        gaps_.push_back({std::min(most, distanceToEnds(weir[end][0])), placeOf(weir[end])});
+    };
+    if (countReplaced(weir, first, last) == 0) {
+      const std::size_t at = is_cut_before ? first : is_cut_after ? last : (first + last) / 2;
+      gaps_.push_back({lengthOf(weir, first, last), placeOf(weir[at])});
+      return;
+    }
+    if (is_cut_before) addCut(first, lengthOf(weir, first, last));
+    if (is_cut_after) addCut(last, lengthOf(weir, first, last));
+    for (std::size_t i = first; i < last;) {
+      std::size_t end = i;
+      while (end < last && !isReplaced(weir, end)) ++end;
+      if (end > i && !(i == first && is_cut_before) && !(end == last && is_cut_after))
+        gaps_.push_back({lengthOf(weir, i, end), placeOf(weir[(i + end) / 2])});
+      i = std::max(end, i + 1);
+    }
+  }
+
+  std::size_t countReplaced(const WeirPairs& weir, std::size_t first, std::size_t last) const {
+    std::size_t count = 0;
+    for (std::size_t i = first; i < last; ++i) count += isReplaced(weir, i) ? 1 : 0;
+    return count;
+  }
+
+  // True if a weir of the merged mesh is beside the edge from a pair to the next, nearer than half of its length.
+  bool isReplaced(const WeirPairs& weir, std::size_t i) const {
+    constexpr double kBeside = 0.45;  // less than up to the next edge of the same weir
+    for (const WeirPairs& other : weirs_)
+      for (std::size_t k = 0; k + 1 < other.size(); ++k) {
+        const auto [a, b, c, d] =
+            localPlane(grid_, std::array{weir[i][0], weir[i + 1][0], other[k][0], other[k + 1][0]});
+        const Point middle = midpoint(a, b);
+        if (distance(middle, nearestOnSegment(middle, c, d)) <= kBeside * distance(a, b)) return true;
+      }
+    return false;
+  }
+
+  double lengthOf(const WeirPairs& weir, std::size_t first, std::size_t last) const {
+    double length = 0.0;
+    for (std::size_t i = first; i < last; ++i) length += distanceOf(weir[i][0], weir[i + 1][0]);
+    return length;
+  }
+
+  double distanceOf(std::uint32_t a, std::uint32_t b) const {
+    const auto [from, to] = localPlane(grid_, std::array{a, b});
+    return distance(from, to);
+  }
+
+  double distanceToEnds(std::uint32_t node) const {
     double least = std::numeric_limits<double>::infinity();
     for (const WeirPairs& weir : inserted_)
       for (const NodePair& end : {weir.front(), weir.back()})
@@ -69,10 +112,11 @@ class WeirCutter {
   }
 
   const Grid& grid_;
+  const std::vector<WeirPairs> weirs_;  // of the merged mesh
   std::span<const WeirPairs> inserted_;
-  std::set<NodePair> left_;         // edges of the merged grid's weirs
-  std::set<NodePair> of_inserted_;  // pairs
-  CutWeirs found_;
+  std::set<NodePair> left_;       // their edges
+  std::map<NodePair, int> ways_;  // how many of these begin at a pair
+  std::vector<WeirGap> gaps_;
 };
 
 }  // namespace
@@ -88,10 +132,11 @@ std::vector<WeirPairs> weirsOf(const Grid& grid) {
   return all;
 }
 
-CutWeirs cutWeirs(const Grid& merged, std::span<const WeirPairs> before, std::span<const WeirPairs> inserted) {
-  WeirCutter cutter(merged, inserted);
-  for (const WeirPairs& weir : before) cutter.add(weir);
-  return cutter.run();
+std::vector<WeirGap> weirGaps(const Grid& merged, std::span<const WeirPairs> before,
+                              std::span<const WeirPairs> inserted) {
+  GapFinder finder(merged, inserted);
+  for (const WeirPairs& weir : before) finder.add(weir);
+  return finder.run();
 }
 
 }  // namespace coastmesh

@@ -16,19 +16,16 @@ using WeirPairs = std::vector<NodePair>;
 // The weirs of a grid over which water flows between pairs of nodes.
 std::vector<WeirPairs> weirsOf(const Grid& grid);
 
-// Where a merge has cut a weir of the grid: water flows past its end.
+// Where a merge has taken a part of a weir of the grid, and no weir of the inserted mesh is in its place, so that water
+// flows past it.
 struct WeirGap {
-  double length_m = 0.0;  // to the next end of a weir of the inserted mesh, or of what is lost; plane units in a plane
-  Point place;            // of the end, in the grid's CRS
+  double length_m = 0.0;  // plane units in a plane
+  Point place;            // of the end of what is left of the weir, else in the middle; in the grid's CRS
 };
 
-struct CutWeirs {
-  std::vector<WeirGap> gaps;  // the longest first
-  double lost_m = 0.0;        // of weirs of the grid for which the inserted mesh, which has none, leaves no place
-  Point lost_at;
-};
-
-// `merged`: has all nodes that either mesh had. `before`, `inserted`: the weirs of both, in its numbers.
-CutWeirs cutWeirs(const Grid& merged, std::span<const WeirPairs> before, std::span<const WeirPairs> inserted);
+// The longest first. `merged`: has all nodes that either mesh had. `before`, `inserted`: the weirs of both, in its
+// numbers.
+std::vector<WeirGap> weirGaps(const Grid& merged, std::span<const WeirPairs> before,
+                              std::span<const WeirPairs> inserted);
 
 }  // namespace coastmesh

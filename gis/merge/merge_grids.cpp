@@ -12,8 +12,8 @@
 #include "gis/grid/grid_edit.hpp"
 #include "gis/grid/linked_grid.hpp"
 #include "gis/grid/local_plane.hpp"
-#include "gis/merge/cut_weirs.hpp"
 #include "gis/merge/joined_meshes.hpp"
+#include "gis/merge/lost_weirs.hpp"
 #include "gis/merge/nearby_shore.hpp"
 #include "gis/merge/nest_plane.hpp"
 #include "gis/merge/seam_boundaries.hpp"
@@ -171,6 +171,16 @@ void renumber(std::vector<WeirPairs>& weirs, const std::vector<std::uint32_t>& i
       for (std::uint32_t& node : pair) node = instead[first + node];
 }
 
+std::vector<Boundary> renumberedWeirs(const Grid& grid, const std::vector<std::uint32_t>& instead) {
+  std::vector<Boundary> weirs;
+  for (const Boundary& boundary : grid.boundaries)
+    if (!boundary.back_nodes.empty()) weirs.push_back(boundary);
+  for (Boundary& weir : weirs)
+    for (std::vector<std::uint32_t>* const nodes : {&weir.nodes, &weir.back_nodes})
+      for (std::uint32_t& node : *nodes) node = instead[node];
+  return weirs;
+}
+
 std::size_t countUnited(const JoinedMeshes& joined) {
   std::vector<std::uint8_t> is_united(joined.same.size(), 0);
   for (TriId i = 0; i < joined.first_inserted; ++i)
@@ -230,8 +240,11 @@ MergeReport mergeGrids(Grid& grid, Grid&& inserted, const ItemLoop& loop) {
   const NearbyShore shore_before(grid, plane, loop);
   const std::vector<std::uint32_t> instead = becomes(joined.same, inserted.nodes.size());
   std::vector<WeirPairs> weirs_before = weirsOf(grid), weirs_inserted = weirsOf(inserted);
+  renumber(weirs_before, instead, 0);
+  renumber(weirs_inserted, instead, joined.same.size());
   const std::size_t inserted_triangles = inserted.triangles.size();
   SeamOrigin origin;
+  origin.weirs = renumberedWeirs(grid, instead);
   std::vector<GridLine> lines = upToOutline(std::exchange(grid.lines, {}), joined.line_ends);
   for (const auto& [a, b] : cutOut(grid, joined, report.gone, loop))
     origin.cut.push_back(edgeKey(instead[a], instead[b]));
@@ -254,9 +267,7 @@ MergeReport mergeGrids(Grid& grid, Grid&& inserted, const ItemLoop& loop) {
   origin.is_at_shore = [&](const Point& a, const Point& b) { return shore_before.passes(a, b); };
   report.walls = setSeamBoundaries(grid, linkGrid(grid, loop).mesh, origin, loop);
   cutLinesOffEdges(grid);
-  renumber(weirs_before, instead, 0);
-  renumber(weirs_inserted, instead, joined.same.size());
-  report.weirs = cutWeirs(grid, weirs_before, weirs_inserted);
+  report.weir_gaps = weirGaps(grid, weirs_before, weirs_inserted);
   setSources(grid, joined, inserted_triangles, report);
   if (!grid.feature_of.empty()) sortFeatures(grid);
   std::vector<std::uint32_t> others;

@@ -6,8 +6,8 @@
 
 #include "core/item_loop.hpp"
 #include "gis/grid/grid.hpp"
-#include "gis/merge/cut_weirs.hpp"
 #include "gis/merge/lost_water.hpp"
+#include "gis/merge/lost_weirs.hpp"
 
 namespace coastmesh {
 
@@ -33,7 +33,7 @@ struct MergeReport {
   std::size_t joined = 0;                     // edges of the other one's boundary with the grid's water beyond
   std::size_t joined_land = 0;                // of these, those of land boundaries: sides of a frame across land
   ClosedSides closed;
-  CutWeirs weirs;                  // of the grid
+  std::vector<WeirGap> weir_gaps;  // in weirs of the grid
   std::size_t walls = 0;           // edges of its open boundaries that became land, without water beyond
   bool has_open = true;            // false: it has no open boundary, and joins all around
   bool partition_dropped = false;  // the assignment to processes

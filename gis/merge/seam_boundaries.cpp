@@ -34,6 +34,7 @@ class SeamBoundaries {
 
   std::size_t set() {
     keepOuter();
+    if (!origin_.weirs.empty()) joinWeirs();
     std::ranges::sort(changed_);
     numberEdges();
     std::vector<std::vector<std::uint32_t>> changed;
@@ -107,6 +108,53 @@ class SeamBoundaries {
     grid_.boundaries = std::move(kept);
     changed_.insert(changed_.end(), left_open_.begin(), left_open_.end());
     std::ranges::sort(left_open_);
+  }
+
+  // Where the inserted mesh's weir ends at its outline, and an edge of each shore leads from there to a pair of nodes
+  // of a weir of the other mesh, it goes on to that, with the crest there.
+  void joinWeirs() {
+    struct Pair {
+      const Boundary* weir;
+      std::size_t at;
+    };
+    std::map<NodePair, Pair> pairs;
+    for (const Boundary& weir : origin_.weirs)
+      for (std::size_t i = 0; i < weir.nodes.size(); ++i)
+        pairs.try_emplace(edgeKey(weir.nodes[i], weir.back_nodes[i]), Pair{&weir, i});
+    std::map<std::uint32_t, std::uint32_t> after, before;  // on loops; kNone at a node that these pass twice
+    for (const std::vector<VertexId>& ring : loops_)
+      forEachEdgeOf(ring, [&](std::uint32_t a, std::uint32_t b) {
+        if (!after.try_emplace(a, b).second) after[a] = kNone;
+        if (!before.try_emplace(b, a).second) before[b] = kNone;
+      });
+    const auto nodeIn = [](const std::map<std::uint32_t, std::uint32_t>& nodes, std::uint32_t node) {
+      const auto found = nodes.find(node);
+      return found == nodes.end() ? kNone : found->second;
+    };
+    std::set<NodePair> of_weirs;
+    for (const Boundary& boundary : grid_.boundaries)
+      if (!boundary.back_nodes.empty())
+        for (const auto& [a, b] : edgesOf(boundary)) of_weirs.insert(edgeKey(a, b));
+    for (std::size_t b = 0; b < grid_.boundaries.size(); ++b) {
+      Boundary& own = grid_.boundaries[b];
+      if (!inserted_[b] || own.back_nodes.empty() || own.closed) continue;
+      for (const bool at_end : {false, true}) {
+        const std::uint32_t node = at_end ? own.nodes.back() : own.nodes.front(),
+                            across = at_end ? own.back_nodes.back() : own.back_nodes.front();
+        const std::uint32_t next = nodeIn(at_end ? after : before, node),
+                            next_across = nodeIn(at_end ? before : after, across);
+        if (next == kNone || next_across == kNone || of_weirs.contains(edgeKey(node, next))) continue;
+        const auto found = pairs.find(edgeKey(next, next_across));
+        if (found == pairs.end()) continue;
+        const auto& [weir, at] = found->second;
+        const std::size_t each = own.weir.size() / own.nodes.size();
+        if (weir->ibtype != own.ibtype || weir->weir.size() != each * weir->nodes.size()) continue;
+        own.nodes.insert(at_end ? own.nodes.end() : own.nodes.begin(), next);
+        own.back_nodes.insert(at_end ? own.back_nodes.end() : own.back_nodes.begin(), next_across);
+        const auto crest = weir->weir.begin() + static_cast<std::ptrdiff_t>(each * at);
+        own.weir.insert(at_end ? own.weir.end() : own.weir.begin(), crest, crest + static_cast<std::ptrdiff_t>(each));
+      }
+    }
   }
 
   void numberEdges() {

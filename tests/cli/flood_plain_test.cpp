@@ -440,6 +440,46 @@ TEST_F(Nest, AMinimumDepthOfNewNodesIsForTheWater) {
   EXPECT_GT(lowered, 20u);
 }
 
+// From the frame of the nest to the next pairs of nodes of the other mesh, on both sides.
+TEST_F(FloodPlainRun, WeirsOfANestGoOnAcrossItsFrame) {
+  write("levee.geojson",
+        R"({"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {"height": 8}, "geometry": )"
+        R"({"type": "LineString", "coordinates": [[0.13, 50.01], [0.13, 50.09]]}}]})");
+  const auto meshed = [&](const std::string& box, const std::string& size, const std::string& name) {
+    const ProgramRun run = runProgram({"mesh",
+                                       file("land.geojson"),
+                                       "--domain",
+                                       "outside",
+                                       "--bbox",
+                                       box,
+                                       "--bathymetry",
+                                       dem(slope),
+                                       "--flood-height",
+                                       "10",
+                                       "--size-shore",
+                                       size,
+                                       "--size-max",
+                                       "1500",
+                                       "--coast",
+                                       "follow",
+                                       "--weirs",
+                                       file("levee.geojson"),
+                                       "--target",
+                                       "adcirc",
+                                       "-o",
+                                       file(name)});
+    EXPECT_EQ(run.code, 0) << run.errors;
+    return file(name);
+  };
+  const ProgramRun run =
+      runProgram({"merge", meshed("0,50,0.2,50.1", "600", "outer.14"),
+                  meshed("0.05,50.03,0.18,50.07", "300", "nest.14"), "-o", file("both.14"), "--target", "adcirc"});
+  EXPECT_EQ(run.code, 0) << run.errors;
+  EXPECT_THAT(run.errors, Not(HasSubstr("leaves a gap")));
+  EXPECT_THAT(run.errors, Not(HasSubstr("leaves gaps")));
+  EXPECT_EQ(runProgram({"check", file("both.14"), "--target", "adcirc"}).code, 0);
+}
+
 TEST_F(FloodPlainRun, WhatCannotBeMeant) {
   const std::string heights = dem(slope);
   const auto errorOf = [&](const std::vector<std::string>& more) {

@@ -1,4 +1,4 @@
-#include "gis/merge/cut_weirs.hpp"
+#include "gis/merge/lost_weirs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -34,17 +34,16 @@ void openWeir(Grid& grid, double y, double from, double to) {
 
 Grid nestFrom(double x) { return gridOf({16, 16, 0.25, {x, 8.1}}, BoundaryRole::Open); }
 
-TEST(CutWeirs, AFrameAcrossAWeirLeavesGapsThatAreNamed) {
+TEST(LostWeirs, AFrameAcrossAWeirLeavesGapsThatAreNamed) {
   Grid grid = gridOf({20, 20, 1.0});
   openWeir(grid, 10.0, 2.0, 18.0);
   Grid nest = nestFrom(8.1);
   openWeir(nest, 10.1, 8.5, 11.7);
-  const CutWeirs weirs = mergeGrids(grid, std::move(nest)).weirs;
-  EXPECT_EQ(weirs.lost_m, 0.0);
-  ASSERT_EQ(weirs.gaps.size(), 2u);
+  const std::vector<WeirGap> gaps = mergeGrids(grid, std::move(nest)).weir_gaps;
+  ASSERT_EQ(gaps.size(), 2u);
   // From the last pair that is left on either side, at a whole x, to the nest's own weir from 8.6 to 11.6.
-  EXPECT_GE(weirs.gaps[0].length_m, weirs.gaps[1].length_m);
-  for (const WeirGap& gap : weirs.gaps) {
+  EXPECT_GE(gaps[0].length_m, gaps[1].length_m);
+  for (const WeirGap& gap : gaps) {
     const bool is_west = gap.place.x < 10.0;
     EXPECT_NEAR(gap.place.y, 10.0, 0.03);
     EXPECT_LT(std::abs(gap.place.x - (is_west ? 8.1 : 12.1)), 2.0);
@@ -52,24 +51,36 @@ TEST(CutWeirs, AFrameAcrossAWeirLeavesGapsThatAreNamed) {
   }
 }
 
-TEST(CutWeirs, WeirsThatAMeshWithoutAnyReplacesAreLost) {
+// A weir that ends between the frames is lost there altogether.
+TEST(LostWeirs, AnEndThatIsLostIsAGap) {
   Grid grid = gridOf({20, 20, 1.0});
-  openWeir(grid, 10.0, 9.0, 11.0);
-  const CutWeirs weirs = mergeGrids(grid, nestFrom(8.1)).weirs;
-  EXPECT_TRUE(weirs.gaps.empty());
-  EXPECT_NEAR(weirs.lost_m, 2.0, 0.01);
-  EXPECT_NEAR(weirs.lost_at.x, 10.0, 0.01);
+  openWeir(grid, 10.0, 2.0, 12.0);
+  Grid nest = nestFrom(8.1);
+  openWeir(nest, 10.1, 8.5, 9.7);
+  const std::vector<WeirGap> gaps = mergeGrids(grid, std::move(nest)).weir_gaps;
+  ASSERT_EQ(gaps.size(), 2u);
+  // In the east from about 9.6 to 12, in whole edges.
+  EXPECT_NEAR(gaps[0].length_m, 2.0, 0.02);
+  EXPECT_NEAR(gaps[0].place.x, 11.0, 0.02);
+  EXPECT_LT(gaps[1].place.x, 8.1);
 }
 
-TEST(CutWeirs, OthersAreNoMatter) {
+TEST(LostWeirs, WithoutWeirsOfTheOtherMeshAllIsAGap) {
+  Grid grid = gridOf({20, 20, 1.0});
+  openWeir(grid, 10.0, 9.0, 11.0);
+  const std::vector<WeirGap> gaps = mergeGrids(grid, nestFrom(8.1)).weir_gaps;
+  ASSERT_EQ(gaps.size(), 1u);
+  EXPECT_NEAR(gaps[0].length_m, 2.0, 0.01);
+  EXPECT_NEAR(gaps[0].place.x, 10.0, 0.01);
+}
+
+TEST(LostWeirs, OfOthersThereIsNoMessage) {
   Grid grid = gridOf({20, 20, 1.0});
   openWeir(grid, 10.0, 9.0, 11.0);
   openWeir(grid, 3.0, 2.0, 18.0);
   Grid nest = nestFrom(8.1);
   openWeir(nest, 10.1, 8.5, 11.7);
-  const MergeReport report = mergeGrids(grid, std::move(nest));
-  EXPECT_EQ(report.weirs.lost_m, 0.0);
-  EXPECT_TRUE(report.weirs.gaps.empty());
+  EXPECT_TRUE(mergeGrids(grid, std::move(nest)).weir_gaps.empty());
   EXPECT_EQ(weirsOf(grid).size(), 2u);
 }
 
