@@ -252,12 +252,10 @@ class TargetCheck {
   }
 
   // FVCOM adds up marks of a triangle's nodes, 1 for the shore and 2 for open boundaries, and stops at more than 4. A
-  // triangle with two solid edges has no velocity, so that the node between them keeps its first level. The third edge
-  // of a corner with two open edges is no defect of its own.
+  // triangle with two solid edges has no velocity, so that the node between them keeps its first level.
   void checkOpenCells() {
     const EdgeKinds kinds(grid_);
     std::vector<bool> on_opening(grid_.nodes.size(), false), on_boundary(grid_.nodes.size(), false);
-    std::vector<bool> is_corner(mesh_.triangles.size(), false);
     for (const EdgeRef e : boundary_edges_) {
       const auto [from, to] = nodesOf(e);
       on_boundary[from] = on_boundary[to] = true;
@@ -274,8 +272,7 @@ class TargetCheck {
         ++(is_open ? open : solid);
         faces_shore |= is_open && on_boundary[apex] && !on_opening[apex];
       }
-      is_corner[t] = open > 1;
-      if (is_corner[t]) add(TargetDefectKind::TwoOpenEdges, middle(t), t, -1, open);
+      if (open > 1) add(TargetDefectKind::TwoOpenEdges, middle(t), t, -1, open);
       if (open > 0 && (solid > 0 || faces_shore)) add(TargetDefectKind::OpenAndSolid, middle(t), t);
       if (open > 0 || solid != 2) continue;
       add(TargetDefectKind::OneNeighbour, middle(t), t);
@@ -286,7 +283,6 @@ class TargetCheck {
         const EdgeRef e = edgeRef(static_cast<TriId>(t), i);
         const auto [from, to] = nodesOf(e);
         if (mesh_.twin(e) == kNone || !on_opening[from] || !on_opening[to]) continue;
-        if (is_corner[t] || is_corner[triOf(mesh_.twin(e))]) continue;
         found.push_back({TargetDefectKind::OpenBridge, middle(t), static_cast<std::int64_t>(t), -1, 0.0, {}});
         break;
       }

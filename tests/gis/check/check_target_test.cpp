@@ -238,8 +238,6 @@ Grid corner(bool both_open) {
 }
 
 TEST(CheckTarget, TwoOpenEdges) {
-  // The third edge, which joins open nodes, is not reported besides, nor is the triangle beyond it.
-  EXPECT_FALSE(kindsIn(corner(true), Target::Fvcom).contains(TargetDefectKind::OpenBridge));
   EXPECT_TRUE(kindsIn(corner(true), Target::Fvcom).contains(TargetDefectKind::TwoOpenEdges));
   EXPECT_FALSE(kindsIn(corner(true), Target::Adcirc).contains(TargetDefectKind::TwoOpenEdges));
   expectMended(corner(true), {Target::Fvcom});
