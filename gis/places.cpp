@@ -1,5 +1,6 @@
 #include "gis/places.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -20,6 +21,12 @@ std::string roughPlaceInWords(const Point& place) {
 }
 
 std::string pointText(const Point& point) { return "(" + placeInWords(point) + ")"; }
+
+std::string listed(const std::vector<std::string>& names, std::size_t most) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), most); ++i) text += (i > 0 ? ", " : "") + names[i];
+  return names.size() > most ? text + ", and " + std::to_string(names.size() - most) + " more" : text;
+}
 
 std::string amount(const char* format, double number) {
   char text[60];

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "core/point.hpp"
 
@@ -12,6 +14,9 @@ std::string pointText(const Point& point);
 
 // The same with fewer digits, where some metres, or a unit of a plane, are precise enough.
 std::string roughPlaceInWords(const Point& place);
+
+// The first names of a list, and how many more there are: "north, south, and 3 more".
+std::string listed(const std::vector<std::string>& names, std::size_t most);
 
 // Numbers in the format of messages: as printf writes it, within 60 characters.
 std::string amount(const char* format, double number);

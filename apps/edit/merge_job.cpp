@@ -83,12 +83,10 @@ InsertedMesh putIn(Grid& grid, const std::string& name, const MeshToInsert& mesh
 std::string weirGapsText(const std::vector<WeirGap>& gaps, const Grid& grid) {
   constexpr std::size_t kMostNamed = 20;
   if (gaps.empty()) return {};
-  std::string places;
-  for (std::size_t i = 0; i < std::min(kMostNamed, gaps.size()); ++i)
-    places += (i > 0 ? ", " : "") + lengthText(gaps[i].length_m, grid) + " at " + pointText(gaps[i].place);
-  if (gaps.size() > kMostNamed) places += ", and more";
+  std::vector<std::string> places;
+  for (const WeirGap& gap : gaps) places.push_back(lengthText(gap.length_m, grid) + " at " + pointText(gap.place));
   return std::string(forCount(gaps.size(), "it leaves a gap in a weir", "it leaves gaps in weirs")) +
-         " of the other mesh, where water flows through, or a wall has no flow over it: " + places +
+         " of the other mesh, where water flows through, or a wall has no flow over it: " + listed(places, kMostNamed) +
          "; mesh it with the same --weirs, in a frame that no weir crosses";
 }
 

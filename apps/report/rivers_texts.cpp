@@ -35,25 +35,22 @@ std::string whyText(RiverLoss why) {
 
 // A sentence for the rivers that are lost for one reason; empty if there are none.
 std::string lostText(const std::vector<LostRiver>& all, RiverLoss why, const Grid& grid) {
-  std::string places;
-  std::size_t count = 0;
+  std::vector<std::string> places;
   for (const LostRiver& lost : all) {
-    if (lost.why != why || ++count > kMostNamed) continue;
-    if (!places.empty()) places += ", ";
-    places += lost.name + " near " + pointText(lost.place);
+    if (lost.why != why) continue;
+    places.push_back(lost.name + " near " + pointText(lost.place));
     if (why == RiverLoss::Apart && std::isfinite(lost.distance) && lost.distance > 0.0)
-      places += ", " + lengthText(lost.distance, grid) + " away";
+      places.back() += ", " + lengthText(lost.distance, grid) + " away";
   }
-  if (count == 0) return {};
-  if (count > kMostNamed) places += ", and more";
-  return grouped(count) + forCount(count, " reach is", " reaches are") + " left out, " + whyText(why) + ": " + places;
+  if (places.empty()) return {};
+  return grouped(places.size()) + forCount(places.size(), " reach is", " reaches are") + " left out, " + whyText(why) +
+         ": " + listed(places, kMostNamed);
 }
 
 std::string placesText(const std::vector<Point>& places) {
-  std::string text;
-  for (std::size_t i = 0; i < std::min(places.size(), kMostNamed); ++i)
-    text += (i > 0 ? ", " : "") + pointText(places[i]);
-  return places.size() > kMostNamed ? text + " and more" : text;
+  std::vector<std::string> texts;
+  for (const Point& place : places) texts.push_back(pointText(place));
+  return listed(texts, kMostNamed);
 }
 
 }  // namespace
@@ -104,13 +101,11 @@ std::string measuredRiversText(const MeasuredRivers& measured, const Grid& mesh)
 std::string landEndsText(const RiverReport& report) {
   const std::size_t count = report.on_land.size();
   if (count == 0) return {};
-  std::string places;
-  for (std::size_t i = 0; i < std::min(count, kMostNamed); ++i)
-    places += (i > 0 ? ", " : "") + (report.on_land[i].name.empty() ? "" : "'" + report.on_land[i].name + "' ") +
-              "near " + pointText(report.on_land[i].place);
-  if (count > kMostNamed) places += ", and more";
+  std::vector<std::string> places;
+  for (const LandEnd& end : report.on_land)
+    places.push_back((end.name.empty() ? "" : "'" + end.name + "' ") + "near " + pointText(end.place));
   return grouped(count) + forCount(count, " river ends", " rivers end") +
-         " on dry land within the mesh, without a boundary for a discharge: " + places + "; draw " +
+         " on dry land within the mesh, without a boundary for a discharge: " + listed(places, kMostNamed) + "; draw " +
          forCount(count, "it", "them") +
          " on past the edge of the mesh, or leave the land upstream out of the mesh; a mouth has to end in the water";
 }

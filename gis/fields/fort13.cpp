@@ -56,13 +56,6 @@ std::string oneLine(std::string text, std::string_view otherwise) {
   return text.find_first_not_of(" \t") == std::string::npos ? std::string(otherwise) : text;
 }
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r";
-  const std::size_t first = text.find_first_not_of(kBlanks);
-  return first == std::string_view::npos ? std::string_view()
-                                         : text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
-
 // The next line that is not blank, without blanks around it.
 std::string nameLine(ListReader& file) {
   file.text().needLine();

@@ -20,6 +20,13 @@ std::string textOf(const std::string& path) {
 
 }  // namespace
 
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t\r";
+  const std::size_t first = text.find_first_not_of(kBlanks);
+  return first == std::string_view::npos ? std::string_view()
+                                         : text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
 TextReader::TextReader(std::string path, char comment, std::string_view between)
     : path_(std::move(path)), comment_(comment), text_(textOf(path_)) {
   for (const char c : between) between_[static_cast<unsigned char>(c)] = true;

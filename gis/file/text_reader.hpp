@@ -9,6 +9,9 @@
 
 namespace coastmesh {
 
+// Without blanks at either end.
+std::string_view trimmed(std::string_view text);
+
 // A text file, line by line and word by word; words are separated by blanks, tabs and commas, or by the characters in
 // `between`. Errors throw InputError with the file and the line.
 class TextReader {

@@ -33,7 +33,8 @@ struct GridFormat {
   bool lengths_in_metres = false;
   bool beside_grid = false;  // not a grid, but an additional file for a solver, with the parts in `holds`
   MarkedNodes marked = MarkedNodes::None;
-  bool of_water = false;  // has depth 0 where the grid has a height above the water
+  bool holds_esri_wkt = false;  // its files hold the CRS as a .prj does
+  bool of_water = false;        // has depth 0 where the grid has a height above the water
 };
 
 }  // namespace coastmesh

@@ -188,13 +188,15 @@ std::string heightsOf(const Grid& grid) {
   return heights == 0 ? "" : "the heights of " + counted(heights, "node", "nodes") + " above the water, which become 0";
 }
 
-// "the datum shift of the CRS, …", if a .prj has the CRS; otherwise empty.
+// "the datum shift of the CRS, …", if the CRS is written as ESRI's WKT; otherwise empty.
 std::string datumShiftOf(const Grid& grid, const GridFormat& format) {
   if (format.endings.empty() || !prjLosesDatumShift(grid.crs)) return "";
   const OutputFiles files = filesOf(format, "mesh" + std::string(format.endings.front()));
   const bool has_prj =
       !files.prj.empty() || std::ranges::any_of(files.targets, [](const auto& path) { return path.ends_with(".prj"); });
-  return has_prj ? "the datum shift of the CRS: readers of the .prj may place the mesh some 100 m away" : "";
+  if (!has_prj && !format.holds_esri_wkt) return "";
+  return "the datum shift of the CRS: readers of the " + std::string(has_prj ? ".prj" : "file") +
+         " may place the mesh some 100 m away";
 }
 
 constexpr std::array kGivenParts{GridPart::Regions,       GridPart::Pieces,    GridPart::Lines,

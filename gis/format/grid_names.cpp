@@ -73,13 +73,6 @@ std::string openingName(const Boundary& boundary, const Grid& grid) {
          pointText(grid.nodes[boundary.nodes[boundary.nodes.size() / 2]]);
 }
 
-std::string firstOfMany(const std::vector<std::string>& names) {
-  constexpr std::size_t kMost = 12;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i) text += (i > 0 ? ", " : "") + names[i];
-  return names.size() > kMost ? text + ", and " + std::to_string(names.size() - kMost) + " more" : text;
-}
-
 void addFeatures(const std::vector<double>& fids, const std::vector<double>& regions,
                  const std::vector<std::string>& names, Grid& grid) {
   constexpr double kExact = 9007199254740992.0;  // 2^53

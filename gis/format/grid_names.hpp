@@ -28,8 +28,8 @@ std::string quotable(std::string_view name);
 // "'Elbe' near (9.1, 53.8)"; for an opening without a name "open near …" or "river near …".
 std::string openingName(const Boundary& boundary, const Grid& grid);
 
-// The first twelve, with commas, and how many more there are.
-std::string firstOfMany(const std::vector<std::string>& names);
+// Openings that a line for users names at most.
+inline constexpr std::size_t kMostOpenings = 12;
 
 // Makes a feature for each combination of fid and region, and assigns each triangle its own. `fids` and `regions` have
 // one number for each triangle or are empty; `regions` are numbers into `names` as above. Fids count as not given if

@@ -53,7 +53,9 @@ class GapFinder {
       if (ways == ways_.end() || ways->second < 2)
         gaps_.push_back({std::min(most, distanceToEnds(weir[end][0])), placeOf(weir[end])});
     };
-    if (countReplaced(weir, first, last) == 0) {
+    std::vector<bool> is_replaced;  // of each edge
+    for (std::size_t i = first; i < last; ++i) is_replaced.push_back(isReplaced(weir, i));
+    if (std::ranges::find(is_replaced, true) == is_replaced.end()) {
       const std::size_t at = is_cut_before ? first : is_cut_after ? last : (first + last) / 2;
       gaps_.push_back({lengthOf(weir, first, last), placeOf(weir[at])});
       return;
@@ -62,17 +64,11 @@ class GapFinder {
     if (is_cut_after) addCut(last, lengthOf(weir, first, last));
     for (std::size_t i = first; i < last;) {
       std::size_t end = i;
-      while (end < last && !isReplaced(weir, end)) ++end;
+      while (end < last && !is_replaced[end - first]) ++end;
       if (end > i && !(i == first && is_cut_before) && !(end == last && is_cut_after))
         gaps_.push_back({lengthOf(weir, i, end), placeOf(weir[(i + end) / 2])});
       i = std::max(end, i + 1);
     }
-  }
-
-  std::size_t countReplaced(const WeirPairs& weir, std::size_t first, std::size_t last) const {
-    std::size_t count = 0;
-    for (std::size_t i = first; i < last; ++i) count += isReplaced(weir, i) ? 1 : 0;
-    return count;
   }
 
   // True if a weir of the merged mesh is beside the edge from a pair to the next, nearer than half of its length.

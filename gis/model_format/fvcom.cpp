@@ -260,7 +260,8 @@ std::string riverNodesText(const Grid& grid, const std::string& path) {
                      std::to_string(middle + 1) + " near " + pointText(grid.nodes[middle]));
   }
   if (rivers.empty()) return {};
-  return "rivers by a node of '" + fileOfSet(path, "grd") + "', for RIVER_GRID_LOCATION: " + firstOfMany(rivers);
+  return "rivers by a node of '" + fileOfSet(path, "grd") +
+         "', for RIVER_GRID_LOCATION: " + listed(rivers, kMostOpenings);
 }
 
 // How far the sponge reaches, in units of the longest edge at each of its nodes: it damps nothing within an element

@@ -17,6 +17,7 @@
 #include "gis/format/grid_formats.hpp"
 #include "gis/format/grid_names.hpp"
 #include "gis/grid/boundary_kinds.hpp"
+#include "gis/places.hpp"
 
 // DHI, "The Mesh File Specification". A first line of item, unit, number of nodes and projection (before 2012 without
 // item and unit), the nodes with x, y, z and a code, then the elements.
@@ -91,13 +92,6 @@ struct Header {
   double metres = 1.0;  // a unit of z
   Crs crs;
 };
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r";
-  const std::size_t first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
 
 Header readHeader(TextReader& file, const Crs& unsaid) {
   file.needLine();
@@ -249,7 +243,7 @@ std::string codesText(const Grid& grid, const std::string& path) {
     if (codeInName(boundary.name)) boundary.name.clear();
     names.push_back(std::to_string(codes[b]) + ' ' + openingName(boundary, grid));
   }
-  return names.size() < 2 ? "" : "codes of open boundaries in '" + path + "': " + firstOfMany(names);
+  return names.size() < 2 ? "" : "codes of open boundaries in '" + path + "': " + listed(names, kMostOpenings);
 }
 
 }  // namespace
@@ -265,7 +259,8 @@ FormatRecord mikeFormat() {
            .needs_depths = true,
            .places = NodePlaces::OneTurn,
            .lengths_in_metres = true,
-           .marked = MarkedNodes::OfOpenAndRivers},
+           .marked = MarkedNodes::OfOpenAndRivers,
+           .holds_esri_wkt = true},
           {.write = writeMike, .read = readMike, .openings = codesText}};
 }
 

@@ -21,7 +21,7 @@
 namespace coastmesh {
 namespace {
 
-std::string trimmed(const std::string& text) {
+std::string withoutPadding(const std::string& text) {
   const std::size_t last = text.find_last_not_of(std::string(" \0", 2));
   return last == std::string::npos ? std::string() : text.substr(0, last + 1);
 }
@@ -32,8 +32,8 @@ using Ranks = std::vector<std::int32_t>;
 Ranks readGeometry(FortranReader& file, Grid& grid) {
   const std::string title = file.text();
   if (title.size() != 80) file.fail("the title of a SELAFIN file has 80 characters");
-  grid.title = trimmed(title.substr(0, 72));
-  const std::size_t real = trimmed(title.substr(72)) == "SERAFIND" ? 8 : 4;
+  grid.title = withoutPadding(title.substr(0, 72));
+  const std::size_t real = withoutPadding(title.substr(72)) == "SERAFIND" ? 8 : 4;
   const std::vector<std::int32_t> counts = file.integers(2);
   std::vector<std::string> variables;
   if (counts[0] < 0 || counts[1] < 0) file.fail("the number of its variables is negative");
@@ -68,10 +68,10 @@ Ranks readGeometry(FortranReader& file, Grid& grid) {
   file.reals(1, real);  // the time
   for (const std::string& variable : variables) {
     const std::vector<double> values = file.reals(nodes, real);
-    const std::string name = trimmed(variable.substr(0, 16));
+    const std::string name = withoutPadding(variable.substr(0, 16));
     const bool is_bottom = name == "BOTTOM" || name == "FOND" || name == "BOTTOM ELEVATION";
     if (is_bottom && std::ranges::any_of(values, [](double z) { return z != 0.0; })) grid.z = values;
-    const std::string unit = variable.size() > 16 ? trimmed(variable.substr(16)) : std::string();
+    const std::string unit = variable.size() > 16 ? withoutPadding(variable.substr(16)) : std::string();
     const std::string field = fieldOfTelemac(name, unit);
     if (!field.empty() && findField(grid, field) == nullptr) grid.node_fields.push_back({field, unit});
     if (!field.empty() && grid.node_fields.back().values.empty()) grid.node_fields.back().values = values;
@@ -285,7 +285,8 @@ std::string liquidBoundariesText(const Grid& grid, const std::string& path) {
   if (names.size() < 2) return {};
   std::vector<std::string> numbered;
   for (const auto& [at, name] : names) numbered.push_back(std::to_string(at) + ' ' + name);
-  return "liquid boundaries of '" + withEnding(path, ".cli") + "', in TELEMAC's order: " + firstOfMany(numbered);
+  return "liquid boundaries of '" + withEnding(path, ".cli") +
+         "', in TELEMAC's order: " + listed(numbered, kMostOpenings);
 }
 
 // Writes TELEMAC's SELAFIN geometry in double precision (SERAFIND) with the variable BOTTOM, elevation in metres, one

@@ -40,13 +40,13 @@ std::string subdatasetHint(GDALDataset& dataset) {
   return first == nullptr ? "" : "; name one of its parts, such as " + std::string(first);
 }
 
-// The remedy for a file of soundings or contours: features, or a list of points without even rows.
+// The remedy for a file of soundings or contours, that is of features, or a list of points without even rows.
 std::string pointsHint(const std::string& name) {
   const OgrErrors ignored;
   const GDALDriverH driver = GDALIdentifyDriverEx(name.c_str(), GDAL_OF_RASTER, nullptr, nullptr);
   const bool is_list = driver != nullptr && std::string_view(GDALGetDriverShortName(driver)) == "XYZ";
   const GDALDatasetUniquePtr features(is_list ? nullptr : GDALDataset::Open(name.c_str(), GDAL_OF_VECTOR));
-  return is_list || features != nullptr ? "; make a raster of its points with gdal_grid -a linear" : "";
+  return is_list || features != nullptr ? "; soundings and contours become a raster with gdal_grid -a linear" : "";
 }
 
 // Why GDAL gives the raster no geotransform, and what to do.
@@ -117,8 +117,11 @@ RasterBand::RasterBand(std::string path, BandValues kind) : kind_(kind), dataset
   if (std::filesystem::is_fifo(name, error))
     throw InputError("'" + name + "' is a pipe; rasters cannot be read from one, but from files");
   raster.dataset = GDALDataset::Open(name.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR);
-  if (raster.dataset == nullptr)
-    throw InputError("cannot read '" + name + "' as a raster: " + errors.text() + pointsHint(name));
+  if (raster.dataset == nullptr) {
+    std::string reason = errors.text();
+    if (reason.ends_with('.')) reason.pop_back();
+    throw InputError("cannot read '" + name + "' as a raster: " + reason + pointsHint(name));
+  }
   if (raster.dataset->GetRasterCount() == 0)
     throw InputError("'" + name + "' has no raster band" + subdatasetHint(*raster.dataset));
   raster.band = raster.dataset->GetRasterBand(1);

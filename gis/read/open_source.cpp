@@ -17,6 +17,7 @@
 #include "gis/coast/feature_names.hpp"
 #include "gis/error.hpp"
 #include "gis/lower_case.hpp"
+#include "gis/places.hpp"
 #include "gis/read/odd_geojson.hpp"
 #include "gis/read/osm_ways.hpp"
 #include "gis/secrets.hpp"
@@ -25,21 +26,14 @@ namespace coastmesh {
 
 namespace {
 
+constexpr std::size_t kMostListed = 8;  // names of layers or columns in an error
+
 bool exists(const std::string& path) {
   VSIStatBufL stat;
   return VSIStatL(path.c_str(), &stat) == 0;
 }
 
 bool endsWith(const std::string& text, std::string_view ending) { return lowerCase(text).ends_with(ending); }
-
-std::string listed(const std::vector<std::string>& names, std::size_t shown = 8) {
-  std::string text;
-  for (std::size_t i = 0; i < names.size() && i < shown; ++i) {
-    if (i > 0) text += ", ";
-    text += names[i];
-  }
-  return names.size() > shown ? text + ", and " + std::to_string(names.size() - shown) + " more" : text;
-}
 
 std::string stemOf(const std::string& entry) { return std::filesystem::path(entry).stem(); }
 
@@ -86,13 +80,13 @@ std::string chosenInside(const std::string& archive, const std::string& given, c
   for (const std::string& name : wanted)
     if (!different.contains(name))
       throw InputError(sourceInWords(shown) + ": has no layer '" + name + "'; there are " +
-                       listed(by_name ? stems : found));
+                       listed(by_name ? stems : found, kMostListed));
   // Options take a single "-", but no layer after it. A stream is no folder.
   const std::string file = isStandardInput(given) ? "/dev/stdin" : given;
   const std::string one =
       by_name ? file + "|" + stems.front() : (isStreamFile(given) ? "FILE" : file) + "/" + found.front();
   throw InputError(sourceInWords(shown) + ": holds " + std::to_string(found.size()) +
-                   (by_name ? " layers (" : " vector files (") + listed(by_name ? stems : found) +
+                   (by_name ? " layers (" : " vector files (") + listed(by_name ? stems : found, kMostListed) +
                    "): " + (isStreamFile(given) && !by_name ? "save it to a file, and " : "") + "name one as '" + one +
                    "'" + (by_name && wanted.empty() ? ", or choose one of the input's with --layer" : ""));
 }
@@ -294,7 +288,7 @@ OpenSource openSource(const std::string& given, const std::vector<std::string>& 
   for (const std::string& name : names) {
     if (std::ranges::find(there, name) != there.end()) continue;
     throw InputError(sourceInWords(source.name) + ": has no layer '" + name + "'; there " +
-                     (there.size() == 1 ? "is " : "are ") + (there.empty() ? "none" : listed(there)));
+                     (there.size() == 1 ? "is " : "are ") + (there.empty() ? "none" : listed(there, kMostListed)));
   }
   return source;
 }

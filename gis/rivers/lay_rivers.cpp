@@ -87,14 +87,14 @@ class RiverLayer {
     for (const RiverLine& line : lines_) rivers_.push_back(inPlane(line));
     network_ = riverNetwork(rivers_);
     for (const std::uint32_t line : network_.within)
-      report_.lost.push_back({RiverLoss::Within, nameOf(lines_[line]), told(lines_[line].points.front()), 0.0});
+      report_.lost.push_back({RiverLoss::Within, nameOf(lines_[line]), reported(lines_[line].points.front()), 0.0});
     reportWithoutReach();
     const double scale = plane_.scaleAt(rivers_.front().points.front());
     connection_ =
         connectRivers(network_, rivers_, water_, options_.reach_m * scale, options_.extent == RiverExtent::All);
-    for (const Point& place : connection_.extended) report_.extended.push_back(told(plane_.inverse(place)));
-    for (const Point& place : connection_.left) report_.left.push_back(told(plane_.inverse(place)));
-    for (const Point& place : connection_.led_out) report_.led_out.push_back(told(plane_.inverse(place)));
+    for (const Point& place : connection_.extended) report_.extended.push_back(reported(plane_.inverse(place)));
+    for (const Point& place : connection_.left) report_.left.push_back(reported(plane_.inverse(place)));
+    for (const Point& place : connection_.led_out) report_.led_out.push_back(reported(plane_.inverse(place)));
     barred_.assign(network_.reaches.size(), 0);
     narrowed_.assign(network_.reaches.size(), 0);
     reaches_at_.resize(network_.nodes.size());
@@ -128,8 +128,8 @@ class RiverLayer {
 
  private:
   // A place for messages. Lines were brought beside the mesh, which may be a turn from where their file has them: what
-  // is beyond the mesh's longitudes is told from -180 to 180.
-  Point told(const Point& place) const {
+  // is beyond the mesh's longitudes is reported from -180 to 180.
+  Point reported(const Point& place) const {
     constexpr double kTurn = 360.0;
     if (!mesh_.crs.geographic || (place.x >= mesh_box_.xmin && place.x <= mesh_box_.xmax)) return place;
     return {place.x - kTurn * std::round(place.x / kTurn), place.y};
@@ -141,13 +141,13 @@ class RiverLayer {
       const Point& p = line.points[i];
       const Point place = plane_.forward(p);
       if (!std::isfinite(place.x) || !std::isfinite(place.y))
-        throw InputError(nameOf(line) + " has a place, (" + placeInWords(told(p)) + "), that cannot be projected");
+        throw InputError(nameOf(line) + " has a place, (" + placeInWords(reported(p)) + "), that cannot be projected");
       if (!river.points.empty() && river.points.back() == place) continue;
       river.points.push_back(place);
       if (!line.widths_m.empty()) river.widths.push_back(line.widths_m[i] * plane_.scaleAt(place));
     }
     if (river.points.size() < 2)
-      throw InputError(nameOf(line) + " has a line of no length at (" + placeInWords(told(line.points.front())) +
+      throw InputError(nameOf(line) + " has a line of no length at (" + placeInWords(reported(line.points.front())) +
                        "); take it out");
     river.width = line.width_m * plane_.scaleAt(river.points.front());
     return river;
@@ -161,7 +161,7 @@ class RiverLayer {
       for (const std::uint32_t line : reach.line_of) is_known[line] = 1;
     for (std::uint32_t line = 0; line < lines_.size(); ++line)
       if (is_known[line] == 0)
-        report_.lost.push_back({RiverLoss::Short, nameOf(lines_[line]), told(lines_[line].points.front()), 0.0});
+        report_.lost.push_back({RiverLoss::Short, nameOf(lines_[line]), reported(lines_[line].points.front()), 0.0});
   }
 
   void followCourses() {
@@ -178,7 +178,7 @@ class RiverLayer {
       countQuads();
       if (course.moved() / scale <= report_.moved_m) continue;
       report_.moved_m = course.moved() / scale;
-      report_.moved_place = told(plane_.inverse(course.movedPlace()));
+      report_.moved_place = reported(plane_.inverse(course.movedPlace()));
     }
     std::vector<double> longest;
     for (const ReachShape& shape : shapes_) longest.push_back(options_.aspect * shape.cell);
@@ -221,7 +221,7 @@ class RiverLayer {
     barred_[reach] = 1;
     planner_->bar(reach);
     const std::vector<std::uint32_t>& line_of = network_.reaches[reach].line_of;
-    LostRiver lost{why, nameOf(lines_[line_of[line_of.size() / 2]]), told(plane_.inverse(place)), distance};
+    LostRiver lost{why, nameOf(lines_[line_of[line_of.size() / 2]]), reported(plane_.inverse(place)), distance};
     (why == RiverLoss::Crowded && isSpur(reach) ? spurs_ : report_.lost).push_back(std::move(lost));
   }
 
@@ -284,7 +284,7 @@ class RiverLayer {
   void narrow(std::uint32_t reach, const RiverOverlap& overlap) {
     if (narrowed_[reach] == 1) {
       ++report_.narrowed;
-      report_.narrowed_place = told(plane_.inverse(overlap.place));
+      report_.narrowed_place = reported(plane_.inverse(overlap.place));
     }
     for (const std::size_t row : overlap.rows)
       courses_[reach].narrow(rows_[reach].sections[row].along, rows_[reach].sections[row + 1].along, kNarrowing);

@@ -96,6 +96,15 @@ TEST_F(Mike, OtherCrssAreWktInTheFirstLine) {
   EXPECT_EQ(folder_.names(), std::vector<std::string>{"a.mesh"});
 }
 
+TEST_F(Mike, DatumShiftsAreLostAndNamed) {
+  Grid grid = square({});
+  const GridFormat& format = gridFormatFor("a.mesh");
+  grid.crs = parseCrs("+proj=utm +zone=33 +ellps=bessel +towgs84=598.1,73.7,418.2 +type=crs");
+  EXPECT_THAT(lossesIn(grid, format, LossesOf::Grid), HasSubstr("the datum shift of the CRS: readers of the file"));
+  grid.crs = parseCrs("EPSG:32633");
+  EXPECT_THAT(lossesIn(grid, format, LossesOf::Grid), Not(HasSubstr("datum")));
+}
+
 // A node has one code: where two openings meet it is that of the first, and the next edge has the code of its end.
 TEST_F(Mike, OpeningsThatMeetStayTwo) {
   const Grid grid = square({{{0, 1}, open(0)}, {{1, 2}, open(1)}});

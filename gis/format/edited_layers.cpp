@@ -1,4 +1,4 @@
-#include "gis/elements/edited_layers.hpp"
+#include "gis/format/edited_layers.hpp"
 
 #include <algorithm>
 #include <cassert>
