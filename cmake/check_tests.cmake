@@ -1,5 +1,6 @@
 # Self-tests of the checks, and tests of packages and releases.
 add_test(NAME scripts.check-rooms COMMAND ${PROJECT_SOURCE_DIR}/scripts/check-rooms --self-test)
+add_test(NAME scripts.check-includes COMMAND ${PROJECT_SOURCE_DIR}/scripts/check-includes --self-test)
 add_test(NAME scripts.draw-rooms COMMAND ${PROJECT_SOURCE_DIR}/scripts/draw-rooms --check)
 add_test(NAME scripts.check-words COMMAND ${PROJECT_SOURCE_DIR}/scripts/check-words --self-test)
 add_test(NAME scripts.check-format COMMAND ${PROJECT_SOURCE_DIR}/scripts/check-format --self-test)

@@ -1,8 +1,8 @@
 # coastmesh_precompile(TARGET [HEADER…]): with COASTMESH_PRECOMPILE, compiles headers of other projects once for a target
 # rather than once for each of its sources: those of the standard library, and HEADER….
 #
-# Sources then compile without including what they use, so the preset release does not use it. Own headers are left out:
-# a change to one of them would compile everything again.
+# Sources then compile without including what they use, which scripts/check-includes finds instead; it knows the names of
+# each header. Own headers are left out: a change to one of them would compile everything again.
 option(COASTMESH_PRECOMPILE "Precompile headers of the standard library and of GoogleTest" OFF)
 function(coastmesh_precompile target)
   if(COASTMESH_PRECOMPILE)

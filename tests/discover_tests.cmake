@@ -1,7 +1,7 @@
 # coastmesh_discover_tests(TARGET [PROPERTIES NAME VALUE…]): makes tests of ctest of what a GoogleTest program holds.
 #
-# Each suite is a process of its own: starting one loads GDAL, which takes longer than most tests do. The output of a suite
-# that fails names the test.
+# Each suite is a process of its own: starting one loads GDAL, which takes longer than most tests do. With sanitizers
+# several suites share a process. The output of a suite that fails names the test.
 function(coastmesh_discover_tests target)
   cmake_parse_arguments(discover "" "" PROPERTIES ${ARGN})
   set(suites ${CMAKE_CURRENT_BINARY_DIR}/${target}_suites.cmake)
@@ -9,7 +9,7 @@ function(coastmesh_discover_tests target)
   set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS ${script})
   add_custom_command(TARGET ${target} POST_BUILD
     COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:${target}> -DOUT=${suites} "-DPROPERTIES=${discover_PROPERTIES}"
-      -P ${script}
+      "-DGROUP=${COASTMESH_SANITIZE}" -P ${script}
     BYPRODUCTS ${suites} VERBATIM)
   # A program that was not built fails.
   set(included ${CMAKE_CURRENT_BINARY_DIR}/${target}_include.cmake)

@@ -54,7 +54,7 @@ std::string roundedLengthText(double length, bool plane) {
 }
 
 PlotLegend::PlotLegend(double width, double left, std::vector<LegendItem> items, bool has_ramp)
-    : width_(width), ramp_width_(has_ramp ? std::min(kRampPx, width - 2.0 * kMargin) : 0.0) {
+    : ramp_width_(has_ramp ? std::min(kRampPx, width - 2.0 * kMargin) : 0.0) {
   double widest = 0.0;
   for (const LegendItem& item : items) widest = std::max(widest, widthOf(item));
   const double after = left + kGap, end = width - kMargin;

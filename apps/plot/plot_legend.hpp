@@ -48,7 +48,6 @@ class PlotLegend {
 
   double placeItems(std::vector<LegendItem>&& items, double from, double to, double top);
 
-  double width_;
   double height_ = 0.0;
   std::vector<Placed> items_;
   Point ramp_;  // upper left corner, below the map

@@ -1,6 +1,7 @@
 // Lines, regions and boundary types given by the user: every output holds them, or a warning says what it cannot hold.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 #include <random>
+#include <string>
 
 #include "core/hilbert.hpp"
 #include "tests/support/item_loops.hpp"

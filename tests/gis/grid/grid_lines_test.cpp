@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <map>
 
 #include "gis/error.hpp"
 #include "gis/format/grid_losses.hpp"
