@@ -21,8 +21,7 @@ TriMesh linkTriangles(BulkList<Point> points, std::span<const std::array<VertexI
   resizeUnset(mesh.triangles, corners.size());
   resizeUnset(mesh.regions, corners.size());
 
-  // Each vertex's edges in a list, so that a twin is found among the few edges that leave the target. Threads prepend
-  // edges in any order, on which nothing below depends.
+  // The edges that leave each vertex in a list. Threads prepend edges in any order, on which nothing below depends.
   BulkList<EdgeRef> first = noNumbers(loop, mesh.points.size()), next;
   resizeUnset(next, 3 * corners.size());
   const auto nextOf = [&](EdgeRef e) -> EdgeRef& { return next[3 * std::size_t{triOf(e)} + indexOf(e)]; };
@@ -34,46 +33,35 @@ TriMesh linkTriangles(BulkList<Point> points, std::span<const std::array<VertexI
       nextOf(e) = __atomic_exchange_n(&first[mesh.origin(e)], e, __ATOMIC_RELAXED);
     }
   });
-  const auto forEachFrom = [&](VertexId v, const auto& use) {
-    for (EdgeRef e = first[v]; e != kNone; e = nextOf(e)) use(e);
-  };
 
-  // The only candidate for the other side of each edge; kNone if there is none, or several.
-  BulkList<std::array<EdgeRef, 3>> twins;
-  resizeUnset(twins, corners.size());
-  const auto findTwins = [&](TriId t, std::vector<EdgeConflict>& found_conflicts) {
-    for (unsigned i = 0; i < 3; ++i) {
-      const VertexId a = mesh.origin(edgeRef(t, i)), b = mesh.target(edgeRef(t, i));
-      EdgeRef twin = kNone;
-      std::size_t claims = 0, found = 0;
-      forEachFrom(a, [&](EdgeRef f) { claims += mesh.target(f) == b ? 1 : 0; });
-      forEachFrom(b, [&](EdgeRef f) {
-        if (mesh.target(f) != a) return;
-        twin = f;
-        ++found;
-      });
-      twins[t][i] = kNone;
-      if (a == b || claims > 1 || found > 1) {
-        if (a <= b || found == 0) found_conflicts.push_back({a, b});
-      } else if (found == 1) {
-        twins[t][i] = twin;
+  // Both sides of an edge are linked from its lower end.
+  std::vector<EdgeRef> found = joined(overStretches(loop, mesh.points.size(), [&](std::size_t begin, std::size_t end) {
+    std::vector<EdgeRef> rejected, leaving;
+    for (auto a = static_cast<VertexId>(begin); a < end; ++a) {
+      leaving.clear();
+      for (EdgeRef e = first[a]; e != kNone; e = nextOf(e)) leaving.push_back(e);
+      for (const EdgeRef e : leaving) {
+        const VertexId b = mesh.target(e);
+        const auto claims = std::ranges::count_if(leaving, [&](EdgeRef f) { return mesh.target(f) == b; });
+        if (b < a && claims == 1) continue;
+        std::size_t returning = 0;
+        EdgeRef twin = kNone;
+        for (EdgeRef f = first[b]; f != kNone; f = nextOf(f)) {
+          if (mesh.target(f) != a) continue;
+          twin = f;
+          ++returning;
+        }
+        if (a == b || claims > 1 || returning > 1) {
+          if (a <= b || returning == 0) rejected.push_back(e);
+        } else if (returning == 1) {
+          setTwins(mesh.triangles, e, twin);
+        }
       }
     }
-  };
-  const std::vector<EdgeConflict> found =
-      joined(overStretches(loop, corners.size(), [&](std::size_t begin, std::size_t end) {
-        std::vector<EdgeConflict> here;
-        for (std::size_t t = begin; t < end; ++t) findTwins(static_cast<TriId>(t), here);
-        return here;
-      }));
-  conflicts.insert(conflicts.end(), found.begin(), found.end());
-  // If one side of an edge was rejected, the other is on the boundary too.
-  forEachByStretches(loop, corners.size(), [&](std::size_t t) {
-    for (unsigned i = 0; i < 3; ++i) {
-      const EdgeRef e = edgeRef(static_cast<TriId>(t), i), twin = twins[t][i];
-      if (twin != kNone && e < twin && twins[triOf(twin)][indexOf(twin)] == e) setTwins(mesh.triangles, e, twin);
-    }
-  });
+    return rejected;
+  }));
+  std::ranges::sort(found);
+  for (const EdgeRef e : found) conflicts.push_back({mesh.origin(e), mesh.target(e)});
   return mesh;
 }
 

@@ -168,10 +168,10 @@ bool hasArea(const Grid& grid, const Loop& loop) {
 }
 
 // Loops around what the mesh leaves out within it, whatever the roles of their boundaries.
-std::vector<Loop> loopsOfHoles(const Grid& grid) {
+std::vector<Loop> loopsOfHoles(const Grid& grid, const ItemLoop& loop) {
   std::vector<Loop> holes;
-  for (const Loop& loop : boundaryLoops(grid))
-    for (Loop& part : simpleLoops(loop))
+  for (const Loop& boundary : boundaryLoops(grid, loop))
+    for (Loop& part : simpleLoops(boundary))
       if (hasArea(grid, part) && roleOfLoop(grid.nodes, part, grid.crs) == BoundaryRole::Island)
         holes.push_back(std::move(part));
   return holes;
@@ -200,7 +200,7 @@ void writeSegments(const Grid& grid, const std::vector<MarkedEdge>& edges, const
     const auto& [nodes, marker] = edges[i];
     text << i + 1 << ' ' << nodes[0] + 1 << ' ' << nodes[1] + 1 << ' ' << marker << '\n';
   });
-  const std::vector<Loop> loops = loopsOfHoles(grid);
+  const std::vector<Loop> loops = loopsOfHoles(grid, loop);
   std::vector<Point> holes(loops.size());
   constexpr std::size_t kIslandsAStretch = 64;
   forStretches(

@@ -28,10 +28,10 @@ std::string fileOfSet(const std::string& path, const char* which) {
 // Kind of a node. FESOM2 recomputes it; AWI's other models read it.
 enum NodeTag : std::int64_t { kInside = 0, kCoast = 1, kOpenWater = 2 };
 
-std::vector<NodeTag> tagsOf(const Grid& grid) {
+std::vector<NodeTag> tagsOf(const Grid& grid, const ItemLoop& loop) {
   std::vector<NodeTag> tags(grid.nodes.size(), kInside);
-  for (const auto& loop : boundaryLoops(grid))
-    for (const std::uint32_t node : loop) tags[node] = kCoast;
+  for (const auto& boundary : boundaryLoops(grid, loop))
+    for (const std::uint32_t node : boundary) tags[node] = kCoast;
   for (const Boundary& boundary : grid.boundaries)
     if (boundary.role == BoundaryRole::Open)
       for (const std::uint32_t node : boundary.nodes) tags[node] = kOpenWater;
@@ -46,7 +46,7 @@ std::vector<NodeTag> tagsOf(const Grid& grid) {
 void writeFesom(const Grid& grid, const std::string& path, const ItemLoop& loop) {
   requireZ(grid, path);
   const std::vector<Point> places = requireGeographicNodes(grid, path, "FESOM2", loop);
-  const std::vector<NodeTag> tags = tagsOf(grid);
+  const std::vector<NodeTag> tags = tagsOf(grid, loop);
   TextWriter nodes(fileOfSet(path, "nod2d"));
   nodes << places.size() << '\n';
   nodes.rows(loop, places.size(), [&](TextBlock& text, std::size_t i) {
