@@ -18,6 +18,7 @@
 #include "gis/error.hpp"
 #include "gis/lower_case.hpp"
 #include "gis/places.hpp"
+#include "gis/read/line_files.hpp"
 #include "gis/read/odd_geojson.hpp"
 #include "gis/read/osm_ways.hpp"
 #include "gis/secrets.hpp"
@@ -265,7 +266,11 @@ OpenSource openSource(const std::string& given, const std::vector<std::string>& 
   source.names_layers = !names.empty();
   const std::string path = pathForOgr(file, names);
   constexpr unsigned kHow = GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR;
-  source.dataset.reset(GDALDataset::Open(path.c_str(), kHow));
+  if (std::error_code error; isLineFile(path) && std::filesystem::exists(path, error)) {
+    source.dataset = readLineFile(path);
+  } else {
+    source.dataset.reset(GDALDataset::Open(path.c_str(), kHow));
+  }
   if (source.dataset && hasTextsOnly(*source.dataset)) {
     // GDAL knows a column of geometries only as WKT; these are the names that databases and GeoPandas give it.
     const CPLStringList columns(CSLSetNameValue(nullptr, "GEOM_POSSIBLE_NAMES", "geometry,geom,the_geom,wkt_geom"));

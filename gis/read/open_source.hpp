@@ -28,11 +28,11 @@ struct NotVectorError : InputError {
   std::string file;
 };
 
-// Opens whatever OGR can open: files, folders, URLs and its own "/vsi…" paths. Also opens "-" (standard input, as
-// "/vsistdin/" is), other pipes, archives (.zip, .tar, .tgz, .gz) by their plain names or from a pipe, in which each
-// file is a layer of its name, and "file|layer" or "file|layername=layer" for one layer of a file. `layers`: names of
-// layers to read; empty: all. Throws InputError: no such file, empty, no vector file, no such layer, several files in
-// an archive and none named.
+// Opens whatever OGR can open: files, folders, URLs and its own "/vsi…" paths. Also opens the files of `line_files`,
+// "-" (standard input, as "/vsistdin/" is), other pipes, archives (.zip, .tar, .tgz, .gz) by their plain names or from
+// a pipe, in which each file is a layer of its name, and "file|layer" or "file|layername=layer" for one layer of a
+// file. `layers`: names of layers to read; empty: all. Throws InputError: no such file, empty, no vector file, no such
+// layer, several files in an archive and none named.
 OpenSource openSource(const std::string& path, const std::vector<std::string>& layers, const OgrErrors& errors);
 
 // True if such a path, with or without a layer, can be read only once: standard input or another pipe.

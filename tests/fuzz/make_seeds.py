@@ -93,6 +93,15 @@ CONFIG = {"size": 500, "bathymetry": ["a.tif"], "min-angle": 30.5, "bbox": "0,0,
 REFUSED = {("geojson", "coast"), ("geojson", "none")}  # lines alone close nothing
 
 
+# Coasts as tools of models write them.
+LINE_FILES = {
+    "ldb": "* a lake, another one in two parts, and a place\nL1\n4 2\n0 0\n3 0\n3 3\n0 0\nL2\n6 3\n5 0 -1\n6 0 -2.5\n"
+           "999.999 999.999\n6 0\n6 1D0 label\n5 0\nP\n1 2\n4 4\n",
+    "i2s": "# a lake\n:FileType i2s ASCII EnSim 1.0\n:Projection LatLong\n:EndHeader\n4 1.5\n0 0\n3 0\n3 3\n0 0\n4 0\n5 0\n6 0\n6 1\n5 0\n",
+    "bln": '4,1,"a lake"\n0,0\n3,0\n3,3\n0,0\n4 0\n5 0\n6 0\n6 1\n5 0\n',
+}
+
+
 def collection(features):
     return json.dumps({"type": "FeatureCollection", "features": features}).encode()
 
@@ -155,6 +164,8 @@ def main():
     keep("geojson", "geometry", json.dumps(LAKE[0]["geometry"]).encode())
     keep("boundaries", "kinds", collection(KINDS))
     keep("sizes", "sizes", collection(SIZES))
+    for reader, text in LINE_FILES.items():
+        keep(reader, "coast", text.encode())
     keep("raster", "depths", RASTER.encode())
     keep("toml", "job", TOML.encode())
     keep("json", "job", json.dumps(CONFIG, indent=1).encode())
