@@ -11,7 +11,8 @@ function(coastmesh_precompile target)
       <string_view> <unordered_map> <utility> <variant> <vector> ${ARGN})
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
       # GCC forgets in precompiled headers that they are of the system, and warns of what is right in std::string.
-      target_compile_options(${target} PRIVATE -Wno-array-bounds)
+      target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread
+        -Wno-restrict)
     endif()
   endif()
 endfunction()
