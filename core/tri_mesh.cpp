@@ -34,34 +34,35 @@ TriMesh linkTriangles(BulkList<Point> points, std::span<const std::array<VertexI
     }
   });
 
-  // Both sides of an edge are linked from its lower end.
-  std::vector<EdgeRef> found = joined(overStretches(loop, mesh.points.size(), [&](std::size_t begin, std::size_t end) {
-    std::vector<EdgeRef> rejected, leaving;
-    for (auto a = static_cast<VertexId>(begin); a < end; ++a) {
-      leaving.clear();
-      for (EdgeRef e = first[a]; e != kNone; e = nextOf(e)) leaving.push_back(e);
-      for (const EdgeRef e : leaving) {
-        const VertexId b = mesh.target(e);
-        const auto claims = std::ranges::count_if(leaving, [&](EdgeRef f) { return mesh.target(f) == b; });
-        if (b < a && claims == 1) continue;
-        std::size_t returning = 0;
-        EdgeRef twin = kNone;
-        for (EdgeRef f = first[b]; f != kNone; f = nextOf(f)) {
-          if (mesh.target(f) != a) continue;
-          twin = f;
-          ++returning;
-        }
-        if (a == b || claims > 1 || returning > 1) {
-          if (a <= b || returning == 0) rejected.push_back(e);
-        } else if (returning == 1) {
-          setTwins(mesh.triangles, e, twin);
-        }
+  // How many edges lead from `from` to `to`, and one of them.
+  const auto edgesTo = [&](VertexId from, VertexId to) {
+    std::pair<std::size_t, EdgeRef> found{0, kNone};
+    for (EdgeRef e = first[from]; e != kNone; e = nextOf(e))
+      if (mesh.target(e) == to) found = {found.first + 1, e};
+    return found;
+  };
+  // Links both sides of the edges whose lower end is `a`; adds those to `rejected` that claim what others claim.
+  const auto linkFrom = [&](VertexId a, std::vector<EdgeRef>& rejected) {
+    for (EdgeRef e = first[a]; e != kNone; e = nextOf(e)) {
+      const VertexId b = mesh.target(e);
+      const std::size_t claims = edgesTo(a, b).first;
+      if (b < a && claims == 1) continue;
+      const auto [returning, twin] = edgesTo(b, a);
+      if (a == b || claims > 1 || returning > 1) {
+        if (a <= b || returning == 0) rejected.push_back(e);
+      } else if (returning == 1) {
+        setTwins(mesh.triangles, e, twin);
       }
     }
-    return rejected;
-  }));
-  std::ranges::sort(found);
-  for (const EdgeRef e : found) conflicts.push_back({mesh.origin(e), mesh.target(e)});
+  };
+  std::vector<EdgeRef> rejected =
+      joined(overStretches(loop, mesh.points.size(), [&](std::size_t begin, std::size_t end) {
+        std::vector<EdgeRef> here;
+        for (auto a = static_cast<VertexId>(begin); a < end; ++a) linkFrom(a, here);
+        return here;
+      }));
+  std::ranges::sort(rejected);
+  for (const EdgeRef e : rejected) conflicts.push_back({mesh.origin(e), mesh.target(e)});
   return mesh;
 }
 

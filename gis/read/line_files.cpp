@@ -6,8 +6,10 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <new>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "gis/crs/crs.hpp"
 #include "gis/crs/ogr_support.hpp"
@@ -75,7 +77,7 @@ std::uint64_t pointCount(TextReader& file) {
   return count;
 }
 
-// The rest of the line's words as a number, if the next of them is one; labels may follow the coordinates.
+// The next word of the line, if it is a number; labels may follow the coordinates.
 std::optional<double> numberIfAny(TextReader& file) { return finiteNumber(file.word()); }
 
 // Blocks of a name, the numbers of rows and columns, and the rows; lines that begin with * are comments.
@@ -104,7 +106,7 @@ std::unique_ptr<GDALDataset> readBlocks(const std::string& path) {
                   " points");
       const double x = file.number(), y = file.number();
       if (isMissing(x, y)) {
-        lines.endLine(name.c_str());
+        lines.endLine(name.c_str(), rings);
       } else {
         lines.addPoint(x, y, columns > 2 ? numberIfAny(file) : std::nullopt);
       }

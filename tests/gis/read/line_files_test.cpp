@@ -3,15 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <ogrsf_frmts.h>
-#include <unistd.h>
 
-#include <filesystem>
 #include <fstream>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "gis/error.hpp"
 #include "gis/read/read_coastline.hpp"
+#include "tests/gis/grid_samples.hpp"
 
 namespace coastmesh {
 namespace {
@@ -22,16 +22,8 @@ using ::testing::HasSubstr;
 
 class LineFiles : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::temp_directory_path() /
-              (std::string("coastmesh-lines-") + info->name() + "-" + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   std::string file(const std::string& name, const std::string& text) const {
-    const std::string path = (folder_ / name).string();
+    const std::string path = folder_ / name;
     std::ofstream(path, std::ios::binary) << text;
     return path;
   }
@@ -57,7 +49,7 @@ class LineFiles : public ::testing::Test {
     return readCoastline({path}, report);
   }
 
-  std::filesystem::path folder_;
+  testing::TemporaryFolder folder_;
 };
 
 TEST_F(LineFiles, AreKnownByTheirEndings) {
@@ -86,6 +78,8 @@ TEST_F(LineFiles, ASinglePointIsAPoint) {
 TEST_F(LineFiles, RingsOfAPolAreClosed) {
   const std::string path = file("area.pol", "a\n3 2\n0 0\n9 0\n9 9\nb\n4 2\n1 1\n2 1\n2 2\n1 1\n");
   EXPECT_THAT(featuresOf(path), ElementsAre("a: LINESTRING (0 0,9 0,9 9,0 0)", "b: LINESTRING (1 1,2 1,2 2,1 1)"));
+  EXPECT_THAT(featuresOf(file("parts.pol", "a\n7 2\n0 0\n9 0\n9 9\n999.999 999.999\n1 1\n2 1\n2 2\n")),
+              ElementsAre("a: LINESTRING (0 0,9 0,9 9,0 0)", "a: LINESTRING (1 1,2 1,2 2,1 1)"));
   // As a coast: a lake with an island.
   const Coastline coast = coastOf(path);
   ASSERT_EQ(coast.features.size(), 1u);
